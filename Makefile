@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist tarball wheel deb packages bare install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing example-code-saturne golden docs format hooks dist tarball wheel deb packages test-i386 wasm bare install clean
 all: dev
 
 # The group of tools/setup.sh that a target's tools are in.
@@ -62,6 +62,10 @@ paper-packing:
 	@tools/setup.sh paper
 	@tools/build.sh release clast_cli clast_view
 	@tools/paper_packing.py
+example-code-saturne:
+	@tools/setup.sh saturne
+	@tools/build.sh release libclast.so libclast_view.so
+	@examples/code_saturne/drive.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 ctest --test-dir build/dev -R 'test_golden|test_transcripts' --output-on-failure --no-tests=error
 	@[ ! -e .git ] || git diff --stat tests/golden
@@ -86,6 +90,13 @@ deb:
 	@tools/deb.sh
 packages: tarball wheel deb
 	@tools/check_packages.sh
+test-i386:
+	@tools/setup.sh i386
+	@tools/test_i386.sh
+wasm:
+	@tools/setup.sh wasm
+	@tools/build.sh release clast_cli
+	@tools/wasm.sh
 bare:
 	@tools/check_bare.sh
 clean:

@@ -14,7 +14,7 @@ static const clast_field fields[] = {{"shell", .offset = offsetof(config, shell)
 
 static void print_options(const cli_command *command)
 {
-    (void)printf("%s--threads --max-memory --set%s --quiet --help --help-all",
+    (void)printf("%s--threads --max-memory --time-limit --set%s --quiet --help --help-all",
                  command->writes_no_file ? "" : "--output ",
                  command->writes_no_data ? "" : " --json");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {

@@ -11,6 +11,7 @@
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -75,36 +76,54 @@ done:
     return clast_run_folder_end(run, status);
 }
 
-static clast_status read_input(const cli_common *common, const config *c, clast_domain *domain,
-                               clast_cloud *cloud, cli_decompose_found *f)
+/// The points of the file; of several ranks a part on each.
+static clast_status read_cloud(const cli_common *common, const config *c, clast_cloud *cloud)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    CLI_TRY(cli_domain_read(c->decompose.domain, &c->points, domain));
-    CLI_TRY(cli_points_read(common->argument[0], &c->points, &table));
+    const char *path = common->argument[0];
+    const clast_points_options options = {c->points.dataset, c->points.frame};
+    if (common->comm->n_rank > 1) {
+        return clast_cloud_read_ranks(common->comm, path, &c->points.columns, &options, cloud);
+    }
+    CLI_TRY(cli_points_read(path, &c->points, &table));
     CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
-    cli_domain_name(c->decompose.domain, domain, f->domain);
-    CLI_TRY(clast_cloud_repeated(cloud, &f->n_repeated));
 done:
     clast_table_free(&table);
     return status;
 }
 
-/// Decomposes; a cloud none of whose points is left is bad input.
-static clast_status decompose(const config *c, const clast_domain *domain, const clast_cloud *cloud,
-                              clast_decomposition *result, cli_decompose_found *f)
+static clast_status read_input(const cli_common *common, const config *c, clast_domain *domain,
+                               clast_cloud *cloud, cli_decompose_found *f)
 {
-    CLI_GUARD(clast_decompose_in(domain, cloud, &c->decompose, result));
-    if (result->n == 0) {
-        clast_decomposition_free(result);
-        return cli_fail(CLAST_E_FORMAT,
-                        "none of the %lld points lies in the domain %s; are both in the same unit?",
-                        (long long)cloud->n, c->decompose.domain);
-    }
-    return cli_decompose_evenness(domain, cloud, result, &f->evenness);
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_agree(common, cli_domain_read(c->decompose.domain, &c->points, domain)));
+    CLI_TRY(read_cloud(common, c, cloud));
+    cli_domain_name(c->decompose.domain, domain, f->domain);
+    CLI_TRY(clast_cloud_repeated_ranks(cloud, common->comm, &f->n_repeated));
+done:
+    return status;
 }
 
-/// A folder's files, then stdout; CLAST_E_NO when --test-only finds no uniform cloud.
+/// Decomposes; a cloud none of whose points is left is bad input.
+static clast_status decompose(const cli_common *common, const config *c, const clast_domain *domain,
+                              const clast_cloud *cloud, clast_decomposition *result,
+                              cli_decompose_found *f)
+{
+    CLI_GUARD(clast_decompose_ranks(common->comm, domain, cloud, &c->decompose, result));
+    if (result->n == 0) {
+        const long long n = (long long)result->n_outside;
+        clast_decomposition_free(result);
+        return n == 0 ? cli_fail(CLAST_E_FORMAT, "%s holds no points", common->argument[0])
+                      : cli_fail(CLAST_E_FORMAT,
+                                 "none of the %lld points lies in the domain %s; are both in the "
+                                 "same unit?",
+                                 n, c->decompose.domain);
+    }
+    return cli_decompose_evenness(common->comm, domain, cloud, result, &f->evenness);
+}
+
+/// A folder's files, then stdout.
 static clast_status tell(const cli_common *common, const config *c, const cli_decompose_job *j,
                          const cli_decompose_found *f, clast_run_folder *folder)
 {
@@ -119,11 +138,71 @@ static clast_status tell(const cli_common *common, const config *c, const cli_de
     } else {
         cli_decompose_print(j, f, c->test_only);
     }
+done:
+    json_decref(summary);
+    return status;
+}
+
+/// The cell of every point, in the order of the file, on rank 0.
+static clast_status gather_cells(const cli_common *common, const clast_cloud *cloud,
+                                 const clast_decomposition *result, int32_t **of_point)
+{
+    clast_status status = CLAST_OK;
+    const clast_comm *comm = common->comm;
+    const int64_t n = cloud->n * (int64_t)sizeof **of_point;
+    const int64_t n_all = (result->n + result->n_outside) * (int64_t)sizeof **of_point;
+    int64_t *count = calloc((size_t)comm->n_rank, sizeof *count);
+    int32_t *all = comm->rank == 0 ? malloc((size_t)n_all + 1) : NULL;
+    if (count == NULL || (comm->rank == 0 && all == NULL)) {
+        status = cli_fail(CLAST_E_MEMORY, "not enough memory for the cells of all points");
+    }
+    CLI_TRY(cli_agree(common, status));
+    CLI_TRY(count == NULL ? CLAST_E_MEMORY : CLAST_OK); // for the analyzer
+    count[comm->rank] = n;
+    comm->sum(comm->context, count, comm->n_rank);
+    comm->gather(comm->context, result->cells.of_point, n, count, all);
+    *of_point = all;
+    all = NULL;
+done:
+    free(count);
+    free(all);
+    return status;
+}
+
+/// Refuses what several ranks do not make.
+static clast_status check(const cli_common *common, const config *c)
+{
+    clast_status status = CLAST_OK;
+    CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
+              "--sizes writes a table and a chart: name a folder with -o");
+    CLI_CHECK(c->n_size == 0 || common->comm->n_rank == 1, CLAST_E_USAGE,
+              "--sizes decomposes parts of one cloud: run it without mpirun");
+done:
+    return status;
+}
+
+/// Files and words, from rank 0; CLAST_E_NO when --test-only finds no uniform cloud.
+static clast_status report(const cli_common *common, const config *c, cli_decompose_job *j,
+                           const cli_decompose_found *f, clast_run_folder *folder)
+{
+    clast_status status = CLAST_OK;
+    int32_t *of_point = NULL;
+    j->of_point = j->result->cells.of_point;
+    j->n_point = j->result->n + j->result->n_outside;
+    j->is_part = common->comm->n_rank > 1;
+    if (j->is_part && common->output != NULL) {
+        CLI_TRY(gather_cells(common, j->cloud, j->result, &of_point));
+        j->of_point = of_point;
+    }
+    if (common->comm->rank == 0) {
+        status = tell(common, c, j, f, folder);
+    }
+    CLI_TRY(cli_agree(common, status));
     if (c->test_only && f->evenness.is_tested && f->evenness.kind != CLI_UNIFORM) {
         status = CLAST_E_NO;
     }
 done:
-    json_decref(summary);
+    free(of_point);
     return status;
 }
 
@@ -136,28 +215,29 @@ static clast_status run(const cli_common *common, void *values)
     clast_table sizes = {0};
     clast_run_folder *folder = NULL;
     cli_decompose_found f = {.typed = c->decompose.domain, .begun = cli_clock()};
+    clast_status status = CLAST_OK;
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
-    if (c->n_size > 0 && common->output == NULL) {
-        return cli_fail(CLAST_E_USAGE, "--sizes writes a table and a chart: name a folder with -o");
+    CLI_TRY(check(common, c));
+    if (common->comm->rank == 0) {
+        status = cli_results_begin(common, common->output, &c->force, &folder);
     }
-    clast_status status = CLAST_OK;
-    CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
+    CLI_TRY(cli_agree(common, status));
     CLI_TRY(read_input(common, c, &domain, &cloud, &f));
-    CLI_TRY(decompose(c, &domain, &cloud, &result, &f));
+    CLI_TRY(decompose(common, c, &domain, &cloud, &result, &f));
     if (c->n_size > 0) {
         CLI_TRY(
             clast_decompose_sizes(&domain, &cloud, c->n_size, c->regular, &c->decompose, &sizes));
     }
-    const cli_decompose_job j = {.domain = &domain,
-                                 .cloud = &cloud,
-                                 .result = &result,
-                                 .sizes = &sizes,
-                                 .name = f.domain,
-                                 .chart_end = chart_end[c->charts],
-                                 .has_drawn = result.has_drawn || c->n_size > 0};
-    CLI_TRY(tell(common, c, &j, &f, folder));
+    cli_decompose_job j = {.domain = &domain,
+                           .cloud = &cloud,
+                           .result = &result,
+                           .sizes = &sizes,
+                           .name = f.domain,
+                           .chart_end = chart_end[c->charts],
+                           .has_drawn = result.has_drawn || c->n_size > 0};
+    CLI_TRY(report(common, c, &j, &f, folder));
 done:
     clast_run_folder_destroy(folder);
     clast_table_free(&sizes);
@@ -198,11 +278,15 @@ const cli_command cli_decompose = {
         "points.vtp for ParaView; charts points and events (pair_integral); with passes "
         "thresholds.csv and charts\ndensity and score; with --sizes K events_by_n.csv and its "
         "chart; with --pairs pairs.csv and the chart pairs. Tables begin with a line # of domain, "
-        "volume, beta_dt, seed.",
+        "volume, beta_dt, seed.\n"
+        "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
+        "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
+        "-o without points.vtp and charts.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,
     .n_max = 1,
     .writes_folder = true,
+    .shares_ranks = true,
     .run = run,
 };

@@ -9,11 +9,12 @@
 static clast_status resume(const cli_common *common, const clast_pack_config *config,
                            const clast_monitor *monitor, clast_pack_result *result)
 {
-    const clast_status status = cli_resume_check(common, config->resume, clast_pack_fields, config,
-                                                 sizeof *config, "max_steps");
-    return status != CLAST_OK
-               ? status
-               : clast_pack_resume(config->resume, config->max_steps, monitor, result);
+    const clast_status status =
+        cli_agree(common, cli_resume_check(common, config->resume, clast_pack_fields, config,
+                                           sizeof *config, "max_steps"));
+    return status != CLAST_OK ? status
+                              : clast_pack_resume(config->resume, config->max_steps, common->comm,
+                                                  monitor, result);
 }
 
 /// One line for the hull of a surface.
@@ -88,7 +89,7 @@ static void print_motion(const clast_pack_result *r)
                      "walls counted\n",
                      "motion", r->dem.max_speed, r->n_loose, r->dem.n_grain);
     }
-    if (r->phase == CLAST_PACK_DONE && r->is_moving) {
+    if (r->phase == CLAST_PACK_DONE && r->is_moving && r->load.volume == 0.0) {
         (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
                      "still_speed; --rule speed waits until it is\n",
                      "warning");
@@ -117,17 +118,72 @@ static void print_walls(const clast_pack_result *r)
     }
 }
 
+/// How the bed was divided among ranks, and what went between them.
+static void print_ranks(const clast_pack_ranks *r)
+{
+    if (r->n <= 1) {
+        return;
+    }
+    (void)printf("%-26s %d, by %s; cost of the most loaded %.3f of the mean\n", "ranks", r->n,
+                 r->is_zoltan ? "Zoltan" : "clast's own bisection", r->imbalance);
+    if (r->n_idle > 0) {
+        (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
+                     r->n_idle, r->n);
+    }
+    (void)printf("%-26s %.4g ghosts and %.4g bytes a step, %.4g bytes for lists; %lld grains moved "
+                 "in %lld partitions\n",
+                 "between ranks", r->ghosts, r->step_bytes, r->list_bytes, (long long)r->n_migrated,
+                 (long long)r->n_balance);
+}
+
+/// What a loaded bed carries; stresses of contacts and motion.
+static void print_load(const clast_pack_result *r)
+{
+    const double *c = r->load.stress;
+    const double *k = r->load.kinetic_stress;
+    if (r->load.volume > 0.0) {
+        (void)printf("%-26s %.4g, %.4g, %.4g Pa in x, y, z; xz %.4g Pa\n", "stress", c[0] + k[0],
+                     c[1] + k[1], c[2] + k[2], c[4] + k[4]);
+        (void)printf("%-26s %.4g, %.4g, %.4g in x, y, z, above 0 pressed; shear %.4g\n", "strain",
+                     r->cell.strain[0], r->cell.strain[1], r->cell.strain[2], r->cell.shear_strain);
+        (void)printf("%-26s %d of %d grains; %.3f contacts a grain without them\n", "rattlers",
+                     r->load.n_rattler, r->dem.n_grain, r->load.coordination_held);
+    }
+}
+
+/// Where the energy went, in shares of what was put in.
+static void print_energy(const clast_pack_result *r)
+{
+    const clast_dem_energy *e = &r->energy;
+    const double all = 0.01 * e->put_in;
+    if (e->put_in > 0.0) {
+        (void)printf(
+            "%-26s %.4g J put in: %.3g %% lost in dashpots, %.3g %% by friction, %.3g %% by "
+            "the scheme; %.1g %% not accounted for\n",
+            "energy", e->put_in, (e->damping[0] + e->damping[1]) / all,
+            (e->friction[0] + e->friction[1]) / all, e->scheme / all, e->rest / all);
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
+    const bool is_cell = r->load.volume > 0.0;
     print_hulls(r);
     (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
+    if (r->n_overlap > 0) {
+        (void)printf(
+            "%-26s %lld overlapped, the deepest by %.3g of the smaller one's radius; their "
+            "springs part them\n",
+            "start", (long long)r->n_overlap, r->deepest_start);
+    }
     if (r->n_waited > 0) {
         (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
                      (long long)r->n_waited);
     }
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->phase != CLAST_PACK_DONE ? ""
+                 : is_cell                   ? " (all stages)"
                  : r->is_moving              ? " (level)"
                                              : " (at rest)",
                  (long long)r->dem.step, r->dem.time);
@@ -147,6 +203,8 @@ static void print_text(const clast_pack_result *r)
                  "coordination", r->dem.coordination, (long long)r->dem.n_contact,
                  (long long)r->dem.n_wall_contact);
     (void)printf("%-26s %.3g m\n", "deepest overlap", r->dem.max_overlap);
+    print_load(r);
+    print_energy(r);
     if (r->dem.verified.n > 0) {
         (void)printf("%-26s %lld compared, %lld off by more than 1e-11 m, %lld by 1e-8 m, worst "
                      "%.2g m\n",
@@ -155,6 +213,7 @@ static void print_text(const clast_pack_result *r)
                      r->dem.verified.worst);
     }
     print_frames(r);
+    print_ranks(&r->ranks);
     (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
                  r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : 0.0);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
@@ -166,10 +225,11 @@ static clast_status run(const cli_common *common, void *context)
     clast_pack_result result = {0};
     const clast_monitor monitor = cli_monitor(common);
     char *text = NULL;
-    const clast_status status = config->resume[0] != '\0'
-                                    ? resume(common, config, &monitor, &result)
-                                    : clast_pack_run(config, common->output, &monitor, &result);
-    if (status != CLAST_OK) {
+    const clast_status status =
+        config->resume[0] != '\0'
+            ? resume(common, config, &monitor, &result)
+            : clast_pack_run(config, common->output, common->comm, &monitor, &result);
+    if (status != CLAST_OK || common->comm->rank > 0) {
         return status;
     }
     if (!common->json) {
@@ -196,13 +256,25 @@ static const char details[] =
     "density_kg/m^3,\n"
     "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
     "qw, qx, qy, qz that turns the shape into its place.\n\n"
+    "domain cell is periodic in x, y and z: its grains float on a lattice until the stages press "
+    "and\n"
+    "shear them (--stages 'isotropic 10kPa until rest'; docs/theory/load.md). load.csv then has "
+    "strain,\n"
+    "stress (pressure above 0), fabric, contacts and forces over time; with --energy, in any "
+    "domain,\n"
+    "the work of all forces by kind.\n\n"
     "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, grains.csv, summary.json, "
     "manifest.json,\n"
     "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
     "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.\n"
     "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
     "A folder that holds a run is refused: go on with it, or replace it with --force\n"
-    "(the new run is made in RUN.new and takes its place when it has succeeded).";
+    "(the new run is made in RUN.new and takes its place when it has succeeded).\n\n"
+    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, by "
+    "default\n"
+    "of one thread each. State, checkpoints and all files are the bytes of one rank: any number "
+    "of\n"
+    "ranks, and clast pack, may go on with them.";
 
 const cli_command cli_pack = {
     .name = "pack",
@@ -216,5 +288,6 @@ const cli_command cli_pack = {
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),
     .writes_folder = true,
+    .shares_ranks = true,
     .run = run,
 };

@@ -7,6 +7,7 @@ typedef struct cli_common {
     const char *output;     ///< -o PATH, or NULL
     int32_t threads;        ///< -j N; 0: one per core
     const char *max_memory; ///< --max-memory SIZE, or NULL
+    const char *time_limit; ///< --time-limit TIME, or NULL
     bool json;              ///< one JSON object on stdout
     bool quiet;             ///< no progress on stderr
     int32_t n_argument;     ///< positional arguments
@@ -129,6 +130,9 @@ bool cli_stop_asked(void);
 
 /// Limits the library's memory to `text` (8GB, 50%; 0: not at all), NULL: 80 % of the machine's.
 clast_status cli_memory_limit(const char *text);
+
+/// Ends the command as SIGTERM does once `text` (90min, 2h) has gone by; NULL: no limit.
+clast_status cli_time_limit(const char *text);
 
 /// Refuses an output that is an input, part of a run, or another output (by the file, whatever its
 /// spelling), before anything is computed.

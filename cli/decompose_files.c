@@ -71,16 +71,16 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
 }
 
 /// A row a point: cell, and label and pass where cells have them.
-static clast_status label_table(const clast_decomposition *r, int64_t n_point, clast_table *table)
+static clast_status label_table(const cli_decompose_job *j, clast_table *table)
 {
     static const char *const name[3] = {"cell", "label", "pass"};
-    const clast_cells *cells = &r->cells;
-    CLI_GUARD(clast_table_init(table, "points", n_point));
+    const clast_cells *cells = &j->result->cells;
+    CLI_GUARD(clast_table_init(table, "points", j->n_point));
     for (int k = 0; k < (clast_cells_are_labelled(cells) ? 3 : 1); ++k) {
         double *column = NULL;
         CLI_GUARD(clast_table_add_number(table, name[k], "-", &column));
-        for (int64_t i = 0; i < n_point; ++i) {
-            const int32_t c = cells->of_point[i];
+        for (int64_t i = 0; i < j->n_point; ++i) {
+            const int32_t c = j->of_point[i];
             column[i] = k == 0   ? c
                         : c < 0  ? (double)NAN // outside of the domain
                         : k == 1 ? cells->label[c]
@@ -104,7 +104,7 @@ static clast_status write_tables(const cli_decompose_job *j, const char *folder)
     CLI_TRY(cell_table(r, is_mapped, &cells));
     (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
     CLI_TRY(clast_table_write_csv_note(&cells, note, path));
-    CLI_TRY(label_table(r, j->cloud->n, &points));
+    CLI_TRY(label_table(j, &points));
     (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
     CLI_TRY(clast_table_write_csv_note(&points, note, path));
     if (r->search.n_row > 0) {
@@ -123,6 +123,9 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
     CLI_GUARD(clast_cells_write_vtu(r, j->domain, path));
+    if (j->is_part) {
+        return CLAST_OK; // the others show points
+    }
     (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
     CLI_GUARD(clast_decomposition_write_points(r, j->cloud, j->domain, path));
     for (int k = 0; k < CLAST_N_DECOMPOSE_CHART; ++k) {

@@ -10,33 +10,35 @@
 /// One cloud in 10,000 uniform ones is called uneven by its spacing alone.
 static const double level = 1e-4;
 
-static clast_status measure_spacing(const clast_domain *domain, const clast_cloud *cloud,
-                                    cli_evenness *evenness)
+static clast_status measure_spacing(const clast_comm *comm, const clast_domain *domain,
+                                    const clast_cloud *cloud, cli_evenness *evenness)
 {
     const int32_t d = cloud->dimension;
     int64_t n = 0;
     double *u = malloc(((size_t)(cloud->n * d) + 1) * sizeof *u);
+    clast_status status = CLAST_OK;
     if (u == NULL) {
-        return cli_fail(CLAST_E_MEMORY, "not enough memory for %lld points", (long long)cloud->n);
+        status = cli_fail(CLAST_E_MEMORY, "not enough memory for %lld points", (long long)cloud->n);
     }
+    CLI_TRY(clast_comm_agree(comm, status, NULL));
     for (int64_t i = 0; i < cloud->n; ++i) {
         n += clast_domain_map(domain, cloud->x + i * d, u + n * d) ? 1 : 0;
     }
-    clast_status status = CLAST_OK;
-    CLI_TRY(clast_spacing_test(u, n, d, &evenness->spacing));
+    CLI_TRY(clast_spacing_ranks(comm, u, n, d, &evenness->spacing));
     evenness->has_spacing = status == CLAST_OK;
 done:
     free(u);
     return status;
 }
 
-clast_status cli_decompose_evenness(const clast_domain *domain, const clast_cloud *cloud,
-                                    const clast_decomposition *result, cli_evenness *evenness)
+clast_status cli_decompose_evenness(const clast_comm *comm, const clast_domain *domain,
+                                    const clast_cloud *cloud, const clast_decomposition *result,
+                                    cli_evenness *evenness)
 {
     clast_status status = CLAST_OK;
     *evenness = (cli_evenness){.is_tested = result->before.n_test > 0};
     if (evenness->is_tested && result->n >= 5 && domain->kind != CLAST_DOMAIN_MESH) {
-        status = measure_spacing(domain, cloud, evenness);
+        status = measure_spacing(comm, domain, cloud, evenness);
     }
     const bool is_far = evenness->has_spacing && evenness->spacing.p < level;
     if (result->before.reject || (is_far && evenness->spacing.ratio < 1.0)) {

@@ -12,8 +12,10 @@ typedef struct cli_evenness {
     clast_spacing spacing;
 } cli_evenness;
 
-clast_status cli_decompose_evenness(const clast_domain *domain, const clast_cloud *cloud,
-                                    const clast_decomposition *result, cli_evenness *evenness);
+/// Of the points of all ranks; called by all of them.
+clast_status cli_decompose_evenness(const clast_comm *comm, const clast_domain *domain,
+                                    const clast_cloud *cloud, const clast_decomposition *result,
+                                    cli_evenness *evenness);
 
 /// "more even than uniform".
 const char *cli_evenness_text(const cli_evenness *evenness);

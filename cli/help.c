@@ -247,6 +247,8 @@ void cli_help_all(const cli_command *command)
         "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
         "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
         "                         (default 80%%)\n"
+        "  --time-limit TIME      stop by itself after so long (90min), as by SIGTERM: with a\n"
+        "                         checkpoint where --resume can go on\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
         "%s"
         "  -q, --quiet            no progress on stderr\n"

@@ -96,7 +96,8 @@ static bool common_option(cli_parser *p, const char *name, const char *value, bo
         p->help = true;
         p->help_all = p->help_all || name[4] == '-';
     } else if (strcmp(name, "output") == 0 || strcmp(name, "threads") == 0 ||
-               strcmp(name, "max-memory") == 0 || strcmp(name, "set") == 0) {
+               strcmp(name, "max-memory") == 0 || strcmp(name, "time-limit") == 0 ||
+               strcmp(name, "set") == 0) {
         *used_value = true;
         if (value == NULL) {
             *status = usage_error(p, "--%s needs a value", name);
@@ -106,6 +107,8 @@ static bool common_option(cli_parser *p, const char *name, const char *value, bo
             p->common.output = value;
         } else if (name[0] == 'm') {
             p->common.max_memory = value;
+        } else if (strcmp(name, "time-limit") == 0) {
+            p->common.time_limit = value;
         } else {
             *status = name[0] == 's' ? set_pair(p, value) : set_threads(p, value);
         }
@@ -188,7 +191,7 @@ static bool looks_like_number(const char *text)
 /// Whether the option `word` takes the next word as its value.
 static bool uses_next(const cli_parser *p, const char *word)
 {
-    static const char *const common[] = {"output", "threads", "max-memory", "set"};
+    static const char *const common[] = {"output", "threads", "max-memory", "time-limit", "set"};
     const char *name = word + 2;
     if (word[1] != '-') {
         return (word[1] == 'o' || word[1] == 'j') && word[2] == '\0';

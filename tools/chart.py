@@ -43,13 +43,13 @@ def line(label, colour, xy, dashed=False):
     return LINE, label, colour, dashed, ([p[0] for p in xy], [p[1] for p in xy], None, None)
 
 
-def draw(library, path, title, x_label, y_label, series, notes=(), x_range=(0.0, 0.0)):
+def draw(library, path, title, x_label, y_label, series, notes=(), x_range=(0.0, 0.0), x_log=False, y_log=False):
     """Writes one chart; the extension tells the format."""
     made = (Series * len(series))(*(
         Series(kind, label.encode() if label else None, *(array(v) for v in data), None, len(data[0]), colour, dashed)
         for kind, label, colour, dashed, data in series))
     words = (Note * max(1, len(notes)))(*(Note(x, y, text.encode()) for x, y, text in notes))
-    chart = Chart(title=title.encode(), x=Axis(x_label.encode(), False, *x_range), y=Axis(y_label.encode(), False, 0.0, 0.0),
+    chart = Chart(title=title.encode(), x=Axis(x_label.encode(), x_log, *x_range), y=Axis(y_label.encode(), y_log, 0.0, 0.0),
                   value_axis=Axis(None, False, 0.0, 0.0), series=made, n_series=len(series), note=words, n_note=len(notes))
     status = c.CDLL(str(library)).clast_chart_write(c.byref(chart), str(path).encode())
     if status != 0:

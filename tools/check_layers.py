@@ -18,8 +18,8 @@ import statistics
 import sys
 
 LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "convex": 3, "touch": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
-         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8, "report": 9,
-         "study": 10}
+         "dem": 5, "porosity": 5, "pack": 6, "evolve": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8,
+         "report": 9, "study": 10}
 VIEW = {"plot", "render", "report", "study"}  # libclast_view; what is not here is libclast (CMakeLists.txt has the same list)
 OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
 READERS = re.compile(r"\b(strto(?:d|f|ld)|atof|v?[fs]?scanf)\s*\(")

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Is web/dist/view.js the bundle of web/view.js and its lock? tools/check_web.sh [--update]
+# Is web/dist/view.js the bundle of web/view.js, web/view/ and their lock? tools/check_web.sh [--update]
 # Digests always; where npm (tools/setup.sh web) and the registry are at hand it is also built anew and compared. --update builds and renews.
 set -eu
 cd "$(dirname "$0")/../web"
-files="view.js package.json package-lock.json dist/view.js dist/LICENSE-three.txt"
+files="view.js $(echo view/*.js) package.json package-lock.json dist/view.js dist/LICENSE-three.txt"
 build() { # into the folder $1
-    cp view.js package.json package-lock.json "$1"
+    cp -r view.js view package.json package-lock.json "$1"
     (cd "$1" && npm ci --silent --no-audit --no-fund >/dev/null 2>&1 && npm run --silent build >/dev/null 2>&1)
 }
 made=$(mktemp -d)

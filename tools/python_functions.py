@@ -14,6 +14,7 @@ FUNCTIONS = {
     "agglomerate": ("_clouds", "agglomerate", ["clast_agglomerate_fields", "clast_decompose_fields"]),
     "box_model": ("_boxes", "agglomerate", ["clast_spectrum_fields", "clast_agglomerate_fields"]),
     "decompose": ("_clouds", "decompose", ["clast_decompose_fields"]),
+    "evolve": ("_growth", "evolve", ["clast_evolve_fields"]),
     "export": ("_runs", "export", []),
     "fill": ("_beds", "fill", ["clast_fill_fields"]),
     "fit": ("_models", "fit", ["clast_porosity_fit_fields"]),

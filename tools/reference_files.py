@@ -21,6 +21,8 @@ RUNS = [  # (command, its arguments, folder or file that it writes)
     ("decompose --mesh bins", "decompose data/d2sd/points_b3_n500.csv --domain box:0,0,0,1,1,1 --mesh bins --beta-dt 1e-6", "bins"),
     ("agglomerate", "agglomerate data/d2sd/points_u3_n50.csv --domain box:0,0,0,1,1,1 --constant 0.01", "evolution"),
     ("agglomerate --box-model", "agglomerate --box-model --concentration 1e12 --constant 1e-12 --duration 5s", "box"),
+    ("evolve", "evolve --domain box:0,0,0,1mm,1mm,5mm --particles 500 --curve 20um --duration 0.2s --rows 4 --frames 2 --keep 3 "
+               "--out-of-range extrapolate", "fall"),
     ("study", "study --run aggregate --fix core=sphere --fix core_size=270um --fix coat=sphere --fix size=60um --seeds 2 --keep density", "study"),
     ("shape", "shape data/standin63/grain00.ply data/standin63/grain05.ply", "shape.csv"),
     ("shape --statistics", "shape data/standin63/grain00.ply data/standin63/grain05.ply data/standin63/grain10.ply data/standin63/grain20.ply --statistics forms", None),

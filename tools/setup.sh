@@ -6,7 +6,7 @@ group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev libpng-dev libtiff-dev zlib1g-dev fonts-dejavu-core)
 sundials=("${build[@]}" libsundials-dev)
-mpi=("${build[@]}" libopenmpi-dev openmpi-bin)
+mpi=("${build[@]}" libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 dev=("${build[@]}" libcmocka-dev python3 python3-numpy)
 clang=("${dev[@]}" clang-14 libclang-rt-14-dev)
 afl=("${build[@]}" afl++)
@@ -22,9 +22,12 @@ site=("${docs[@]}" "${web[@]}" chromium)
 dist=(git python3)
 bundle=("${sundials[@]}" git python3 patchelf)
 deb=("${sundials[@]}" build-essential git python3 debhelper dh-python lintian)
+i386=("${dev[@]}" gcc-multilib curl)
+wasm=("${dev[@]}" emscripten nodejs curl chromium)
 bare=(git mmdebstrap debian-archive-keyring)
+saturne=("${build[@]}" python3 code-saturne code-saturne-include)
 test=("${mpi[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
-groups="build sundials mpi dev clang afl paper format hooks python notebook docs web site dist bundle deb bare test"
+groups="build sundials mpi dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

@@ -35,7 +35,7 @@ if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: 
     tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
 fi
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
-say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; }
+say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; }
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log

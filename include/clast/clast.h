@@ -8,6 +8,7 @@
 #include <clast/cloud.h>
 #include <clast/decompose.h>
 #include <clast/dem.h>
+#include <clast/evolve.h>
 #include <clast/field.h>
 #include <clast/fill.h>
 #include <clast/form.h>

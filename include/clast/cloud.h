@@ -48,6 +48,12 @@ CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
 /// Points that have the very coordinates of an earlier one; O(n).
 CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated);
 
+/// The same of the points that all ranks have together; called by all of them.
+///
+/// @param comm  NULL: the only rank
+CLAST_API clast_status clast_cloud_repeated_ranks(const clast_cloud *cloud, const clast_comm *comm,
+                                                  int64_t *n_repeated);
+
 // Particle positions from files, as tables of named columns.
 
 /// {0} is valid: the first snapshot.
@@ -73,7 +79,20 @@ typedef struct clast_points_options {
 CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_options *options,
                                         clast_table *table);
 
-/// The same from memory, HDF5 excepted; `name` stands for the path.
+/// The points of one file, a part on each rank in the order of the rows: delimited text by
+/// stretches of its bytes, HDF5 arrays by rows, some at a time, so that no rank holds the file.
+/// Called by all ranks; a rank may get no point.
+///
+/// @param comm  NULL: the only rank    @param columns  as of clast_cloud_from_table
+/// @param cloud  empty; written only on success
+/// @return as clast_cloud_read and clast_cloud_from_table, the same on every rank; CLAST_E_FORMAT
+/// for other formats and for quoted cells
+CLAST_API clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
+                                              const clast_cloud_columns *columns,
+                                              const clast_points_options *options,
+                                              clast_cloud *cloud);
+
+/// clast_cloud_read from memory, HDF5 excepted; `name` stands for the path.
 CLAST_API clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
                                          const clast_points_options *options, clast_table *table);
 

@@ -82,9 +82,16 @@ typedef struct clast_spacing {
 } clast_spacing;
 
 /// @return CLAST_E_ARGUMENT for n < 5
-/// @note O(n log n); beyond 50,000 points the neighbours of every k-th are looked for
+/// @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which
+/// their places alone decide
 CLAST_API clast_status clast_spacing_test(const double *u, int64_t n, int32_t d,
                                           clast_spacing *result);
+
+/// The same of the points that all ranks have together; called by all of them.
+///
+/// @param comm  NULL: the only rank
+CLAST_API clast_status clast_spacing_ranks(const clast_comm *comm, const double *u, int64_t n,
+                                           int32_t d, clast_spacing *result);
 
 /// Distance-to-boundary score: mean absolute difference between the distribution of depths and its
 /// law.
@@ -282,6 +289,7 @@ typedef struct clast_within_cells {
 
 typedef struct clast_decomposition {
     int64_t n, n_outside; ///< points used and left out
+    int64_t n_here; ///< of cells.of_point: n + n_outside, with several ranks the points of this one
     int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
                     ///< fill the box of a mesh domain
     int32_t dimension;
@@ -351,6 +359,23 @@ CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const c
                                              int32_t n_size, int32_t regular,
                                              const clast_decompose_config *config,
                                              clast_table *table);
+
+/// The same of one cloud of which each rank has a part; points stay where they are. Called by all
+/// ranks with the same domain and configuration. Cells, tests, events and all numbers are those of
+/// all points together, on every rank, and the same bytes for any number of ranks, any first
+/// distribution and any order of the points; cells.of_point [cloud->n] is of the points here. A
+/// rank may have none. [docs/theory/cloud-ranks.md]
+///
+/// @param comm   of clast_mpi_create; NULL: the only rank
+/// @param cloud  the points of this rank
+/// @return on several ranks CLAST_E_CONFIG for what one process alone does: a mesh as domain,
+/// weights, a variable, ghost samples, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
+/// than 200,000 points. The status is the same on every rank, and an error names the rank
+/// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
+CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
+                                             const clast_cloud *cloud,
+                                             const clast_decompose_config *config,
+                                             clast_decomposition *result);
 
 /// Whether label and pass mean something: of bins, not of a tree or a single cell.
 CLAST_API bool clast_cells_are_labelled(const clast_cells *cells);

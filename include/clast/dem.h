@@ -50,7 +50,8 @@ typedef enum {
     CLAST_DEM_CYLINDER, ///< upright, inside diameter `width`, axis x = y = 0
     CLAST_DEM_PERIODIC, ///< width x depth, periodic in x and y
     CLAST_DEM_BOX,      ///< width x depth between four upright walls
-    CLAST_DEM_OPEN      ///< no side walls
+    CLAST_DEM_OPEN,     ///< no side walls
+    CLAST_DEM_CELL      ///< width x depth x height, periodic in x, y and z; its sides may move
 } clast_dem_domain;
 
 /// Stiffness of two bodies that meet in several spheres of clumps at once.
@@ -147,6 +148,60 @@ typedef struct clast_dem_measures {
     clast_dem_verification verified;
 } clast_dem_measures;
 
+/// Where the energy has gone since clast_dem_begin_energy [J]: put_in = what is held + what is lost
+/// + steps + rest.
+typedef struct clast_dem_energy {
+    double translation;        ///< held: kinetic, with the fluid that moves along
+    double rotation;           ///< held: kinetic
+    double normal_springs;     ///< held; at the middle of the step, as velocities are
+    double tangential_springs; ///< held
+    double attraction;         ///< held: work against it, so 0 or below
+    double made;        ///< put in: of grains as they were when the book began, or were added
+    double gravity;     ///< put in by weight less buoyancy
+    double shaking;     ///< put in
+    double cell;        ///< put in by sides of a cell that move
+    double damping[2];  ///< lost in dashpots: between grains, at walls
+    double friction[2]; ///< lost by sliding: the same
+    double rolling[2];  ///< lost against rolling (what its spring holds with it): the same
+    double fluid;       ///< lost to the fluid
+    double calming;     ///< lost to the damping of all velocities
+    double scheme; ///< lost to the scheme, below 0: made by it (contacts that begin and end within
+                   ///< a step, tangential springs that sliding stretches anew, bodies that turn;
+                   ///< necks that tear)
+    double put_in; ///< made + gravity + shaking + cell
+    double rest;   ///< put_in less all others: of rounding, unless a force is missed
+} clast_dem_energy;
+
+/// The periodic cell as it is now; zeros in other domains.
+typedef struct clast_dem_cell {
+    double side[3];      ///< [m]
+    double rate[3];      ///< of the sides [m/s]
+    double shift;        ///< of the upper images along x [m]
+    double shear_rate;   ///< of the shift [m/s]
+    double strain[3];    ///< -ln(side / first side), > 0 in compression
+    double shear_strain; ///< of the shift over the height
+} clast_dem_cell;
+
+/// What a bed carries. Tensors are xx, yy, zz, xy, xz, yz, pressure above 0. Stress, modulus and
+/// volume of domain cell alone; 0 in others (clast_stress).
+typedef struct clast_dem_load {
+    double volume, solid;     ///< of the cell, of its grains [m3]
+    double stress[6];         ///< of contacts: sum f l / V [Pa]
+    double kinetic_stress[6]; ///< sum m v v / V, v beside the cell's even motion [Pa]
+    double modulus[3]; ///< of the normal springs at even strain, sum k (l n)^2 / V: an upper bound
+                       ///< [Pa]
+    double fabric[6];  ///< mean n n of contacts between grains
+    int64_t n_contact; ///< pairs of grains
+    int64_t n_force;   ///< places where grains touch: more, where clumps do
+    double coordination; ///< 2 n_contact / n_grain
+    int32_t n_rattler;   ///< grains with fewer than 2 contacts (4 without friction), left out one
+                         ///< after another
+    double coordination_held; ///< of the others among themselves
+    double unbalanced;        ///< mean force on a grain over the mean force of a contact
+    double force_mean;        ///< of a contact [N]
+    double force_below[3];    ///< below which 50, 90, 99 % of the forces between grains lie [N]
+} clast_dem_load;
+
 /// A running simulation. Opaque; one thread at a time (it uses threads itself).
 typedef struct clast_dem clast_dem;
 
@@ -182,6 +237,25 @@ CLAST_API void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 /// @return CLAST_E_CONVERGE when a run explodes (a grain is so fast that its contact would overlap
 /// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause
 CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
+
+/// From now on the work of all forces is booked, which changes no bit of the run; begins anew if it
+/// was.
+///
+/// @return CLAST_E_CONFIG where a fluid turns grains of several densities: that is not booked
+CLAST_API clast_status clast_dem_begin_energy(clast_dem *dem);
+
+/// Where the energy has gone; untouched when none was booked.
+CLAST_API void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy);
+
+/// What the bed carries now. Memories are not renewed.
+CLAST_API clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load);
+
+/// Speeds of the cell's three sides, and of the upper images along x, from the next step on [m/s].
+/// Grains get the change that belongs to their place, so that the bed is strained evenly.
+///
+/// @return CLAST_E_USAGE in other domains
+CLAST_API clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear);
+CLAST_API void clast_dem_read_cell(const clast_dem *dem, clast_dem_cell *cell); ///< as it is now
 
 /// Grains so far.
 CLAST_API int32_t clast_dem_n_grain(const clast_dem *dem);

@@ -34,6 +34,13 @@ CLAST_API int32_t clast_parallel_threads(void);
 
 enum { CLAST_COMM_WORDS = 3 };
 
+/// A piece of work that lies somewhere, for a partition.
+typedef struct clast_site {
+    double position[3];
+    double cost;
+    int32_t number; ///< of all ranks' sites
+} clast_site;
+
 /// One rank's view of all. Functions are called from one thread of each rank. A failure between
 /// ranks is not reported here: as in MPI it ends all of them.
 struct clast_comm {
@@ -52,6 +59,17 @@ struct clast_comm {
     /// each, and `all` matter there only.
     void (*gather)(void *context, const void *bytes, int64_t n, const int64_t *count, void *all);
     void *context;
+    /// Adds the ranks' arrays [n] element by element, in place, on every rank. Called by all ranks,
+    /// as the next. NULL, as `exchange`, in a table that only whole runs are shared by.
+    void (*sum)(void *context, int64_t *value, int64_t n);
+    /// Sends to each rank its part of `out`: the first n_out[0] bytes to rank 0, then n_out[1] to
+    /// rank 1 .. ; what comes lies in `in` in the order of ranks, n_in [n_rank] bytes of each.
+    void (*exchange)(void *context, const void *out, const int64_t *n_out, void *in,
+                     const int64_t *n_in);
+    /// Divides all ranks' sites among them, near ones together, costs alike; each rank gives some
+    /// [n] and gets the rank of each. False on all ranks where it failed. NULL: there is none, and
+    /// the library bisects by itself.
+    bool (*partition)(void *context, int64_t n, const clast_site *site, int32_t *rank);
 };
 
 /// The only rank of one.

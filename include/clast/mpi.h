@@ -8,7 +8,12 @@ CLAST_BEGIN
 /// Starts MPI and fills `comm` for all its ranks; end with clast_mpi_end. For programs that do not
 /// use MPI otherwise.
 ///
-/// @return CLAST_E_USAGE when MPI runs already, CLAST_E_MEMORY, CLAST_E_IO when it does not start
+/// Beds are partitioned by the environment's CLAST_PARTITION: `rcb` (usual) or `hsfc` by Zoltan,
+/// `own` by clast; without Zoltan, `rcb` is clast's too.
+///
+/// @return CLAST_E_USAGE when MPI runs already, CLAST_E_MEMORY, CLAST_E_IO when it does not start,
+/// CLAST_E_CONFIG when CLAST_PARTITION is another word, or hsfc without Zoltan; `comm` then holds
+/// the rank alone, so that one can speak for all
 CLAST_API clast_status clast_mpi_begin(clast_comm *comm);
 
 /// Releases `comm` and ends MPI; {0} is allowed.
@@ -17,7 +22,7 @@ CLAST_API void clast_mpi_end(clast_comm *comm);
 /// Fills `comm` for the ranks of a communicator of the caller's, given as MPI_Comm_c2f(...) gives
 /// it. Messages go over a copy, so they never meet the caller's own. Called by all its ranks.
 ///
-/// @return CLAST_E_USAGE when MPI does not run, CLAST_E_MEMORY
+/// @return CLAST_E_USAGE when MPI does not run, CLAST_E_MEMORY, CLAST_E_CONFIG as clast_mpi_begin
 CLAST_API clast_status clast_mpi_create(int32_t communicator, clast_comm *comm);
 
 /// Releases it on all ranks; {0} is allowed.

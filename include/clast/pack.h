@@ -1,4 +1,5 @@
 #pragma once
+#include <clast/assembly.h>
 #include <clast/dem.h>
 #include <clast/grading.h>
 #include <clast/mesh.h>
@@ -19,7 +20,8 @@ typedef enum {
     CLAST_PACK_GENERATE, ///< grains are made in the upper part and fall
     CLAST_PACK_SHAKE,    ///< all are made; shaken for shaking_time
     CLAST_PACK_DAMP,     ///< velocities are damped until the bed is still
-    CLAST_PACK_DONE
+    CLAST_PACK_DONE,
+    CLAST_PACK_LOAD ///< stages load the bed in a periodic cell; comes before done
 } clast_pack_phase;
 
 typedef enum {
@@ -62,8 +64,12 @@ typedef struct clast_pack_config {
     clast_f64_list density_weight; ///< chances of densities that are drawn
     double mass;                   ///< wanted [kg]
     uint64_t seed;
-    char *container;      ///< surface that holds the grains in place of domain; "": none
-    char *container_unit; ///< of its coordinates
+    char *start;           ///< packing to begin with, in place of grains that are made; "": none
+    char *start_unit;      ///< of its lengths, where it does not say
+    char *start_columns;   ///< of spheres from another program (clast_packing_options)
+    double start_diameter; ///< of all of them; 0: the file's [m]
+    char *container;       ///< surface that holds the grains in place of domain; "": none
+    char *container_unit;  ///< of its coordinates
 
     int32_t generator;
     double spacing;               ///< h_g; 0: the published one of the curve, or as grains need [m]
@@ -84,6 +90,13 @@ typedef struct clast_pack_config {
     int64_t max_steps;       ///< stop there, whatever the state; 0: never
     double max_damping_time; ///< of the damped phase before giving up [s]
 
+    clast_text_list stages; ///< of a load in domain cell, as text (docs/theory/load.md)
+    double load_rate;       ///< of strain by which a stress is approached, at most [1/s]
+    double load_tolerance;  ///< share of a stress within which it is reached
+    double load_rest;       ///< mean force on a grain over that of a contact, at rest
+    double max_load_time;   ///< of a stage before giving up [s]
+    bool energy;            ///< book the energy by kind
+
     double layer, cut, trim; ///< porosity profile [m], [-], [m]; trim below 0: as published
     double series_time;      ///< between rows of the time series [s]
     double frame_time;       ///< between frames for ParaView; 0: none [s]
@@ -100,8 +113,9 @@ typedef struct clast_pack_input {
     const clast_grading *grading;
     const clast_curve *curve; ///< wanted, or NULL when sizes follow no sieve curve
     int32_t n_shape;
-    const clast_shape *shape;           ///< [n_shape], any size
-    const clast_mesh *container;        ///< walls [m], or NULL
+    const clast_shape *shape;    ///< [n_shape], any size
+    const clast_assembly *start; ///< grains to begin with [m]; its shapes are `shape`; or NULL
+    const clast_mesh *container; ///< walls [m], or NULL
     const clast_mesh *container_closed; ///< the same with its holes covered (clast_bed_close)
 } clast_pack_input;
 
@@ -129,6 +143,19 @@ CLAST_API double clast_pack_mass(const clast_pack *pack); ///< made so far [kg]
 
 /// Expected step of the end, as far as it can be told; 0 when not.
 CLAST_API int64_t clast_pack_expected_steps(const clast_pack *pack);
+
+/// A bed over ranks: what went between them. No other result depends on it.
+typedef struct clast_pack_ranks {
+    int32_t n;          ///< ranks
+    int32_t n_idle;     ///< that had no grain at the end
+    int64_t n_balance;  ///< partitions
+    int64_t n_migrated; ///< grains that went to another rank
+    double ghosts;      ///< grains that ranks read of others in a step, in the mean
+    double step_bytes;  ///< sent in a step by all ranks
+    double list_bytes;  ///< the same for lists and migration, in the mean over steps
+    double imbalance;   ///< greatest over mean counted cost of a rank, after the last partition
+    bool is_zoltan;     ///< partitions are Zoltan's; else clast's own bisection
+} clast_pack_ranks;
 
 /// What a packing ended as.
 /// The convex hull that was taken of a surface.
@@ -170,6 +197,12 @@ typedef struct clast_pack_result {
     double elongation[2];  ///< I/L, the same
     int64_t n_frame;       ///< frames for ParaView of a run (clast_pack_run), in all its parts
     double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
+    int64_t n_overlap;     ///< of grains that a start brought
+    double deepest_start;  ///< of those, over the smaller one's radius
+    clast_dem_cell cell;   ///< zeros in other domains
+    clast_dem_load load;
+    clast_dem_energy energy; ///< zeros where none is booked
+    clast_pack_ranks ranks;  ///< of a run (clast_pack_run)
 } clast_pack_result;
 
 /// The numbers of the bed as it lies, SI; free them with clast_pack_result_free.
@@ -185,6 +218,11 @@ CLAST_API clast_porosity_options clast_pack_porosity(const clast_pack_config *co
 /// max_speed_m/s, n_contact, n_wall_contact, max_overlap_m. Borrowed.
 CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
 
+/// What the bed carries and where its energy goes, rows as of the series and at the end of each
+/// stage: the table load.csv of docs/theory/load.md. NULL without `energy` in other domains than a
+/// cell. Borrowed.
+CLAST_API const clast_table *clast_pack_load_table(const clast_pack *pack);
+
 /// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
 /// @return CLAST_E_USAGE when sizes follow no sieve curve
 CLAST_API clast_status clast_pack_achieved(const clast_pack *pack, clast_table *table);
@@ -198,6 +236,7 @@ typedef struct clast_pack_source {
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
     clast_mesh container, container_closed;
+    clast_assembly start; ///< none without config->start
     clast_pack_input input;
 } clast_pack_source;
 
@@ -210,21 +249,28 @@ CLAST_API void clast_pack_unload(clast_pack_source *source); ///< may be called 
 ///
 /// All files but manifest.json are the same bytes for equal runs, however often they were stopped.
 ///
-/// @param folder   NULL for no files    @param monitor  may be NULL
+/// On several ranks one bed is divided among them and every rank calls this with the same
+/// configuration: the state and all files are the bytes of one rank. Rank 0 writes, and its result
+/// is filled.
+///
+/// @param folder   NULL for no files    @param comm  NULL for one rank
+/// @param monitor  may be NULL
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, result is untouched;
 ///         CLAST_E_CONVERGE when the run explodes or is never still; CLAST_E_USAGE when the folder
 ///         holds a run, finished or not, and config->force is not set (run_folder.h)
 CLAST_API clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
-                                      const clast_monitor *monitor, clast_pack_result *result);
+                                      const clast_comm *comm, const clast_monitor *monitor,
+                                      clast_pack_result *result);
 
 /// Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps
-/// had ended early. Ends in the same bytes as one run of that many steps.
+/// had ended early. Ends in the same bytes as one run of that many steps, on any number of ranks.
 ///
 /// @param max_steps  in place of the run's own; 0: the run's own, and after an early end none
 /// @return CLAST_E_IO when there is nothing to go on from, CLAST_E_USAGE when the run has done
 ///         max_steps already, else as clast_pack_run
 CLAST_API clast_status clast_pack_resume(const char *folder, int64_t max_steps,
-                                         const clast_monitor *monitor, clast_pack_result *result);
+                                         const clast_comm *comm, const clast_monitor *monitor,
+                                         clast_pack_result *result);
 
 /// The result as one JSON object, names of DESIGN section 7. Free it with clast_text_free.
 ///

@@ -17,7 +17,7 @@ from ._surfaces import Surface, SurfaceResult
 from ._tables import Path, Table, Text, Texts
 from ._views import Picture
 
-__all__ = ["aggregate", "agglomerate", "box_model", "decompose", "export", "fill", "fit", "mesh_check", "mesh_convert",
+__all__ = ["aggregate", "agglomerate", "box_model", "decompose", "evolve", "export", "fill", "fit", "mesh_check", "mesh_convert",
            "mesh_form", "mesh_hull", "mesh_repair", "mesh_simplify", "mesh_synthesize", "pack", "porosity", "predict",
            "predict_beds", "render", "report", "grain_statistics", "shape", "shapes", "study"]
 
@@ -559,6 +559,147 @@ def decompose(
 
 
 @spelt
+def evolve(
+        *,
+        output: Path | None = None,
+        progress: Progress = None,
+        shapes: Texts | None = None,
+        shape_weight: Quantities | None = None,
+        density: Quantities | None = None,
+        unit: Text | None = None,
+        curve: Text | None = None,
+        particles: int | None = None,
+        weight: float | None = None,
+        release: Text | None = None,
+        points: Text | None = None,
+        diameter_column: Text | None = None,
+        domain: Text | None = None,
+        floor: Literal["deposit", "reflect", "periodic"] | None = None,
+        sides: Literal["deposit", "reflect", "periodic"] | None = None,
+        open_top: bool | None = None,
+        wind: Text | None = None,
+        field: Text | None = None,
+        field_columns: Text | None = None,
+        wind_shear: Quantity | None = None,
+        eddy_diffusivity: float | None = None,
+        brownian: bool | None = None,
+        fall: Literal["form", "sphere", "stokes"] | None = None,
+        temperature: Quantity | None = None,
+        viscosity: Quantity | None = None,
+        fluid_density: Quantity | None = None,
+        mean_free_path: Quantity | None = None,
+        gravity: Quantity | None = None,
+        kernel: Text | None = None,
+        shear: Quantity | None = None,
+        dissipation: Quantity | None = None,
+        speed_rms: Quantity | None = None,
+        efficiency: float | None = None,
+        constant: float | None = None,
+        additive: float | None = None,
+        product: float | None = None,
+        out_of_range: Literal["error", "extrapolate"] | None = None,
+        collision_radius: Literal["gyration", "enclosing", "volume"] | None = None,
+        even: Literal["tree", "boxes", "whole"] | None = None,
+        change_level: float | None = None,
+        alpha: float | None = None,
+        sticking: Literal["constant", "viscous", "liquid", "contact"] | None = None,
+        film_viscosity: Quantity | None = None,
+        film_thickness: Quantity | None = None,
+        asperity: Quantity | None = None,
+        restitution: float | None = None,
+        critical_stokes: float | None = None,
+        stokes_exponent: float | None = None,
+        adhesion: float | None = None,
+        young: Quantity | None = None,
+        poisson: float | None = None,
+        structure: bool | None = None,
+        meeting: Literal["auto", "ballistic", "diffusive", "central"] | None = None,
+        walk_step: float | None = None,
+        max_tries: int | None = None,
+        duration: Quantity | None = None,
+        rows: int | None = None,
+        step_error: float | None = None,
+        time_step: Quantity | None = None,
+        seed: int | None = None,
+        keep: int | None = None,
+        frames: int | None = None,
+        checkpoint_time: Quantity | None = None,
+        resume: Text | None = None,
+        force: bool | None = None,
+) -> Result:
+    """Follows a cloud of true shapes to the floor: evolve(domain="box:0,0,0,1cm,1cm,1cm", particles=200, curve="20um", duration="1s").
+
+    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and evolve(resume="run") goes on.
+
+    Keywords (None: the default; a number is SI, a text has its unit):
+        shapes: shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate (state.h5) (default sphere)
+        shape_weight: chance of each shape; none: all equal (at least 0; no default)
+        density: of the solid: one for all shapes, or one each (kg/m^3; 1e-06 to 1e+06; default 2500)
+        unit: length unit of surface files; may be left out: sizes come from the curve (no default)
+        curve: volume-equivalent diameters: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case (default 10um)
+        particles: particles at the start; 0: the rows of points (0 to 1e+07; default 0)
+        weight: real particles that each stands for, a whole number: the number density is particles x weight / volume (at least 1; default 1.0)
+        release: domain in which they start evenly (as domain); none: all of it (no default)
+        points: file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5) (no default)
+        diameter_column: its column of volume-equivalent diameters; none: the curve (no default)
+        domain: box:LOW..,HIGH.., cylinder:X,Y,Z,NX,NY,NZ,R,L (base, axis), sphere:R, mesh:FILE; z is up (no default)
+        floor: what is below: it stays there, comes back, or enters at the top (deposit, reflect, periodic; default deposit)
+        sides: the same of the sides; periodic: a box alone (deposit, reflect, periodic; default periodic)
+        open_top: what passes the top of a box is gone; else it comes back (default False)
+        wind: velocity x,y,z of the fluid at z = 0 [m/s] (default 0,0,0)
+        field: file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), added to the wind; beyond the grid those at its edge (no default)
+        field_columns: its columns of velocities (default u,v,w)
+        wind_shear: change of velocity x with z (1/s; -1e+09 to 1e+09; default 0.0)
+        eddy_diffusivity: turbulent diffusivity, the same everywhere [m^2/s] (0 to 1e+06; default 0.0)
+        brownian: particles diffuse by Brownian motion, as their envelopes' drag says (default True)
+        fall: drag: of each body's own form, of the sphere of its envelope, or of that in creeping flow (form, sphere, stokes; default form)
+        temperature: of the fluid (K; 0 to 100000; default 288.15)
+        viscosity: of the fluid (default: air) (Pa s; 0 to 1e+06; default 1.7894e-05)
+        fluid_density: of the fluid (default: air) (kg/m^3; 0 to 100000; default 1.225)
+        mean_free_path: of a gas, for the slip correction; 0: none (m; 0 to 1; default 0.0)
+        gravity: 0: nothing falls (m/s^2; 0 to 1e+06; default 9.80665)
+        kernel: collision kernel, or a sum, as in clast agglomerate --help-all: constant, additive, product, brownian, shear_laminar, shear_turbulent, settling, inertial, ... (default brownian+settling)
+        shear: shear rate that kernels see; 0: that of wind_shear (1/s; 0 to 1e+12; default 0.0)
+        dissipation: turbulent dissipation (m^2/s^3; 0 to 1e+12; default 0.0)
+        speed_rms: turbulent velocity, one component (m/s; 0 to 1e+06; default 0.0)
+        efficiency: collision efficiency of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
+        constant: K of kernel constant [m^3/s] (at least 0; default 1e-06)
+        additive: b of kernel additive [m^3/s] (at least 0; default 1e-06)
+        product: c of kernel product [m^3/s] (at least 0; default 1e-06)
+        out_of_range: kernels and sticking beyond where they hold (error, extrapolate; default error)
+        collision_radius: radius that kernels see: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere (gyration, enclosing, volume; default gyration)
+        even: where bodies count as evenly spread: cells that a test splits, boxes of bins, or the whole domain (tree, boxes, whole; default tree)
+        change_level: false alarms of the test that finds the cells out of date (1e-12 to 0.5; default 0.01)
+        alpha: share of collisions that stick; with another law of sticking a factor on it (0 to 1; default 1.0)
+        sticking: share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts (constant, viscous, liquid, contact; default constant)
+        film_viscosity: viscous, liquid: of the liquid on the particles (Pa s; 0 to 1e+12; default 0.0)
+        film_thickness: viscous: h of the film (m; 0 to 1; default 0.0)
+        asperity: viscous: height h_a of the roughness (m; 0 to 1; default 0.0)
+        restitution: viscous: e of the dry solids (0 to 1; default 0.0)
+        critical_stokes: liquid: St_cr, where half of the collisions stick (0 to 1e+12; default 1.3)
+        stokes_exponent: liquid: q of 1 / (1 + (St / St_cr)^q) (0 to 100; default 0.8)
+        adhesion: contact: work of adhesion of the surfaces [J/m^2] (0 to 1e+06; default 0.0)
+        young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
+        poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
+        structure: aggregates keep their grains as they touch; no: drops that merge (default True)
+        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section (auto, ballistic, diffusive, central; default auto)
+        walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
+        max_tries: paths tried before a pair is given up, in thousands (1 to 1e+06; default 100)
+        duration: time that passes at most (s; at least 0; default 0.0)
+        rows: rows of the tables over it (1 to 1e+06; default 50)
+        step_error: share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
+        time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
+        seed: of every draw (default 1)
+        keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
+        frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
+        checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
+        resume: run folder to go on with (no default)
+        force: replace an earlier run in the output folder (default False)
+    """
+    return _growth.evolve(**given(locals()))
+
+
+@spelt
 def export(
         run: Path | Assembly,
         output: Path,
@@ -859,9 +1000,13 @@ def pack(
         density_weight: Quantities | None = None,
         mass: Quantity | None = None,
         seed: int | None = None,
+        start: Text | None = None,
+        start_unit: Text | None = None,
+        start_columns: Text | None = None,
+        start_diameter: Quantity | None = None,
         container: Text | None = None,
         container_unit: Text | None = None,
-        domain: Literal["cylinder", "periodic", "box", "open"] | None = None,
+        domain: Literal["cylinder", "periodic", "box", "open", "cell"] | None = None,
         width: Quantity | None = None,
         depth: Quantity | None = None,
         height: Quantity | None = None,
@@ -914,6 +1059,12 @@ def pack(
         still_speed: Quantity | None = None,
         max_steps: int | None = None,
         max_damping_time: Quantity | None = None,
+        stages: Texts | None = None,
+        load_rate: Quantity | None = None,
+        load_tolerance: float | None = None,
+        load_rest: float | None = None,
+        max_load_time: Quantity | None = None,
+        energy: bool | None = None,
         layer: Quantity | None = None,
         cut: float | None = None,
         trim: Quantity | None = None,
@@ -946,9 +1097,13 @@ def pack(
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
+        start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
+        start_unit: length unit of the start, where it does not say (no default)
+        start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
+        start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
         container_unit: length unit of its coordinates (no default)
-        domain: container, its sides (cylinder, periodic, box, open; default cylinder)
+        domain: container, its sides; cell: periodic in x, y and z (height) (cylinder, periodic, box, open, cell; default cylinder)
         width: inside diameter of the cylinder, or width in x (L) (m; 1e-09 to 1e+06; default 0.104)
         depth: width in y; 0: as width (m; 0 to 1e+06; default 0.0)
         height: height of the lid and of generation (H) (m; 1e-09 to 1e+06; default 1.0)
@@ -1001,6 +1156,12 @@ def pack(
         still_speed: of the fastest grain (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
+        stages: stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
+        load_rate: rate of strain at which a pressure is approached, at most (1/s; 1e-09 to 1e+09; default 1.0)
+        load_tolerance: share of a pressure within which it is reached (1e-09 to 1; default 0.01)
+        load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)
+        max_load_time: give up when a stage has not come to its end by then (s; 0 to 1e+09; default 20.0)
+        energy: book the work of all forces by kind: load.csv, energy_book.svg (default False)
         layer: slices of the porosity profile (h_p) (m; 1e-12 to 1e+06; default 0.001)
         cut: the bed ends where the porosity is this (n cut-off) (0 to 1; default 0.5)
         trim: left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0 (m; -1 to 1e+06; default -1.0)

@@ -1,4 +1,4 @@
-"""Aggregates and packings: the same numbers as `clast aggregate --json` and `clast pack --json`."""
+"""Aggregates, packings and clouds of true shapes: the same numbers as `clast aggregate --json`, `clast pack --json` and `clast evolve --json`."""
 from __future__ import annotations
 
 import ctypes
@@ -62,9 +62,28 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
     try:
         with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
             most = config.struct.max_steps
-            check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, m, ctypes.byref(result)) if resumed else
-                              call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+            check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, None, m, ctypes.byref(result)) if resumed else
+                              call("clast_pack_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
         return Result(values, resumed if output is None else os.fspath(output))
     finally:
         call("clast_pack_result_free")(ctypes.byref(result))
+
+
+def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
+    """Follows a cloud of true shapes to the floor: evolve(domain="box:0,0,0,1cm,1cm,1cm", particles=200, curve="20um", duration="1s").
+
+    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and evolve(resume="run") goes on.
+    """
+    result = c.clast_evolve_result()
+    monitor = Monitor(progress)
+    folder = None if output is None else encoded("output", output)
+    resumed = _resumed(output, keys)
+    try:
+        with Config(c.clast_evolve_config(), "clast_evolve_fields", keys) as config:
+            check(monitor.run(lambda m: call("clast_evolve_resume")(encoded("resumed", resumed), m, ctypes.byref(result)) if resumed else
+                              call("clast_evolve_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+        values = json.loads(text_of(lambda text: call("clast_evolve_result_json")(ctypes.byref(result), True, text)))
+        return Result(values, resumed if output is None else os.fspath(output))
+    finally:
+        call("clast_evolve_result_free")(ctypes.byref(result))

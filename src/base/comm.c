@@ -45,6 +45,24 @@ static void copy(void *context, const void *bytes, int64_t n, const int64_t *cou
     }
 }
 
+static void keep_sum(void *context, int64_t *value, int64_t n)
+{
+    (void)context;
+    (void)value;
+    (void)n;
+}
+
+static void keep_bytes(void *context, const void *out, const int64_t *n_out, void *in,
+                       const int64_t *n_in)
+{
+    (void)context;
+    (void)n_in;
+    CLAST_ASSERT(n_out[0] == n_in[0]);
+    if (n_out[0] > 0) {
+        memcpy(in, out, (size_t)n_out[0]);
+    }
+}
+
 const clast_comm *clast_comm_one(void)
 {
     static const clast_comm one = {.rank = 0,
@@ -53,7 +71,9 @@ const clast_comm *clast_comm_one(void)
                                    .take = take_nothing,
                                    .least = own,
                                    .broadcast = keep,
-                                   .gather = copy};
+                                   .gather = copy,
+                                   .sum = keep_sum,
+                                   .exchange = keep_bytes};
     return &one;
 }
 
@@ -129,5 +149,101 @@ clast_status clx_comm_gather(const clast_comm *comm, const void *bytes, int64_t 
 done:
     clx_gathered_free(&made);
     clx_free(each);
+    return status;
+}
+
+bool clx_comm_has_sums(const clast_comm *comm)
+{
+    return comm->n_rank == 1 || (comm->sum != NULL && comm->exchange != NULL);
+}
+
+void clx_comm_sum(const clast_comm *comm, int64_t *value, int64_t n)
+{
+    CLAST_ASSERT(n >= 0);
+    if (comm->n_rank > 1 && n > 0) {
+        comm->sum(comm->context, value, n);
+    }
+}
+
+int64_t clx_comm_total(const clast_comm *comm, int64_t value)
+{
+    clx_comm_sum(comm, &value, 1);
+    return value;
+}
+
+clast_status clx_comm_before(const clast_comm *comm, int64_t value, int64_t *before, int64_t *total)
+{
+    clast_status status = CLAST_OK;
+    int64_t *each = NULL;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&each, comm->n_rank, sizeof *each), NULL));
+    each[comm->rank] = value;
+    clx_comm_sum(comm, each, comm->n_rank);
+    *before = 0;
+    *total = 0;
+    for (int32_t k = 0; k < comm->n_rank; ++k) {
+        *before += k < comm->rank ? each[k] : 0;
+        *total += each[k];
+    }
+done:
+    clx_free(each);
+    return status;
+}
+
+double clx_comm_least(const clast_comm *comm, double value)
+{
+    int64_t bits = 0;
+    CLAST_ASSERT(value == value);
+    memcpy(&bits, &value, sizeof bits);
+    bits = bits < 0 ? INT64_MIN - bits : bits; // the order of doubles; -0 is 0
+    bits = comm->least(comm->context, bits);
+    bits = bits < 0 ? INT64_MIN - bits : bits;
+    memcpy(&value, &bits, sizeof bits);
+    return value;
+}
+
+clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const int64_t *n_out,
+                               clx_gathered *in)
+{
+    CLAST_ASSERT(in->bytes == NULL);
+    clast_status status = CLAST_OK;
+    const int32_t n_rank = comm->n_rank;
+    int64_t *table = NULL; // [from][to], then one's own column
+    clx_gathered made = {0};
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&table, ((int64_t)n_rank + 1) * n_rank, sizeof *table),
+                             NULL));
+    memcpy(table + (int64_t)comm->rank * n_rank, n_out, (size_t)n_rank * sizeof *table);
+    clx_comm_sum(comm, table, (int64_t)n_rank * n_rank);
+    int64_t *n_in = table + (int64_t)n_rank * n_rank;
+    for (int32_t k = 0; k < n_rank; ++k) {
+        n_in[k] = table[(int64_t)k * n_rank + comm->rank];
+        made.n += n_in[k];
+    }
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&made.bytes, made.n, 1), NULL));
+    comm->exchange(comm->context, out, n_out, made.bytes, n_in);
+    *in = made;
+    made = (clx_gathered){0};
+done:
+    clx_gathered_free(&made);
+    clx_free(table);
+    return status;
+}
+
+clast_status clx_comm_share(const clast_comm *comm, const void *bytes, int64_t n, clx_gathered *all)
+{
+    clast_status status = CLAST_OK;
+    clx_gathered made = {0};
+    CLX_TRY(clx_comm_gather(comm, bytes, n, &made));
+    if (comm->n_rank > 1) {
+        comm->broadcast(comm->context, 0, &made.n, (int64_t)sizeof made.n);
+        if (comm->rank > 0) {
+            status = clx_alloc(&made.bytes, made.n, 1);
+        }
+        CLX_TRY(clast_comm_agree(comm, status, NULL));
+        comm->broadcast(comm->context, 0, made.bytes, made.n);
+    }
+    *all = made;
+    made = (clx_gathered){0};
+done:
+    clx_gathered_free(&made);
     return status;
 }

@@ -2,15 +2,22 @@
 //
 // strtod obeys the locale (a decimal comma breaks every file) and is slow, so numbers are read
 // here. Three ways, each exact: small integers times a power of ten that is a double [Clinger1990];
-// up to 19 digits times 10^-27 .. 10^27 in 128 bits; long division of big integers for the rest.
+// up to 19 digits times 10^-27 .. 10^27 in 128 bits, where the compiler has them; long division of
+// big integers for the rest.
 #include "base/number.h"
 
 #include "base/status.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
+#ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 u128;
+#else
+#include <stdio.h>
+#endif
+
+_Static_assert(FLT_EVAL_METHOD == 0, "doubles are computed as doubles (i386: -msse2 -mfpmath=sse)");
 
 enum {
     N_WORD_DIGIT = 19, // digits that always fit in 64 bits
@@ -82,6 +89,7 @@ static const char *scan(const char *p, const char *end, decimal *d)
     return any ? scan_exponent(p, end, &d->exponent) : NULL;
 }
 
+#ifdef __SIZEOF_INT128__
 /// (high bits of a 128-bit integer, rounded to 53, ties to even) * 2^exponent; not for subnormals.
 static double round_wide(u128 q, bool sticky, int exponent)
 {
@@ -114,6 +122,7 @@ static double convert_wide(uint64_t word, int exponent)
     const u128 n = (u128)(word << lead) << 63;
     return round_wide(n / five, n % five != 0, exponent - lead - 63);
 }
+#endif
 
 // Big integers, least limb first, 32 bits a limb, n limbs used (top one non-zero).
 typedef struct {
@@ -261,6 +270,20 @@ static double convert_big(const decimal *d)
     }
     return round_word(q, r.n > 0, (int64_t)k - 63);
 }
+
+#ifndef __SIZEOF_INT128__
+/// word * 10^exponent by long division, where the compiler has no integers of 128 bits.
+static double convert_wide(uint64_t word, int exponent)
+{
+    char digit[24];
+    CLAST_ASSERT(word > 0 && abs(exponent) <= CLX_NUMBER_POWER);
+    const int n = snprintf(digit, sizeof digit, "%llu", (unsigned long long)word);
+    const int beyond = n > N_WORD_DIGIT ? n - N_WORD_DIGIT : 0;
+    const decimal d = {
+        .first = digit, .last = digit + n, .n_digit = n, .exponent = exponent + beyond};
+    return convert_big(&d);
+}
+#endif
 
 double clx_number_scaled(uint64_t word, int exponent)
 {

@@ -2,7 +2,8 @@
 //
 // printf is exact but slow, and a number needs it up to three times. Between 1e-11 and 1e15 the
 // digits are the rounded quotient of two integers below 2^128, and whether they read back is one
-// more division; the text is printf's %g to the byte. Elsewhere printf does it.
+// more division; the text is printf's %g to the byte. Elsewhere, and where the compiler has no
+// integers of 128 bits, printf does it.
 #include "base/number.h"
 
 #include "base/status.h"
@@ -11,8 +12,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-
-__extension__ typedef unsigned __int128 u128;
 
 enum {
     LEAST_DIGITS = 15,
@@ -55,6 +54,9 @@ static int format_any(double value, char text[CLX_NUMBER_SIZE])
     }
     return n;
 }
+
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 u128;
 
 /// mantissa * 2^exponent * 10^power below 10^17: its whole part, and whether to round up from there
 /// to the nearest whole number, ties to even.
@@ -169,3 +171,9 @@ int clx_number_format(double value, char text[CLX_NUMBER_SIZE])
     text[n] = '\0';
     return n;
 }
+#else
+int clx_number_format(double value, char text[CLX_NUMBER_SIZE])
+{
+    return format_any(value, text);
+}
+#endif

@@ -10,9 +10,11 @@
 #include "base/parallel.h"
 #include "cloud/contract.h"
 #include "math/quadrature.h"
-#include "math/sort.h"
 #include "math/special.h"
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
+#include <string.h>
 
 clx_depth_law clx_depth_law_of_box(int32_t d, const double *side)
 {
@@ -104,7 +106,7 @@ typedef struct {
     double *part; ///< one per block, added in order
 } distance_context;
 
-enum { STEPS_A_BLOCK = 16384, N_PART = 64 };
+enum { STEPS_A_BLOCK = 16384, N_PART = 64, POINTS_A_BLOCK = 16384 };
 
 /// Steps of G_n that share a part: fixed by n alone.
 static int64_t steps_a_part(int64_t n)
@@ -138,18 +140,6 @@ double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
     clx_parallel_for(n + 1, steps_a_part(n), sum_steps, &context);
     for (int k = 0; k <= N_PART; ++k) {
         sum += part[k];
-    }
-    return sum;
-}
-
-double clx_depth_trapezoid(const clx_depth_law *law, const double *z, int64_t n)
-{
-    double sum = 0.0;
-    double previous = fabs(1.0 / (double)n - clx_depth_cdf(law, z[0]));
-    for (int64_t k = 1; k < n; ++k) {
-        const double here = fabs((double)(k + 1) / (double)n - clx_depth_cdf(law, z[k]));
-        sum += 0.5 * (here + previous) * (z[k] - z[k - 1]);
-        previous = here;
     }
     return sum;
 }
@@ -242,33 +232,145 @@ double clx_depth_of(const clx_depth_law *law, const double *u)
 
 typedef struct {
     const clx_depth_law *law;
-    const double *u;
-    double *z;
-} depth_context;
+    const clx_part *part;
+    int32_t axis;
+    uint64_t *key;
+} key_context;
 
-static void take_depths(int64_t begin, int64_t end, int32_t worker, void *context)
+/// Numbers >= 0 and their bits have one order.
+static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    const depth_context *c = context;
+    const key_context *c = context;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        c->z[i] = clx_depth_of(c->law, c->u + i * c->law->d);
+        const double *u = c->part->u + i * c->part->d;
+        const double z = (c->axis < 0 ? clx_depth_of(c->law, u) : u[c->axis]) + 0.0; // no -0
+        CLAST_ASSERT(z >= 0.0 && z <= 1.0);
+        memcpy(&c->key[i], &z, sizeof z);
     }
 }
 
-clast_status clx_boundary_depths(const clx_depth_law *law, const double *u, int64_t n, double **z)
+/// The number before this rank's first: the last of the ranks before, 0 where there is none.
+static clast_status find_before(const clast_comm *comm, clx_depths *depths)
 {
-    enum { POINTS_A_BLOCK = 16384 };
     clast_status status = CLAST_OK;
-    double *made = NULL;
-    CLX_TRY(clx_alloc(&made, n, sizeof *made));
-    depth_context context = {law, u, made};
-    clx_parallel_for(n, POINTS_A_BLOCK, take_depths, &context);
-    CLX_TRY(clx_sort_doubles(made, n));
-    *z = made;
-    made = NULL;
+    int64_t *last = NULL;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&last, comm->n_rank, sizeof *last), NULL));
+    const clx_ranked *r = &depths->ranked;
+    last[comm->rank] = r->n > 0 ? (int64_t)r->key[r->n - 1] : 0;
+    clx_comm_sum(comm, last, comm->n_rank);
+    int64_t before = 0;
+    for (int32_t k = 0; k < comm->rank; ++k) {
+        before = last[k] > before ? last[k] : before;
+    }
+    memcpy(&depths->before, &before, sizeof before);
 done:
-    clx_free(made);
+    clx_free(last);
     return status;
+}
+
+clast_status clx_depths_sort(const clx_depth_law *law, const clx_part *part, int32_t axis,
+                             clx_depths *depths)
+{
+    clast_status status = CLAST_OK;
+    const uint64_t limit = UINT64_C(0x3ff0000000000001); // 1.0, and one more
+    key_context c = {law, part, axis, NULL};
+    clx_depths made = {{0}, 0.0};
+    CLX_TRY(clast_comm_agree(part->comm, clx_alloc(&c.key, part->n, sizeof *c.key), NULL));
+    clx_parallel_for(part->n, POINTS_A_BLOCK, take_keys, &c);
+    CLX_TRY(clx_ranked_sort(part->comm, &c.key, part->n, limit, &made.ranked));
+    CLX_TRY(find_before(part->comm, &made));
+    *depths = made;
+    made = (clx_depths){{0}, 0.0};
+done:
+    clx_free(c.key);
+    clx_depths_free(&made);
+    return status;
+}
+
+void clx_depths_free(clx_depths *depths)
+{
+    clx_ranked_free(&depths->ranked);
+    *depths = (clx_depths){{0}, 0.0};
+}
+
+static double depth_at(const clx_depths *depths, int64_t i)
+{
+    double z = depths->before;
+    if (i >= 0) {
+        memcpy(&z, &depths->ranked.key[i], sizeof z);
+    }
+    return z;
+}
+
+/// What the step of G_n from depth number k - 1 to number k adds.
+typedef double (*step_term)(const clx_depth_law *law, int64_t k, int64_t n, const double z[2]);
+
+static double distance_term(const clx_depth_law *law, int64_t k, int64_t n, const double z[2])
+{
+    return z[1] > z[0] ? constant_part(law, (double)k / (double)n, z[0], z[1]) : 0.0;
+}
+
+static double trapezoid_term(const clx_depth_law *law, int64_t k, int64_t n, const double z[2])
+{
+    if (k == 0 || k == n) {
+        return 0.0; // not before the first, nor after the last
+    }
+    const double before = fabs((double)k / (double)n - clx_depth_cdf(law, z[0]));
+    const double here = fabs((double)(k + 1) / (double)n - clx_depth_cdf(law, z[1]));
+    return 0.5 * (here + before) * (z[1] - z[0]);
+}
+
+typedef struct {
+    const clx_depth_law *law;
+    const clx_depths *depths;
+    step_term term;
+    clx_exact_sum *sum; ///< a worker each
+} step_context;
+
+static void sum_steps_here(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const step_context *c = context;
+    const clx_ranked *r = &c->depths->ranked;
+    for (int64_t i = begin; i < end; ++i) {
+        const double z[2] = {depth_at(c->depths, i - 1), depth_at(c->depths, i)};
+        clx_exact_add(&c->sum[worker], c->term(c->law, r->before + i, r->n_all, z));
+    }
+}
+
+static clast_status sum_terms(const clx_depth_law *law, const clx_part *part,
+                              const clx_depths *depths, step_term term, double *value)
+{
+    clast_status status = CLAST_OK;
+    const clx_ranked *r = &depths->ranked;
+    const int32_t n_worker = clx_parallel_workers();
+    step_context c = {law, depths, term, NULL};
+    CLX_TRY(clast_comm_agree(part->comm, clx_alloc(&c.sum, n_worker, sizeof *c.sum), NULL));
+    clx_parallel_for(r->n, POINTS_A_BLOCK, sum_steps_here, &c);
+    if (r->n > 0 && r->before + r->n == r->n_all) {
+        const double z[2] = {depth_at(depths, r->n - 1), 1.0};
+        clx_exact_add(&c.sum[0], term(law, r->n_all, r->n_all, z));
+    }
+    for (int32_t w = 1; w < n_worker; ++w) {
+        clx_exact_merge(&c.sum[0], &c.sum[w]);
+    }
+    clx_exact_over(part->comm, c.sum, 1);
+    *value = clx_exact_value(&c.sum[0]);
+done:
+    clx_free(c.sum);
+    return status;
+}
+
+clast_status clx_depths_distance(const clx_depth_law *law, const clx_part *part,
+                                 const clx_depths *depths, double *distance)
+{
+    return sum_terms(law, part, depths, distance_term, distance);
+}
+
+clast_status clx_depths_trapezoid(const clx_depth_law *law, const clx_part *part,
+                                  const clx_depths *depths, double *distance)
+{
+    return sum_terms(law, part, depths, trapezoid_term, distance);
 }
 
 clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, const double *side,
@@ -277,28 +379,27 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
     CLX_ARGUMENTS(u, side, result);
     clast_status status = CLAST_OK;
     clast_boundary_score made = {0};
-    double *z = NULL;
+    clx_depths depths = {{0}, 0.0};
     const clx_depth_law line = {.d = 1, .c = {1.0}};
     CLX_TRY(clx_cube_check(u, n, d, 1, "a boundary score"));
     for (int32_t j = 0; j < d; ++j) {
         CLX_CHECK(side[j] > 0.0 && isfinite(side[j]), CLAST_E_ARGUMENT,
                   "side %d of the domain is %g", j, side[j]);
     }
+    const clx_part part = clx_part_whole(u, n, d);
     const clx_depth_law law = clx_depth_law_of_box(d, side);
-    CLX_TRY(clx_boundary_depths(&law, u, n, &z));
-    made.score = clx_depth_distance(&law, z, n);
-    made.trapezoid = clx_depth_trapezoid(&law, z, n);
+    CLX_TRY(clx_depths_sort(&law, &part, -1, &depths));
+    CLX_TRY(clx_depths_distance(&law, &part, &depths, &made.score));
+    CLX_TRY(clx_depths_trapezoid(&law, &part, &depths, &made.trapezoid));
     made.ideal = clx_depth_ideal(&law, (double)n);
     for (int32_t j = 0; j < d; ++j) {
-        for (int64_t i = 0; i < n; ++i) {
-            z[i] = u[i * d + j];
-        }
-        CLX_TRY(clx_sort_doubles(z, n));
-        made.projected_axis[j] = clx_depth_distance(&line, z, n);
+        clx_depths_free(&depths);
+        CLX_TRY(clx_depths_sort(&line, &part, j, &depths));
+        CLX_TRY(clx_depths_distance(&line, &part, &depths, &made.projected_axis[j]));
         made.projected += made.projected_axis[j];
     }
     *result = made;
 done:
-    clx_free(z);
+    clx_depths_free(&depths);
     return status;
 }

@@ -1,5 +1,7 @@
 #pragma once
 // The law of depths in a box and the distance of a sample from it.
+#include "cloud/part.h"
+
 #include <clast/cloud.h>
 #include <clast/decompose.h>
 
@@ -19,14 +21,27 @@ double clx_depth_of(const clx_depth_law *law, const double *u);
 /// Integral over [0, 1] of |G_n - H| for n sorted depths, exact.
 double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n);
 
-/// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
-double clx_depth_trapezoid(const clx_depth_law *law, const double *z, int64_t n);
-
 /// Its expectation for n uniform points.
 double clx_depth_ideal(const clx_depth_law *law, double n);
 
-/// Depths of n points in ascending order into a fresh block.
-clast_status clx_boundary_depths(const clx_depth_law *law, const double *u, int64_t n, double **z);
+/// All ranks' depths, or coordinates along an axis, in ascending order.
+typedef struct clx_depths {
+    clx_ranked ranked; ///< keys are the bits of the numbers
+    double before;     ///< the number before this rank's first, or 0
+} clx_depths;
+
+/// @param axis  -1: depths
+clast_status clx_depths_sort(const clx_depth_law *law, const clx_part *part, int32_t axis,
+                             clx_depths *depths);
+void clx_depths_free(clx_depths *depths);
+
+/// clx_depth_distance of all ranks' depths, on every rank.
+clast_status clx_depths_distance(const clx_depth_law *law, const clx_part *part,
+                                 const clx_depths *depths, double *distance);
+
+/// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
+clast_status clx_depths_trapezoid(const clx_depth_law *law, const clx_part *part,
+                                  const clx_depths *depths, double *distance);
 
 /// Side lengths of the box that the unit cube stands for in boundary scores: a box's own, 1 for
 /// mapped domains.

@@ -2,6 +2,7 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "cloud/boundary_score.h"
 #include "cloud/cells.h"
 #include "cloud/contract.h"
@@ -12,6 +13,7 @@
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"
+#include "cloud/uniformity.h"
 #include "cloud/uniformity_tree.h"
 #include <math.h>
 #include <string.h>
@@ -166,7 +168,8 @@ done:
     return status;
 }
 
-/// The cell of every real point of the cloud, given that of each point of the sample.
+/// The cell of every real point of the cloud, given that of each point of the sample; counts of all
+/// ranks.
 static void tell_points(const clx_sample *m, const int32_t *of_sample, clast_cells *cells)
 {
     for (int64_t i = 0; i < m->n; ++i) {
@@ -176,11 +179,12 @@ static void tell_points(const clx_sample *m, const int32_t *of_sample, clast_cel
             ++cells->count[c];
         }
     }
+    clx_comm_sum(m->comm, cells->count, cells->n);
 }
 
 static clast_status one_cell(const clx_sample *m, clast_cells *cells)
 {
-    const clast_status status = alloc_cells(cells, 1);
+    const clast_status status = clast_comm_agree(m->comm, alloc_cells(cells, 1), NULL);
     if (status == CLAST_OK) {
         for (int k = 0; k < 3; ++k) {
             cells->high[0][k] = 1.0;
@@ -241,11 +245,11 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
                                                config->tree_least, config->variable_tolerance,
                                                config->tree_refine};
     CLX_TRY(take_variable(cloud, m, &variable));
-    const clx_uniformity_tree_points points = {m->u, m->n_test, m->n,
-                                               d,    variable,  is_uneven(&result->before, config)};
-    CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
+    const clx_uniformity_tree_points points = {
+        m->comm, m->u, m->n_test, m->n, d, variable, is_uneven(&result->before, config)};
+    CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&of_sample, m->n, sizeof *of_sample), NULL));
     CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_sample));
-    CLX_TRY(alloc_cells(cells, tree.n));
+    CLX_TRY(clast_comm_agree(m->comm, alloc_cells(cells, tree.n), NULL));
     for (int32_t c = 0; c < tree.n; ++c) {
         cells->volume[c] = 1.0;
         for (int32_t j = 0; j < d; ++j) {
@@ -301,13 +305,17 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     int32_t *cell = NULL;
     int32_t *of_sample = NULL;
     int32_t n_cell = 0;
-    CLX_TRY(clx_passes_run(m->u, m->n_test, m->domain, config, result, &passes));
-    CLX_TRY(clx_alloc(&cell, passes.bins.n_bin, sizeof *cell));
+    const clx_part part = clx_part_of(m->comm, m->u, m->n_test, m->domain->dimension);
+    CLX_TRY(clx_passes_run(&part, m->domain, config, result, &passes));
+    CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&cell, passes.bins.n_bin, sizeof *cell), NULL));
     const int32_t kind = config->mesh == CLAST_CELLS_AUTO ? CLAST_CELLS_BOXES : config->mesh;
     CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)kind, passes.tag, cell, &n_cell));
-    CLX_TRY(alloc_cells(&result->cells, n_cell));
+    status = alloc_cells(&result->cells, n_cell);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&of_sample, m->n, sizeof *of_sample);
+    }
+    CLX_TRY(clast_comm_agree(m->comm, status, NULL));
     gather_bins(&passes, cell, &result->cells);
-    CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
     for (int64_t i = 0; i < m->n; ++i) {
         of_sample[i] = cell[clx_bins_of(&passes.bins, m->u + i * m->domain->dimension)];
     }
@@ -464,8 +472,8 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
     const bool is_tree = takes_tree(config);
-    if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
-        result->stop = m->n_test < 5           ? CLAST_STOP_UNTESTED
+    if (result->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
+        result->stop = result->n_test < 5      ? CLAST_STOP_UNTESTED
                        : result->before.reject ? CLAST_STOP_TESTED
                                                : CLAST_STOP_ACCEPTED;
         return one_cell(m, &result->cells);
@@ -507,10 +515,11 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
     clast_status status = CLAST_OK;
     clast_uniformity_config vote;
     double side[3];
+    const clx_part part =
+        clx_part_of(sample->comm, sample->u, sample->n_test, sample->domain->dimension);
     clx_domain_sides(sample->domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
-    CLX_TRY(clast_uniformity_test(sample->u, sample->n_test, sample->domain->dimension, side, &vote,
-                                  found));
+    CLX_TRY(clx_uniformity_test(&part, side, &vote, found));
 done:
     return status;
 }
@@ -521,10 +530,11 @@ clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sam
     clast_status status = CLAST_OK;
     int32_t **of_point = &result->cells.of_point;
     result->dimension = cloud->dimension;
-    result->n = sample->n_real;
-    result->n_test = sample->n_test;
-    result->n_outside = cloud->n - sample->n_real;
-    CLX_TRY(clx_alloc(of_point, cloud->n, sizeof **of_point));
+    result->n = sample->n_real_all;
+    result->n_test = clx_comm_total(sample->comm, sample->n_test);
+    result->n_outside = sample->n_outside_all;
+    result->n_here = cloud->n;
+    CLX_TRY(clast_comm_agree(sample->comm, clx_alloc(of_point, cloud->n, sizeof **of_point), NULL));
     memset(*of_point, 0xff, (size_t)cloud->n * sizeof **of_point);
     CLX_TRY(make_cells(cloud, sample, config, result));
     if (sample->domain->kind == CLAST_DOMAIN_MESH) {
@@ -545,7 +555,7 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, cached, result));
-    CLX_TRY(clx_pair_events(sample->domain, cloud, config, result));
+    CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
@@ -555,17 +565,53 @@ done:
     return status;
 }
 
-clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
-                                const clast_decompose_config *config, clast_decomposition *result)
+/// What needs all points in one place, or sums whose order is that of the points.
+static clast_status check_ranks(const clast_domain *domain, const clast_cloud *cloud,
+                                const clast_decompose_config *config)
+{
+    clast_status status = CLAST_OK;
+    const struct {
+        bool is_asked;
+        const char *what;
+    } single[] = {{domain->kind == CLAST_DOMAIN_MESH, "a mesh as domain"},
+                  {cloud->weight != NULL, "weights"},
+                  {cloud->variable != NULL, "a variable"},
+                  {config->ghost_samples > 0, "expected scores by sampling (--ghost-samples)"},
+                  {config->crossfit, "cross-fitting"}};
+    for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
+        CLX_CHECK(!single[k].is_asked, CLAST_E_CONFIG,
+                  "one cloud over ranks has no %s: run it as one process", single[k].what);
+    }
+done:
+    return status;
+}
+
+static clast_status check_call(const clast_comm *comm, const clast_domain *domain,
+                               const clast_cloud *cloud, const clast_decompose_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(config);
+    CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
+    CLX_TRY(clx_decompose_check(domain, cloud, config));
+    if (comm->n_rank > 1) {
+        CLX_TRY(check_ranks(domain, cloud, config));
+    }
+done:
+    return status;
+}
+
+clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
+                                   const clast_cloud *cloud, const clast_decompose_config *config,
+                                   clast_decomposition *result)
 {
     CLX_ARGUMENTS(domain, cloud, config, result);
     clast_status status = CLAST_OK;
+    const clast_comm *all = clx_comm_or_one(comm);
     clast_decomposition made = {0};
     clx_sample m = {0};
-    CLX_NEED(config);
     CLX_NEED(result);
-    CLX_TRY(clx_decompose_check(domain, cloud, config));
-    CLX_TRY(clx_sample_make(cloud, config, domain, &m));
+    CLX_TRY(clast_comm_agree(all, check_call(all, domain, cloud, config), NULL));
+    CLX_TRY(clx_sample_make(all, cloud, config, domain, &m));
     CLX_TRY(clx_decompose_test(&m, config, &made.before));
     CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
     CLX_TRY(clx_decompose_events(cloud, &m, config, NULL, &made));
@@ -575,6 +621,12 @@ done:
     clast_decomposition_free(&made);
     clx_sample_free(&m);
     return status;
+}
+
+clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
+                                const clast_decompose_config *config, clast_decomposition *result)
+{
+    return clast_decompose_ranks(NULL, domain, cloud, config, result);
 }
 
 clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,

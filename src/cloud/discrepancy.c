@@ -2,13 +2,14 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
-#include "base/parallel.h"
 #include "cloud/contract.h"
 #include "cloud/pair_sums.h"
+#include "cloud/uniformity.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 
-enum { EXACT_LIMIT = 20000, POINTS_A_BLOCK = 65536 };
+enum { EXACT_LIMIT = 20000 };
 
 /// Constants per coordinate.  [docs/theory/uniformity.md table 1]
 typedef struct {
@@ -38,59 +39,26 @@ static void diagonal(double x, double factor[CLAST_N_DISCREPANCY])
     factor[CLAST_DISCREPANCY_STAR] = 2.0 - x;
 }
 
-typedef struct {
-    double one[CLAST_N_DISCREPANCY], diagonal[CLAST_N_DISCREPANCY];
-} sums;
-
-typedef struct {
-    const double *u;
-    int32_t d;
-    sums *block; ///< one per block of points, added in order
-} sum_context;
-
-static void sum_points(int64_t begin, int64_t end, int32_t worker, void *context)
+/// One-point factors, then factors of the point with itself.
+static void point_terms(const double *x, clx_exact_sum *sum, const void *context)
 {
-    const sum_context *c = context;
-    sums total = {{0}, {0}};
-    (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        double one[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
-        double own[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
-        for (int32_t j = 0; j < c->d; ++j) {
-            double f[CLAST_N_DISCREPANCY];
-            double g[CLAST_N_DISCREPANCY];
-            one_point(c->u[i * c->d + j], f);
-            diagonal(c->u[i * c->d + j], g);
-            for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-                one[k] *= f[k];
-                own[k] *= g[k];
-            }
-        }
+    const int32_t d = *(const int32_t *)context;
+    double one[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
+    double own[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
+    for (int32_t j = 0; j < d; ++j) {
+        double f[CLAST_N_DISCREPANCY];
+        double g[CLAST_N_DISCREPANCY];
+        one_point(x[j], f);
+        diagonal(x[j], g);
         for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-            total.one[k] += one[k];
-            total.diagonal[k] += own[k];
+            one[k] *= f[k];
+            own[k] *= g[k];
         }
     }
-    c->block[begin / POINTS_A_BLOCK] = total;
-}
-
-static clast_status point_sums(const double *u, int64_t n, int32_t d, sums *total)
-{
-    clast_status status = CLAST_OK;
-    const int64_t n_block = (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK;
-    sum_context context = {u, d, NULL};
-    CLX_TRY(clx_alloc(&context.block, n_block, sizeof *context.block));
-    clx_parallel_for(n, POINTS_A_BLOCK, sum_points, &context);
-    *total = (sums){{0}, {0}};
-    for (int64_t b = 0; b < n_block; ++b) {
-        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-            total->one[k] += context.block[b].one[k];
-            total->diagonal[k] += context.block[b].diagonal[k];
-        }
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        clx_exact_add(&sum[k], one[k]);
+        clx_exact_add(&sum[CLAST_N_DISCREPANCY + k], own[k]);
     }
-done:
-    clx_free(context.block);
-    return status;
 }
 
 /// Liang's T = n v' S^-1 v with the exact covariance of v = (U1 - M^d, U2 - M^d).
@@ -125,31 +93,54 @@ static void statistics(const constants *c, int64_t n_point, int32_t d, clast_dis
     r->p_T = clx_chi2_sf(r->T, 2.0);
 }
 
+static clast_status pair_sums(const clx_part *part, clast_sums method, double *pair)
+{
+    clast_status status = CLAST_OK;
+    double *u = NULL;
+    if (method == CLAST_SUMS_EXACT || (method == CLAST_SUMS_AUTO && part->n_all <= EXACT_LIMIT)) {
+        CLX_TRY(clx_part_share(part, &u));
+        status = clx_pair_sums_exact(u, part->n_all, part->d, pair);
+        CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    } else {
+        CLX_TRY(clx_pair_sums_binned(part, pair));
+    }
+done:
+    clx_free(u);
+    return status;
+}
+
+clast_status clx_discrepancy_test(const clx_part *part, clast_sums method,
+                                  clast_discrepancy *result)
+{
+    clast_status status = CLAST_OK;
+    double total[2 * CLAST_N_DISCREPANCY];
+    double pair[CLAST_N_DISCREPANCY];
+    const int32_t d = part->d;
+    const double n = (double)part->n_all;
+    CLX_TRY(clx_part_sum(part, part->u, point_terms, &d, 2 * CLAST_N_DISCREPANCY, total));
+    CLX_TRY(pair_sums(part, method, pair));
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        clast_discrepancy *r = &result[k];
+        r->U1 = total[k] / n;
+        r->U2 = pair[k] / (n * (n - 1.0));
+        r->D2 = pow(table[k].mean, d) - 2.0 * r->U1 + (n - 1.0) * r->U2 / n +
+                total[CLAST_N_DISCREPANCY + k] / (n * n);
+        statistics(&table[k], part->n_all, d, r);
+    }
+done:
+    return status;
+}
+
 clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d, clast_sums method,
                                     clast_discrepancy *result)
 {
     CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
-    sums total;
-    double pair[CLAST_N_DISCREPANCY];
     CLX_TRY(clx_cube_check(u, n, d, 2, "a discrepancy"));
     CLX_CHECK((unsigned)method <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
               (int)method);
-    CLX_TRY(point_sums(u, n, d, &total));
-    if (method == CLAST_SUMS_EXACT || (method == CLAST_SUMS_AUTO && n <= EXACT_LIMIT)) {
-        CLX_TRY(clx_pair_sums_exact(u, n, d, pair));
-    } else {
-        CLX_TRY(clx_pair_sums_binned(u, n, d, pair));
-    }
-    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-        clast_discrepancy *r = &result[k];
-        const double count = (double)n;
-        r->U1 = total.one[k] / count;
-        r->U2 = pair[k] / (count * (count - 1.0));
-        r->D2 = pow(table[k].mean, d) - 2.0 * r->U1 + (count - 1.0) * r->U2 / count +
-                total.diagonal[k] / (count * count);
-        statistics(&table[k], n, d, r);
-    }
+    const clx_part part = clx_part_whole(u, n, d);
+    CLX_TRY(clx_discrepancy_test(&part, method, result));
 done:
     return status;
 }

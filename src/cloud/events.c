@@ -3,6 +3,7 @@
 #include "cloud/events.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "cloud/pair_count.h"
 #include "cloud/pair_events.h"
 #include "cloud/resolution.h"
@@ -12,6 +13,7 @@
 
 enum { MOST_PARTS = 8, N_POWER = 4 };
 
+static const double one_cell = 2.0;     ///< standard errors that pairs may show beyond one cell
 static const double most_carried = 2.0; ///< factor by which a count's pairs in cells may change
                                         ///< before it is made anew
 
@@ -29,9 +31,10 @@ typedef struct {
     double scale; ///< volume of the domain over the sum of the cells' volumes
     double rate;  ///< beta dt; 1 where it is not known, and nothing is capped
     bool is_printed;
-    bool is_plain;     ///< nothing is extrapolated
-    part *cell;        ///< [cells->n]
-    part *half;        ///< [n_half][2^d] halves of the cells of group -2, -3 ..
+    bool is_plain; ///< nothing is extrapolated
+    part *cell;    ///< [cells->n]
+    part *half;    ///< [n_half] 2^d halves of each of the cells of group -2, -3 ..
+    int64_t n_half;
     bool *capped;      ///< [cells->n]
     double pairs;      ///< sum of K_ij w_i w_j over i != j where no cell is capped
     double variance;   ///< of that sum, and where is_certified of its systematic error too
@@ -65,6 +68,29 @@ static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t
     return half;
 }
 
+/// Makes halves of the cells hold the points of all ranks, which have no weights.
+static clast_status add_ranks(count *n)
+{
+    clast_status status = CLAST_OK;
+    int64_t *points = NULL;
+    if (n->sample->comm->n_rank > 1) {
+        CLX_TRY(
+            clast_comm_agree(n->sample->comm, clx_alloc(&points, n->n_half, sizeof *points), NULL));
+        for (int64_t h = 0; h < n->n_half; ++h) {
+            points[h] = (int64_t)n->half[h].power[0];
+        }
+        clx_comm_sum(n->sample->comm, points, n->n_half);
+        for (int64_t h = 0; h < n->n_half; ++h) {
+            for (int k = 0; k < N_POWER; ++k) {
+                n->half[h].power[k] = (double)points[h];
+            }
+        }
+    }
+done:
+    clx_free(points);
+    return status;
+}
+
 static clast_status fill_parts(count *n)
 {
     clast_status status = CLAST_OK;
@@ -87,6 +113,7 @@ static clast_status fill_parts(count *n)
             add_weight(&n->cell[c], w);
         }
     }
+    CLX_TRY(add_ranks(n));
     for (int32_t c = 0; c < n->cells->n; ++c) {
         n->cell[c].volume = n->scale * n->cells->volume[c];
         for (int k = 0; k < N_POWER && n->cloud->weight == NULL; ++k) {
@@ -241,14 +268,14 @@ static double count_all(const count *n)
 }
 
 /// Whether the one cell that the tests left agrees with what the pairs show: it is then the better
-/// value, for a uniform cloud's number of pairs is known without error.
+/// value, for a uniform cloud's number of pairs is known without error. It is never too high.
 static bool is_one_cell(const count *n, const clx_resolution *shown, double all)
 {
     const double error = log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value;
     const double between = error * error - n->variance; // finer cells add what is independent
     const double small = fmin(0.9 * CLX_MOST_BIAS * all, 0.5 * error);
     return n->cells->n == 1 && !n->capped[0] && between < 4e-4 * all * all &&
-           shown->value - all <= fmax(small, 3.0 * sqrt(fmax(0.0, between))); // never too high
+           shown->value - all <= fmax(small, one_cell * sqrt(fmax(0.0, between)));
 }
 
 /// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are
@@ -341,8 +368,13 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_reso
     CLX_TRY(clast_fields_default(clast_pairs_fields, &how));
     how.radius = n->config->pairs_radius;
     how.outside = n->config->outside;
-    CLX_TRY(clx_pairs_count(n->sample->domain, n->cloud, &how, ladder, &pairs));
-    const clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
+    CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, n->cloud, &how, ladder, &pairs));
+    clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
+    if (e.resolved && isinf(pairs.integral.scale) && n->cells->n > 1) { // the tests saw structure
+        e.resolved = false;
+        e.high = INFINITY;
+        pairs.integral.n_needed = INFINITY;
+    }
     if (isfinite(e.value)) {
         *shown = (clx_resolution){.value = factor * e.value,
                                   .low = factor * e.low,
@@ -403,7 +435,7 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
         found->cells = scaled(cached->cells, all);
         return CLAST_OK;
     }
-    CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
+    CLX_TRY(clx_ladder_count(n->sample->comm, n->sample, n->cloud->weight, &ladder));
     found->relative = found->cells = clx_resolution_of(&ladder);
     if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
         !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {
@@ -448,7 +480,8 @@ static clast_status alloc_parts(count *n)
         n_halved = k >= n_halved ? (int64_t)k + 1 : n_halved;
     }
     CLX_TRY(clx_alloc(&n->cell, n->cells->n, sizeof *n->cell));
-    CLX_TRY(clx_alloc(&n->half, n_halved << n->cloud->dimension, sizeof *n->half));
+    n->n_half = n_halved << n->cloud->dimension;
+    CLX_TRY(clx_alloc(&n->half, n->n_half, sizeof *n->half));
     CLX_TRY(clx_alloc(&n->capped, n->cells->n, sizeof *n->capped));
 done:
     return status;
@@ -469,7 +502,7 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
                .rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0,
                .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
-    CLX_TRY(alloc_parts(&n));
+    CLX_TRY(clast_comm_agree(sample->comm, alloc_parts(&n), NULL));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
     CLX_TRY(find_shown(&n, cached, &shown, result));

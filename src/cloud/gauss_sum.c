@@ -4,6 +4,8 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "math/sort.h"
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +14,7 @@ enum {
     POINTS_A_BLOCK = 16384,
     HALF_WIDTH = 26, ///< kernel coefficients kept on each side
     SYSTEM = 40,     ///< half-size of the system that finds them
+    CHUNK = 1 << 20, ///< points that are put in order at once
     TILE = 64,       ///< lines that are convolved side by side
     GROUP = 8, ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
     MARGIN = 2 ///< nodes beyond the outermost points
@@ -96,16 +99,18 @@ static void kernel_coefficients(double kernel[HALF_WIDTH + 1])
 }
 
 typedef struct {
-    const double *y;
+    const double *y; ///< of the chunk
     int64_t n;
     int32_t d;
     double h;
+    double unit;      ///< nodes are counted in 1 / unit
     double low[3];    ///< of node 0
-    int64_t count[3]; ///< nodes, 1 beyond d
+    int64_t nodes[3]; ///< along each axis, 1 beyond d
     int64_t size;
-    double *node, *other; ///< [size]
-    int64_t *start;       ///< [count[0] + 1] points by slab of axis 0
-    clx_keyed *order;     ///< [n] points by column
+    int64_t *count;       ///< [size] of this rank's points, then of all
+    double *node, *other; ///< [size], on rank 0
+    int64_t *start;       ///< [nodes[0] + 1] points by slab of axis 0
+    clx_keyed *order;     ///< [CHUNK] points by column
     double kernel[HALF_WIDTH + 1];
 } grid;
 
@@ -135,10 +140,11 @@ static void spread_point(grid *g, const double *x)
     }
     for (int a = 0; a < width[0]; ++a) {
         for (int b = 0; b < width[1]; ++b) {
-            double *row =
-                g->node + ((first[0] + a) * g->count[1] + first[1] + b) * g->count[2] + first[2];
+            int64_t *row =
+                g->count + ((first[0] + a) * g->nodes[1] + first[1] + b) * g->nodes[2] + first[2];
+            const double both = w[0][a] * w[1][b] * g->unit;
             for (int c = 0; c < width[2]; ++c) {
-                row[c] += w[0][a] * w[1][b] * w[2][c];
+                row[c] += (int64_t)(both * w[2][c] + 0.5);
             }
         }
     }
@@ -155,7 +161,7 @@ static void spread_groups(int64_t begin, int64_t end, int32_t worker, void *cont
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const int64_t slab = (2 * i + c->parity) * GROUP;
-        const int64_t last = slab + GROUP < c->g->count[0] ? slab + GROUP : c->g->count[0];
+        const int64_t last = slab + GROUP < c->g->nodes[0] ? slab + GROUP : c->g->nodes[0];
         for (int64_t p = slab < last ? c->g->start[slab] : 0; slab < last && p < c->g->start[last];
              ++p) {
             spread_point(c->g, c->g->y + (int64_t)c->g->order[p].item * c->g->d);
@@ -169,7 +175,7 @@ static int64_t column_of(const grid *g, int64_t i)
     double unused[4];
     const double *y = g->y + i * g->d;
     const int64_t slab = spline_weights(g, y[0], 0, unused);
-    return g->d > 1 ? slab * g->count[1] + spline_weights(g, y[1], 1, unused) : slab;
+    return g->d > 1 ? slab * g->nodes[1] + spline_weights(g, y[1], 1, unused) : slab;
 }
 
 static void take_columns(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -184,11 +190,11 @@ static void take_columns(int64_t begin, int64_t end, int32_t worker, void *conte
 /// Points by column, so that neighbours on the grid follow each other; in index order within one.
 static clast_status sort_by_column(grid *g)
 {
-    const uint64_t width = g->d > 1 ? (uint64_t)g->count[1] : 1;
+    const uint64_t width = g->d > 1 ? (uint64_t)g->nodes[1] : 1;
     clx_parallel_for(g->n, POINTS_A_BLOCK, take_columns, g);
     const clast_status status = clx_sort_keyed(g->order, g->n);
     int64_t at = 0;
-    for (int64_t slab = 0; slab <= g->count[0]; ++slab) { // first point at or behind the slab
+    for (int64_t slab = 0; slab <= g->nodes[0]; ++slab) { // first point at or behind the slab
         int64_t end = g->n;
         while (at < end) {
             const int64_t middle = at + (end - at) / 2;
@@ -231,33 +237,52 @@ static void take_spans(int64_t begin, int64_t end, int32_t worker, void *context
     }
 }
 
-static clast_status lay_grid(grid *g)
+/// Least and greatest coordinates of all ranks' points.
+static void find_ends(const clx_part *part, grid *g, double low[3], double high[3])
+{
+    spans s = {.g = g};
+    if (part->n > 0) {
+        clx_parallel_for(N_SPAN, 1, take_spans, &s);
+    }
+    for (int32_t j = 0; j < g->d; ++j) {
+        low[j] = part->n > 0 ? s.low[0][j] : (double)INFINITY;
+        high[j] = part->n > 0 ? s.high[0][j] : -(double)INFINITY;
+        for (int span = 1; span < N_SPAN && part->n > 0; ++span) {
+            low[j] = fmin(low[j], s.low[span][j]);
+            high[j] = fmax(high[j], s.high[span][j]);
+        }
+        low[j] = clx_comm_least(part->comm, low[j]);
+        high[j] = -clx_comm_least(part->comm, -high[j]);
+    }
+}
+
+static clast_status lay_grid(const clx_part *part, grid *g)
 {
     clast_status status = CLAST_OK;
-    spans s = {.g = g};
+    double low[3] = {0};
+    double high[3] = {0};
     g->size = 1;
-    clx_parallel_for(N_SPAN, 1, take_spans, &s);
+    find_ends(part, g, low, high);
     for (int32_t j = 0; j < 3; ++j) {
         g->low[j] = 0.0;
-        g->count[j] = 1;
+        g->nodes[j] = 1;
         if (j < g->d) {
-            double high = s.high[0][j];
-            g->low[j] = s.low[0][j];
-            for (int span = 1; span < N_SPAN; ++span) {
-                g->low[j] = fmin(g->low[j], s.low[span][j]);
-                high = fmax(high, s.high[span][j]);
-            }
-            g->low[j] -= MARGIN * g->h;
-            g->count[j] = (int64_t)ceil((high - g->low[j]) / g->h) + MARGIN + 1;
+            g->low[j] = low[j] - MARGIN * g->h;
+            g->nodes[j] = (int64_t)ceil((high[j] - g->low[j]) / g->h) + MARGIN + 1;
         }
-        g->size *= g->count[j];
+        g->size *= g->nodes[j];
         CLX_CHECK(g->size <= INT64_C(1) << 31, CLAST_E_LIMIT,
                   "the grid of the Henze-Zirkler test needs more than 2^31 nodes");
     }
-    CLX_TRY(clx_alloc(&g->node, g->size, sizeof *g->node));
-    CLX_TRY(clx_alloc(&g->other, g->size, sizeof *g->other));
-    CLX_TRY(clx_alloc(&g->start, g->count[0] + 1, sizeof *g->start));
-    CLX_TRY(clx_alloc(&g->order, g->n, sizeof *g->order));
+    const int64_t most = part->n < CHUNK ? part->n : CHUNK;
+    status = clx_alloc(&g->count, g->size, sizeof *g->count);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&g->start, g->nodes[0] + 1, sizeof *g->start);
+    }
+    if (status == CLAST_OK) {
+        status = clx_alloc(&g->order, most, sizeof *g->order);
+    }
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
 done:
     return status;
 }
@@ -354,8 +379,8 @@ static clast_status quadratic_form(grid *g, double *sum)
     const double zero[TILE] = {0};
     CLX_TRY(clx_alloc(&spare, g->d > 1 ? g->size : 1, sizeof *spare));
     for (int32_t j = 0; j < g->d; ++j) {
-        stride /= g->count[j];
-        convolution c = {g, from, to, g->count[j], stride, zero, NULL};
+        stride /= g->nodes[j];
+        convolution c = {g, from, to, g->nodes[j], stride, zero, NULL};
         CLX_TRY(convolve(&c));
         from = to;
         to = to == g->other ? spare : g->other;
@@ -369,20 +394,73 @@ done:
     return status;
 }
 
-clast_status clx_gauss_sum_gridded(const double *y, int64_t n, int32_t d, double beta, double *sum)
+/// Spreads this rank's points, chunk by chunk.
+static clast_status spread(const clx_part *part, grid *g)
 {
-    CLAST_ASSERT(n > 0 && d >= 1 && d <= 3 && beta > 0.0);
     clast_status status = CLAST_OK;
-    grid g = {.y = y, .n = n, .d = d, .h = SPACING / beta};
-    kernel_coefficients(g.kernel);
-    CLX_TRY(lay_grid(&g));
-    CLX_TRY(sort_by_column(&g));
-    for (int parity = 0; parity < 2; ++parity) {
-        colour c = {&g, parity};
-        clx_parallel_for((g.count[0] + 2 * GROUP - 1) / (2 * GROUP), 1, spread_groups, &c);
+    for (int64_t at = 0; at < part->n; at += CHUNK) {
+        g->y = part->u + at * g->d;
+        g->n = part->n - at < CHUNK ? part->n - at : CHUNK;
+        CLX_TRY(sort_by_column(g));
+        for (int parity = 0; parity < 2; ++parity) {
+            colour c = {g, parity};
+            clx_parallel_for((g->nodes[0] + 2 * GROUP - 1) / (2 * GROUP), 1, spread_groups, &c);
+        }
     }
-    CLX_TRY(quadratic_form(&g, sum));
 done:
+    return status;
+}
+
+/// The quadratic form of all ranks' nodes, on rank 0.
+static clast_status evaluate(grid *g, double *sum)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&g->node, g->size, sizeof *g->node));
+    for (int64_t i = 0; i < g->size; ++i) {
+        g->node[i] = (double)g->count[i] / g->unit;
+    }
+    clx_free(g->count);
+    g->count = NULL;
+    CLX_TRY(clx_alloc(&g->other, g->size, sizeof *g->other));
+    CLX_TRY(quadratic_form(g, sum));
+done:
+    return status;
+}
+
+/// A power of two that lets n weights of at most 1 be added in 62 bits.
+static double unit_of(int64_t n)
+{
+    int bits = 0;
+    while (n >> bits > 0) {
+        ++bits;
+    }
+    return ldexp(1.0, 62 - bits);
+}
+
+clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *sum)
+{
+    CLAST_ASSERT(part->n_all > 0 && part->d >= 1 && part->d <= 3 && beta > 0.0);
+    clast_status status = CLAST_OK;
+    grid g = {.y = part->u,
+              .n = part->n,
+              .d = part->d,
+              .h = SPACING / beta,
+              .unit = unit_of(part->n_all)};
+    kernel_coefficients(g.kernel);
+    CLX_TRY(lay_grid(part, &g));
+    CLX_TRY(clast_comm_agree(part->comm, spread(part, &g), NULL));
+    clx_free(g.order);
+    g.order = NULL;
+    clx_comm_sum(part->comm, g.count, g.size);
+    if (part->comm->rank > 0) {
+        clx_free(g.count);
+        g.count = NULL;
+    }
+    status = part->comm->rank == 0 ? evaluate(&g, sum) : CLAST_OK;
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    part->comm->broadcast(part->comm->context, 0, sum, (int64_t)sizeof *sum);
+done:
+    clx_free(g.count);
     clx_free(g.node);
     clx_free(g.other);
     clx_free(g.start);

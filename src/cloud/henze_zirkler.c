@@ -6,7 +6,9 @@
 #include "base/parallel.h"
 #include "cloud/contract.h"
 #include "cloud/gauss_sum.h"
+#include "cloud/uniformity.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 
 enum { EXACT_LIMIT = 2000, POINTS_A_BLOCK = 16384 };
@@ -26,71 +28,52 @@ static void take_scores(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
-/// Sums over the points of a block; blocks are added in order.
+/// What sums over the scores need.
 typedef struct {
-    double sum[3], product[3][3], gauss;
-} block_sums;
-
-typedef struct {
-    const double *centre; ///< NULL: first pass
-    double (*l)[3];       ///< Cholesky factor
-    double *y;
     int32_t d;
-    double narrow; ///< of the exponential
-    block_sums *block;
-} block_context;
+    double centre[3];
+    double l[3][3]; ///< Cholesky factor
+    double narrow;  ///< of the exponential
+} scores;
 
-static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
+static void score_terms(const double *y, clx_exact_sum *sum, const void *context)
 {
-    const block_context *c = context;
-    const int32_t d = c->d;
-    block_sums s = {{0}, {{0}}, 0.0};
-    (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        for (int32_t a = 0; a < d; ++a) {
-            const double off = c->y[i * d + a] - (c->centre != NULL ? c->centre[a] : 0.0);
-            s.sum[a] += off;
-            for (int32_t b = 0; b <= a && c->centre != NULL; ++b) {
-                s.product[a][b] += off * (c->y[i * d + b] - c->centre[b]);
-            }
-        }
+    const scores *c = context;
+    for (int32_t a = 0; a < c->d; ++a) {
+        clx_exact_add(&sum[a], y[a]);
     }
-    c->block[begin / POINTS_A_BLOCK] = s;
 }
 
-static int64_t n_block_of(int64_t n)
+static void product_terms(const double *y, clx_exact_sum *sum, const void *context)
 {
-    return (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK;
+    const scores *c = context;
+    for (int32_t a = 0; a < c->d; ++a) {
+        for (int32_t b = 0; b <= a; ++b) {
+            clx_exact_add(&sum[3 * a + b], (y[a] - c->centre[a]) * (y[b] - c->centre[b]));
+        }
+    }
 }
 
 /// Mean, then covariance about it.
-static void moments(block_context *c, int64_t n, clast_henze_zirkler *r)
+static clast_status moments(const clx_part *part, const double *y, scores *c,
+                            clast_henze_zirkler *r)
 {
-    const int32_t d = c->d;
-    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
-    for (int64_t k = 0; k < n_block_of(n); ++k) {
-        for (int32_t j = 0; j < d; ++j) {
-            r->centre[j] += c->block[k].sum[j];
-        }
+    clast_status status = CLAST_OK;
+    double product[3][3];
+    CLX_TRY(clx_part_sum(part, y, score_terms, c, 3, c->centre));
+    for (int32_t j = 0; j < c->d; ++j) {
+        c->centre[j] /= (double)part->n_all;
+        r->centre[j] = c->centre[j];
     }
-    for (int32_t j = 0; j < d; ++j) {
-        r->centre[j] /= (double)n;
-    }
-    c->centre = r->centre;
-    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
-    for (int64_t k = 0; k < n_block_of(n); ++k) {
-        for (int32_t a = 0; a < d; ++a) {
-            for (int32_t b = 0; b <= a; ++b) {
-                r->covariance[a][b] += c->block[k].product[a][b];
-            }
-        }
-    }
-    for (int32_t a = 0; a < d; ++a) {
+    CLX_TRY(clx_part_sum(part, y, product_terms, c, 9, product[0]));
+    for (int32_t a = 0; a < c->d; ++a) {
         for (int32_t b = 0; b <= a; ++b) {
-            r->covariance[a][b] /= (double)n;
+            r->covariance[a][b] = product[a][b] / (double)part->n_all;
             r->covariance[b][a] = r->covariance[a][b];
         }
     }
+done:
+    return status;
 }
 
 /// Lower Cholesky factor; false when the covariance is singular to rounding.
@@ -116,26 +99,36 @@ static bool factor(double covariance[3][3], int32_t d, double l[3][3])
     return true;
 }
 
-/// Whitens the scores of a block and sums their Gaussians.
+typedef struct {
+    const scores *scores;
+    double *y;
+} whitening;
+
 static void whiten_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    const block_context *c = context;
-    const int32_t d = c->d;
-    double gauss = 0.0;
+    const whitening *w = context;
+    const scores *c = w->scores;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        double r2 = 0.0;
-        for (int32_t a = 0; a < d; ++a) {
-            double sum = c->y[i * d + a] - c->centre[a];
+        double *y = w->y + i * c->d;
+        for (int32_t a = 0; a < c->d; ++a) {
+            double sum = y[a] - c->centre[a];
             for (int32_t b = 0; b < a; ++b) {
-                sum -= c->l[a][b] * c->y[i * d + b];
+                sum -= c->l[a][b] * y[b];
             }
-            c->y[i * d + a] = sum / c->l[a][a];
-            r2 += c->y[i * d + a] * c->y[i * d + a];
+            y[a] = sum / c->l[a][a];
         }
-        gauss += exp(-c->narrow * r2);
     }
-    c->block[begin / POINTS_A_BLOCK].gauss = gauss;
+}
+
+static void gauss_terms(const double *y, clx_exact_sum *sum, const void *context)
+{
+    const scores *c = context;
+    double r2 = 0.0;
+    for (int32_t a = 0; a < c->d; ++a) {
+        r2 += y[a] * y[a];
+    }
+    clx_exact_add(sum, exp(-c->narrow * r2));
 }
 
 static void null_law(double b2, int32_t dimension, clast_henze_zirkler *r)
@@ -157,31 +150,70 @@ static void null_law(double b2, int32_t dimension, clast_henze_zirkler *r)
     r->log_sd = sqrt(log(1.0 + r->variance / m2));
 }
 
-/// Sum of exp(-b2 |y|^2 / (2 (1 + b2))) over whitened scores, which this makes.
-static double single_sum(block_context *c, int64_t n, double b2)
+/// Sum over pairs of whitened scores: one by one of a few, else on a grid.
+static clast_status pair_sum(const clx_part *part, double *y, clast_sums sums, double beta,
+                             double *pairs)
 {
-    double sum = 0.0;
-    c->narrow = b2 / (2.0 * (1.0 + b2));
-    clx_parallel_for(n, POINTS_A_BLOCK, whiten_block, c);
-    for (int64_t k = 0; k < n_block_of(n); ++k) {
-        sum += c->block[k].gauss;
+    clast_status status = CLAST_OK;
+    double *all = NULL;
+    const clx_part white = {part->comm, y, part->n, part->n_all, part->d};
+    if (sums == CLAST_SUMS_EXACT || (sums == CLAST_SUMS_AUTO && part->n_all <= EXACT_LIMIT)) {
+        CLX_TRY(clx_part_share(&white, &all));
+        status = clx_gauss_sum_exact(all, part->n_all, part->d, beta, pairs);
+        CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    } else {
+        CLX_TRY(clx_gauss_sum_gridded(&white, beta, pairs));
     }
-    return sum;
+done:
+    clx_free(all);
+    return status;
 }
 
-static clast_status statistic(block_context *c, int64_t n_point, clast_sums sums,
+static clast_status statistic(const clx_part *part, double *y, clast_sums sums, scores *c,
                               clast_henze_zirkler *r)
 {
+    clast_status status = CLAST_OK;
     double pairs = 0.0;
-    const int32_t d = c->d;
-    const double n = (double)n_point;
+    double singles = 0.0;
+    const int32_t d = part->d;
+    const double n = (double)part->n_all;
     const double b2 = r->beta * r->beta;
-    const bool exact =
-        sums == CLAST_SUMS_EXACT || (sums == CLAST_SUMS_AUTO && n_point <= EXACT_LIMIT);
-    const double singles = single_sum(c, n_point, b2);
-    const clast_status status = exact ? clx_gauss_sum_exact(c->y, n_point, d, r->beta, &pairs)
-                                      : clx_gauss_sum_gridded(c->y, n_point, d, r->beta, &pairs);
+    whitening w = {c, y};
+    c->narrow = b2 / (2.0 * (1.0 + b2));
+    clx_parallel_for(part->n, POINTS_A_BLOCK, whiten_block, &w);
+    CLX_TRY(clx_part_sum(part, y, gauss_terms, c, 1, &singles));
+    CLX_TRY(pair_sum(part, y, sums, r->beta, &pairs));
     r->HZ = pairs / n - 2.0 * pow(1.0 + b2, -d / 2.0) * singles + n * pow(1.0 + 2.0 * b2, -d / 2.0);
+done:
+    return status;
+}
+
+clast_status clx_henze_zirkler_test(const clx_part *part, clast_sums sums,
+                                    clast_henze_zirkler *result)
+{
+    clast_status status = CLAST_OK;
+    clast_henze_zirkler made = {0};
+    const int32_t d = part->d;
+    const double n = (double)part->n_all;
+    score_context context = {part->u, d, NULL};
+    scores c = {.d = d};
+    CLX_TRY(
+        clast_comm_agree(part->comm, clx_alloc(&context.y, part->n * d, sizeof *context.y), NULL));
+    clx_parallel_for(part->n, POINTS_A_BLOCK, take_scores, &context);
+    made.beta = pow((2.0 * d + 1.0) * n / 4.0, 1.0 / (d + 4.0)) / sqrt(2.0);
+    null_law(made.beta * made.beta, d, &made);
+    CLX_TRY(moments(part, context.y, &c, &made));
+    if (factor(made.covariance, d, c.l)) {
+        CLX_TRY(statistic(part, context.y, sums, &c, &made));
+    } else {
+        made.HZ = 4.0 * n;
+    }
+    made.z = (log(made.HZ) - made.log_mean) / made.log_sd;
+    made.p = clx_normal_sf(made.z);
+    made.p_paper = clx_normal_sf(log(made.HZ));
+    *result = made;
+done:
+    clx_free(context.y);
     return status;
 }
 
@@ -190,31 +222,11 @@ clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, cla
 {
     CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
-    clast_henze_zirkler made = {0};
-    double l[3][3] = {{0}};
-    score_context context = {u, d, NULL};
-    block_context blocks = {.d = d, .l = l};
     CLX_TRY(clx_cube_check(u, n, d, 2, "a Henze-Zirkler test"));
     CLX_CHECK((unsigned)sums <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
               (int)sums);
-    CLX_TRY(clx_alloc(&context.y, n * d, sizeof *context.y));
-    CLX_TRY(clx_alloc(&blocks.block, n_block_of(n), sizeof *blocks.block));
-    clx_parallel_for(n, POINTS_A_BLOCK, take_scores, &context);
-    made.beta = pow((2.0 * d + 1.0) * (double)n / 4.0, 1.0 / (d + 4.0)) / sqrt(2.0);
-    null_law(made.beta * made.beta, d, &made);
-    blocks.y = context.y;
-    moments(&blocks, n, &made);
-    if (factor(made.covariance, d, l)) {
-        CLX_TRY(statistic(&blocks, n, sums, &made));
-    } else {
-        made.HZ = 4.0 * (double)n;
-    }
-    made.z = (log(made.HZ) - made.log_mean) / made.log_sd;
-    made.p = clx_normal_sf(made.z);
-    made.p_paper = clx_normal_sf(log(made.HZ));
-    *result = made;
+    const clx_part part = clx_part_whole(u, n, d);
+    CLX_TRY(clx_henze_zirkler_test(&part, sums, result));
 done:
-    clx_free(context.y);
-    clx_free(blocks.block);
     return status;
 }

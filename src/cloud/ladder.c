@@ -1,15 +1,20 @@
-// A walk down the tree of each shifted grid sorts the points along its Morton curve as far as cells
-// have pairs, adds every cell's pairs to its rung, and each point's own sum over pairs to the
-// point. With kernels K = sum a_r (mean over shifts of [same cell] / V_r) the sum over pairs of
-// K_ij w_i w_j has, for Poisson points, the variance 4 sum K_ij K_ik w_i^2 w_j w_k + 2 sum K_ij^2
-// w_i^2 w_j^2 over distinct points: a quadratic form in a.
+// A walk down the tree of each shifted grid, whose points are Morton codes in order, adds every
+// cell's pairs to its rung, and to some points (a stratified sample) their own sums over pairs.
+// With kernels K = sum a_r (mean over shifts of [same cell] / V_r) the sum over pairs of K_ij w_i
+// w_j has, for Poisson points, the variance 4 sum K_ij K_ik w_i^2 w_j w_k + 2 sum K_ij^2 w_i^2
+// w_j^2 over distinct points: a quadratic form in a.
 //
 // Grid m of N_SHIFT is shifted by the fractional parts of m (1, 2, 3) / N_SHIFT: N_SHIFT is odd, so
 // that at every halving the shifts are spread evenly along each axis. A plane where the density
 // jumps then costs the same at any place.
+//
+// Sums over cells know no order (math/exact_sum.h). Each rank walks the cells of its stretch of the
+// codes; of a cell that a border between two ranks cuts, all know the number of points beforehand,
+// and the last of them counts it. [docs/theory/cloud-ranks.md]
 #include "cloud/ladder.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include "math/morton.h"
@@ -18,7 +23,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { N_SHIFT = 5, DEEPEST = 18 };
+enum { N_SHIFT = 5, DEEPEST = 18, POINTS_A_BLOCK = 16384 };
 
 /// A rung needs so many pairs beside those of repeated points: less say nothing.
 static const double least_pairs = 4.0;
@@ -30,40 +35,54 @@ static const double enough_pairs = 500.0;
 /// sliver would weigh 125 times as much as others, and the sum stays a lower bound.
 static const double least_part = 0.02;
 
-/// Points that are sorted by comparing them, and bits that others are sorted by at once.
-enum { FEW = 24, MOST_BITS = 16 };
-
 /// Points that tell the covariance: a stratified sample of so many errs by less than 1 %.
 enum { ENOUGH = 32768 };
 
+/// Bits of a code by which sampled ones are looked up.
+enum { LOOK_UP_BITS = 16 };
+
+/// A point that tells the covariance: of those with one code the first by coordinates and weight.
+typedef struct {
+    uint64_t code; ///< in grid 0
+    double u[3], own;
+} sampled;
+
 typedef struct {
     const clx_sample *sample;
+    const clast_comm *comm;
     const double *weight;
     double volume;             ///< of the domain, of a mesh that of its bounding box
     double width[DEEPEST + 2]; ///< of a cell by its depth
     double least[DEEPEST + 2]; ///< volume that it is given at least
     double shift[3];
-    clx_keyed *point, *scratch; ///< [n] in the order of the grid; items: places in u and own
-    int32_t *count;             ///< [2^MOST_BITS]
-    double *u, *own;            ///< [n][d] points, [n] their weights, in the order of grid 0
-    int64_t n;
-    int thin;    ///< each 2^thin-th point along the curve stands for all in sums over triples
-    double *met; ///< [1 + (n - 1) / 2^thin][rungs] weight of its neighbours over volume, summed
-                 ///< over shifts
+    clx_ranked point;   ///< codes in the order of the grid
+    double *own;        ///< [n] weights in that order, or NULL (1)
+    int64_t *shared;    ///< [DEEPEST + 2][n_rank] points of the cell that holds point.first[k]
+    int64_t n_all;      ///< real points on all ranks
+    sampled *some;      ///< [n_some] along the curve of grid 0
+    clx_keyed *in_grid; ///< [n_some] their codes in the grid, ascending; items: places in `some`
+    int64_t n_some;
+    int64_t next;     ///< of in_grid: those before have been met or passed
+    double *met;      ///< [n_some][rungs] weight of its neighbours over volume, summed over shifts
+    double *met_here; ///< the same of one grid
     clx_ladder *ladder;
     double sum[CLX_LADDER_RUNGS], inverse[CLX_LADDER_RUNGS]; ///< weight and 1 / volume of the cells
                                                              ///< of the branch that is walked
     int64_t tally[DEEPEST + 1];                              ///< pairs in grid 0
-    double nested[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< [r][q] w_i^2 w_j^2 / (V V') of the cells
-                                                       ///< of two rungs, q <= r
+    int64_t n_pair[CLX_LADDER_RUNGS];                        ///< pairs in all grids
+    clx_exact_sum pairs[CLX_LADDER_RUNGS];
+    clx_exact_sum nested[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< [r][q] w_i^2 w_j^2 / (V V') of
+                                                              ///< the cells of two rungs, q <= r
 } ladder_walk;
 
 typedef struct {
-    int64_t begin, end;
-    int depth;     ///< halvings of the doubled cube
-    int ordered;   ///< depth down to which its points are in order
-    int64_t at[3]; ///< its number along each axis
-    bool is_cut;   ///< the domain's surface may cross it
+    int64_t begin, end; ///< points here
+    int64_t n;          ///< points on all ranks
+    int depth;          ///< halvings of the doubled cube
+    uint64_t low;       ///< its first code
+    int64_t at[3];      ///< its number along each axis
+    bool is_cut;        ///< the domain's surface may cross it
+    bool is_counted;    ///< by this rank
 } ladder_cell;
 
 /// Volume of the cell's part in the domain; is_cut is set back where the surface is out of reach.
@@ -97,149 +116,147 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
 static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
 {
     CLAST_ASSERT(cell->begin <= cell->end && r >= 0);
-    const double n = (double)(cell->end - cell->begin);
-    const double volume = cell_volume(w, cell);
+    const double n = (double)cell->n;
     double power[3] = {n, n, n}; // sums of w, w^2, w^4
-    if (w->weight != NULL) {
+    if (w->own != NULL) {
         memset(power, 0, sizeof power);
         for (int64_t i = cell->begin; i < cell->end; ++i) {
-            const double own = w->own[w->point[i].item];
+            const double own = w->own[i];
             power[0] += own;
             power[1] += own * own;
             power[2] += own * own * own * own;
         }
     }
+    const double volume = cell_volume(w, cell);
     w->sum[r] = power[0];
     w->inverse[r] = 1.0 / volume;
-    w->ladder->n_pair[r] += 0.5 * n * (n - 1.0);
-    w->ladder->pairs[r] += (power[0] * power[0] - power[1]) / volume;
-    const double twice = (power[1] * power[1] - power[2]) * w->inverse[r];
-    for (int32_t q = 0; q <= r; ++q) {
-        w->nested[r][q] += twice * w->inverse[q];
-    }
-}
-
-/// Adds to each of these points what it met in the cells down to rung r.
-static void add_met(const ladder_walk *w, int64_t begin, int64_t end, int32_t r)
-{
-    for (int64_t i = begin; i < end; ++i) {
-        const int64_t item = (int64_t)w->point[i].item;
-        if ((item & ((INT64_C(1) << w->thin) - 1)) != 0) {
-            continue;
-        }
-        double *met = w->met + (item >> w->thin) * CLX_LADDER_RUNGS;
-        const double own = w->own[item];
-        for (int32_t q = 0; q <= r; ++q) {
-            met[q] += (w->sum[q] - own) * w->inverse[q];
-        }
-    }
-}
-
-/// Puts the cell's points in the order of their codes for some more halvings.
-static void order_points(const ladder_walk *w, ladder_cell *cell)
-{
-    const int32_t d = w->ladder->d;
-    const int64_t n = cell->end - cell->begin;
-    clx_keyed *point = w->point + cell->begin;
-    if (n <= FEW) {
-        for (int64_t i = 1; i < n; ++i) {
-            const clx_keyed own = point[i];
-            int64_t k = i;
-            for (; k > 0 && point[k - 1].key > own.key; --k) {
-                point[k] = point[k - 1];
-            }
-            point[k] = own;
-        }
-        cell->ordered = CLX_MORTON_LEVELS;
+    if (!cell->is_counted) {
         return;
     }
-    int levels = 1;
-    while (d * (levels + 1) <= MOST_BITS && INT64_C(1) << (d * (levels + 1)) <= 2 * n &&
-           cell->ordered + levels < CLX_MORTON_LEVELS) {
-        ++levels;
+    w->n_pair[r] += cell->n * (cell->n - 1) / 2;
+    clx_exact_add(&w->pairs[r], (power[0] * power[0] - power[1]) / volume);
+    const double twice = (power[1] * power[1] - power[2]) * w->inverse[r];
+    for (int32_t q = 0; q <= r; ++q) {
+        clx_exact_add(&w->nested[r][q], twice * w->inverse[q]);
     }
-    const int shift = d * (CLX_MORTON_LEVELS - cell->ordered - levels);
-    const uint64_t mask = (UINT64_C(1) << (d * levels)) - 1;
-    memset(w->count, 0, ((size_t)mask + 1) * sizeof *w->count);
-    for (int64_t i = 0; i < n; ++i) {
-        ++w->count[point[i].key >> shift & mask];
+}
+
+/// Bits of a code below this depth.
+static int bits_below(const ladder_walk *w, int depth)
+{
+    return w->ladder->d * (CLX_MORTON_LEVELS - depth);
+}
+
+/// First of the sampled codes in this grid that is at least `code`.
+static int64_t sampled_from(const ladder_walk *w, uint64_t code)
+{
+    int64_t begin = 0;
+    int64_t end = w->n_some;
+    while (begin < end) {
+        const int64_t middle = begin + (end - begin) / 2;
+        if (w->in_grid[middle].key < code) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
     }
-    int32_t before = 0;
-    for (uint64_t b = 0; b <= mask; ++b) {
-        const int32_t here = w->count[b];
-        w->count[b] = before;
-        before += here;
+    return begin;
+}
+
+/// Adds to each sampled point of a cell that is not divided further what it met down to rung r.
+static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
+{
+    const uint64_t end = cell->low + (UINT64_C(1) << bits_below(w, cell->depth));
+    if (cell->n > cell->end - cell->begin) { // sampled points of other ranks too
+        w->next = sampled_from(w, cell->low);
     }
-    for (int64_t i = 0; i < n; ++i) {
-        w->scratch[w->count[point[i].key >> shift & mask]++] = point[i];
+    while (w->next < w->n_some && w->in_grid[w->next].key < cell->low) {
+        ++w->next;
     }
-    memcpy(point, w->scratch, (size_t)n * sizeof *point);
-    cell->ordered += levels;
+    for (; w->next < w->n_some && w->in_grid[w->next].key < end; ++w->next) {
+        const int64_t item = (int64_t)w->in_grid[w->next].item;
+        double *met = w->met_here + item * CLX_LADDER_RUNGS;
+        for (int32_t q = 0; q <= r && cell->is_counted; ++q) {
+            met[q] = (w->sum[q] - w->some[item].own) * w->inverse[q];
+        }
+    }
 }
 
 /// Where the cell's part that begins here ends; its points agree in the bits above `shift`.
 static int64_t part_end(const ladder_walk *w, int64_t begin, int64_t end, int shift)
 {
     CLAST_ASSERT(begin < end && shift >= 0 && shift < 64);
-    const clx_keyed *point = w->point;
-    const uint64_t part = point[begin].key >> shift;
+    const uint64_t *code = w->point.key;
+    const uint64_t part = code[begin] >> shift;
     int64_t last = begin; // in the part
     int64_t step = 1;
-    while (last + step < end && point[last + step].key >> shift == part) {
+    while (last + step < end && code[last + step] >> shift == part) {
         last += step;
         step *= 2;
     }
     for (step /= 2; step > 0; step /= 2) {
-        last += last + step < end && point[last + step].key >> shift == part ? step : 0;
+        last += last + step < end && code[last + step] >> shift == part ? step : 0;
     }
     return last + 1;
 }
 
-static ladder_cell part_of(const ladder_walk *w, const ladder_cell *cell, int64_t begin,
-                           int64_t end, int shift)
+/// Rank whose stretch is the last that begins inside the cell; 0: none does.
+static int32_t last_border(const ladder_walk *w, const ladder_cell *cell)
 {
-    const int32_t d = w->ladder->d;
-    const uint64_t part = w->point[begin].key >> shift;
-    ladder_cell made = *cell;
-    made.begin = begin;
-    made.end = end;
-    made.depth = cell->depth + 1;
-    for (int32_t j = 0; j < d; ++j) {
-        made.at[j] = cell->at[j] << 1 | (int64_t)(part >> (d - 1 - j) & 1u);
+    const uint64_t end = cell->low + (UINT64_C(1) << bits_below(w, cell->depth));
+    int32_t k = w->comm->n_rank - 1;
+    while (k > 0 && w->point.first[k] >= end) {
+        --k;
     }
-    return made;
+    return w->point.first[k] > cell->low ? k : 0;
 }
 
-/// The next part of an ordered cell, which begins at *begin; false after the last.
+/// How many points a cell has on all ranks, and which of them counts it.
+static void set_owner(const ladder_walk *w, ladder_cell *cell)
+{
+    cell->n = cell->end - cell->begin;
+    cell->is_counted = true;
+    if (cell->begin == 0 || cell->end == w->point.n) { // others are within the stretch
+        const int32_t k = last_border(w, cell);
+        if (k > 0) {
+            cell->n = w->shared[(int64_t)cell->depth * w->comm->n_rank + k];
+            cell->is_counted = k == w->comm->rank;
+        }
+    }
+}
+
+/// The next part of a cell, which begins at *begin; false after the last.
 static bool next_part(const ladder_walk *w, const ladder_cell *cell, int64_t *begin,
                       ladder_cell *part)
 {
-    const int shift = w->ladder->d * (CLX_MORTON_LEVELS - cell->depth - 1);
+    const int32_t d = w->ladder->d;
+    const int shift = bits_below(w, cell->depth + 1);
     if (*begin >= cell->end) {
         return false;
     }
-    const int64_t end = part_end(w, *begin, cell->end, shift);
-    *part = part_of(w, cell, *begin, end, shift);
-    *begin = end;
+    *part = *cell;
+    part->begin = *begin;
+    part->end = part_end(w, *begin, cell->end, shift);
+    part->depth = cell->depth + 1;
+    part->low = w->point.key[*begin] >> shift << shift;
+    for (int32_t j = 0; j < d; ++j) {
+        part->at[j] = cell->at[j] << 1 | (int64_t)(part->low >> shift >> (d - 1 - j) & 1u);
+    }
+    set_owner(w, part);
+    *begin = part->end;
     return true;
 }
 
 /// Counts the pairs of all cells that hold any.
-static void tally(ladder_walk *w, ladder_cell *cell)
+static void tally(ladder_walk *w, const ladder_cell *cell)
 {
-    const int64_t n = cell->end - cell->begin;
-    if (cell->depth > 0) {
-        w->tally[cell->depth - 1] += n * (n - 1) / 2;
-    }
-    if (cell->depth > DEEPEST) {
-        return;
-    }
-    if (cell->depth >= cell->ordered) {
-        order_points(w, cell);
-    }
     ladder_cell part;
-    for (int64_t begin = cell->begin; next_part(w, cell, &begin, &part);) {
-        if (part.end - part.begin > 1) {
+    if (cell->depth > 0 && cell->is_counted) {
+        w->tally[cell->depth - 1] += cell->n * (cell->n - 1) / 2;
+    }
+    for (int64_t begin = cell->begin;
+         cell->depth <= DEEPEST && next_part(w, cell, &begin, &part);) {
+        if (part.n > 1) {
             tally(w, &part);
         }
     }
@@ -252,69 +269,135 @@ static void visit(ladder_walk *w, ladder_cell *cell)
         add_cell(w, cell, r);
     }
     if (r + 1 >= w->ladder->n) {
-        add_met(w, cell->begin, cell->end, r);
+        add_met(w, cell, r);
         return;
-    }
-    if (cell->depth >= cell->ordered) {
-        order_points(w, cell);
     }
     ladder_cell part;
     for (int64_t begin = cell->begin; next_part(w, cell, &begin, &part);) {
-        if (part.end - part.begin > 1) {
+        if (part.n > 1) {
             visit(w, &part);
         } else {
-            add_met(w, part.begin, part.end, r);
+            add_met(w, &part, r);
         }
     }
 }
 
-/// The whole of grid m, its points with their codes.
-static ladder_cell start_grid(ladder_walk *w, int m)
+/// Code of a point of the unit cube in the grid.
+static uint64_t code_of(const ladder_walk *w, const double *u)
 {
-    const int32_t d = w->ladder->d;
-    for (int32_t j = 0; j < d; ++j) {
-        w->shift[j] = (double)(m * (j + 1) % N_SHIFT) / N_SHIFT;
+    double v[3] = {0};
+    for (int32_t j = 0; j < w->ladder->d; ++j) {
+        v[j] = 0.5 * (u[j] + w->shift[j]);
     }
-    for (int64_t i = 0; i < w->n; ++i) {
-        double v[3] = {0};
-        for (int32_t j = 0; j < d; ++j) {
-            v[j] = 0.5 * (w->u[i * d + j] + w->shift[j]);
-        }
-        w->point[i] = (clx_keyed){clx_morton_of(v, d), (uint64_t)i};
-    }
-    return (ladder_cell){.end = w->n, .is_cut = w->sample->domain->kind == CLAST_DOMAIN_MESH};
+    return clx_morton_of(v, w->ladder->d);
 }
 
-/// Real points and their weights, in the order of grid 0, whose pairs are tallied: what is looked
-/// up by turns then lies close together in the other grids too.
-static clast_status take_points(ladder_walk *w)
+typedef struct {
+    const ladder_walk *w;
+    clx_keyed *keyed; ///< where points have weights
+    uint64_t *code;
+} code_context;
+
+static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const code_context *c = context;
+    const clx_sample *s = c->w->sample;
+    const int32_t d = c->w->ladder->d;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const bool is_real = s->number[i] >= 0;
+        const uint64_t code = is_real ? code_of(c->w, s->u + i * d) : UINT64_MAX;
+        if (c->keyed != NULL) {
+            c->keyed[i] = (clx_keyed){code, (uint64_t)i};
+        } else {
+            c->code[i] = code;
+        }
+    }
+}
+
+/// Codes and weights of points in order, of a single rank: ghosts are behind.
+static clast_status order_weighted(ladder_walk *w, clx_keyed *keyed, uint64_t *code)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    const int32_t d = w->ladder->d;
-    double *u = NULL;
-    double *own = NULL;
-    CLX_TRY(clx_alloc(&w->u, s->n * d, sizeof *w->u));
+    CLX_TRY(clx_sort_keyed(keyed, s->n));
+    clx_free(w->own);
+    w->own = NULL;
     CLX_TRY(clx_alloc(&w->own, s->n, sizeof *w->own));
-    CLX_TRY(clx_alloc(&u, s->n * d, sizeof *u));
-    CLX_TRY(clx_alloc(&own, s->n, sizeof *own));
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] >= 0) {
-            memcpy(w->u + w->n * d, s->u + i * d, (size_t)d * sizeof *u);
-            w->own[w->n++] = w->weight != NULL ? w->weight[s->number[i]] : 1.0;
-        }
-    }
-    ladder_cell all = start_grid(w, 0);
-    tally(w, &all);
-    for (int64_t i = 0; i < w->n; ++i) {
-        memcpy(u + i * d, w->u + (int64_t)w->point[i].item * d, (size_t)d * sizeof *u);
-        own[i] = w->own[w->point[i].item];
+        code[i] = keyed[i].key;
+        const int64_t number = s->number[keyed[i].item];
+        w->own[i] = number >= 0 ? w->weight[number] : 0.0;
     }
 done:
-    clx_free(w->u);
-    clx_free(w->own);
-    w->u = u;
-    w->own = own;
+    return status;
+}
+
+/// Ghosts have no code: out with them.
+static int64_t leave_out_ghosts(const clx_sample *s, uint64_t *code)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < s->n; ++i) {
+        code[n] = code[i];
+        n += code[i] != UINT64_MAX ? 1 : 0;
+    }
+    return n;
+}
+
+/// Numbers of points, on all ranks, of the cells that borders between ranks cut.
+static clast_status count_shared(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_rank = w->comm->n_rank;
+    const int64_t size = (int64_t)(DEEPEST + 2) * n_rank;
+    clx_free(w->shared);
+    w->shared = NULL;
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&w->shared, size, sizeof *w->shared), NULL));
+    for (int depth = 0; depth <= DEEPEST + 1; ++depth) {
+        const int shift = bits_below(w, depth);
+        for (int32_t k = 1; k < n_rank; ++k) {
+            const uint64_t low = w->point.first[k] >> shift << shift;
+            const uint64_t end = low + (UINT64_C(1) << shift);
+            w->shared[(int64_t)depth * n_rank + k] =
+                clx_ranked_from(&w->point, end) - clx_ranked_from(&w->point, low);
+        }
+    }
+    clx_comm_sum(w->comm, w->shared, size);
+done:
+    return status;
+}
+
+/// Grid m: its points in order, and all of them as a cell.
+static clast_status start_grid(ladder_walk *w, int m, ladder_cell *all)
+{
+    clast_status status = CLAST_OK;
+    const clx_sample *s = w->sample;
+    code_context c = {w, NULL, NULL};
+    const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
+    for (int32_t j = 0; j < w->ladder->d; ++j) {
+        w->shift[j] = (double)(m * (j + 1) % N_SHIFT) / N_SHIFT;
+    }
+    clx_ranked_free(&w->point);
+    status = clx_alloc(&c.code, s->n, sizeof *c.code);
+    if (status == CLAST_OK && w->weight != NULL) {
+        status = clx_alloc(&c.keyed, s->n, sizeof *c.keyed);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+    clx_parallel_for(s->n, POINTS_A_BLOCK, take_codes, &c);
+    if (w->weight != NULL) {
+        CLX_TRY(order_weighted(w, c.keyed, c.code));
+    }
+    clx_free(c.keyed);
+    c.keyed = NULL;
+    const int64_t n = leave_out_ghosts(s, c.code);
+    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit, &w->point));
+    CLX_TRY(count_shared(w));
+    *all = (ladder_cell){
+        .end = w->point.n, .is_cut = s->domain->kind == CLAST_DOMAIN_MESH, .is_counted = true};
+    set_owner(w, all);
+done:
+    clx_free(c.keyed);
+    clx_free(c.code);
     return status;
 }
 
@@ -330,13 +413,170 @@ static void choose_rungs(const ladder_walk *w, clx_ladder *ladder)
     ladder->n = last + 1 - ladder->first;
 }
 
+/// Whether a comes before b, both with one code.
+static bool is_before(const sampled *a, const sampled *b, int32_t d)
+{
+    for (int32_t j = 0; j < d; ++j) {
+        if (a->u[j] != b->u[j]) {
+            return a->u[j] < b->u[j];
+        }
+    }
+    return a->own < b->own;
+}
+
+/// First sampled point with each value of the leading bits of a code; first [2^LOOK_UP_BITS + 1].
+static void index_sampled(const ladder_walk *w, int shift, int64_t *first)
+{
+    int64_t at = 0;
+    for (int64_t b = 0; b <= INT64_C(1) << LOOK_UP_BITS; ++b) {
+        while (at < w->n_some && (int64_t)(w->some[at].code >> shift) < b) {
+            ++at;
+        }
+        first[b] = at;
+    }
+}
+
+/// Gives sampled codes the first of this rank's points with them; codes none of whose points are
+/// here keep u = 2.
+static clast_status find_sampled(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    const clx_sample *s = w->sample;
+    const int32_t d = w->ladder->d;
+    const int bits = bits_below(w, 0);
+    const int shift = bits > LOOK_UP_BITS ? bits - LOOK_UP_BITS : 0;
+    int64_t *first = NULL;
+    CLX_TRY(clast_comm_agree(
+        w->comm, clx_alloc(&first, (INT64_C(1) << LOOK_UP_BITS) + 1, sizeof *first), NULL));
+    index_sampled(w, shift, first);
+    for (int64_t i = 0; i < s->n; ++i) {
+        if (s->number[i] < 0) {
+            continue;
+        }
+        sampled own = {.code = code_of(w, s->u + i * d), .own = 1.0};
+        memcpy(own.u, s->u + i * d, (size_t)d * sizeof *own.u);
+        own.own = w->weight != NULL ? w->weight[s->number[i]] : 1.0;
+        int64_t at = first[own.code >> shift];
+        int64_t end = first[(own.code >> shift) + 1];
+        while (at < end) {
+            const int64_t middle = at + (end - at) / 2;
+            if (w->some[middle].code < own.code) {
+                at = middle + 1;
+            } else {
+                end = middle;
+            }
+        }
+        if (at < w->n_some && w->some[at].code == own.code && is_before(&own, &w->some[at], d)) {
+            w->some[at] = own;
+        }
+    }
+done:
+    clx_free(first);
+    return status;
+}
+
+/// The first of all ranks' finds, for every sampled place.
+static clast_status merge_sampled(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    clx_gathered all = {0};
+    const int32_t d = w->ladder->d;
+    const int64_t size = (int64_t)sizeof *w->some;
+    if (w->comm->n_rank > 1) {
+        CLX_TRY(clx_comm_share(w->comm, w->some, w->n_some * size, &all));
+    }
+    for (int64_t i = 0; i * size < all.n; ++i) {
+        sampled other;
+        memcpy(&other, all.bytes + i * size, sizeof other);
+        sampled *own = &w->some[i % w->n_some];
+        *own = is_before(&other, own, d) ? other : *own;
+    }
+    for (int64_t i = 1; i < w->n_some; ++i) { // found under the first of equal codes
+        w->some[i] = w->some[i].code == w->some[i - 1].code ? w->some[i - 1] : w->some[i];
+    }
+done:
+    clx_gathered_free(&all);
+    return status;
+}
+
+/// Each 2^thin-th point along the curve of grid 0, which is started: it stands for all in sums over
+/// triples.
+static clast_status take_sample(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    int thin = 0;
+    clx_gathered all = {0};
+    sampled *own = NULL;
+    while (w->n_all >> thin >= 2 * ENOUGH) {
+        ++thin;
+    }
+    const clx_ranked *p = &w->point;
+    const int64_t step = INT64_C(1) << thin;
+    const int64_t from = (p->before + step - 1) >> thin; // number of this rank's first among them
+    const int64_t n = p->n > 0 ? ((p->before + p->n - 1) >> thin) + 1 - from : 0;
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&own, n, sizeof *own), NULL));
+    for (int64_t i = 0; i < n; ++i) {
+        own[i] = (sampled){p->key[((from + i) << thin) - p->before], {2.0, 2.0, 2.0}, 2.0};
+    }
+    CLX_TRY(clx_comm_share(w->comm, own, n * (int64_t)sizeof *own, &all));
+    w->some = (void *)all.bytes;
+    w->n_some = all.n / (int64_t)sizeof *w->some;
+    all = (clx_gathered){0};
+    CLX_TRY(find_sampled(w));
+    CLX_TRY(merge_sampled(w));
+    status = clx_alloc(&w->in_grid, w->n_some, sizeof *w->in_grid);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&w->met, w->n_some * CLX_LADDER_RUNGS, sizeof *w->met);
+    }
+    if (status == CLAST_OK) {
+        status = clx_alloc(&w->met_here, w->n_some * CLX_LADDER_RUNGS, sizeof *w->met_here);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+done:
+    clx_gathered_free(&all);
+    clx_free(own);
+    return status;
+}
+
+/// What sampled points met in the grid; each was met on one rank.
+static clast_status walk_grid(ladder_walk *w, ladder_cell *all)
+{
+    clast_status status = CLAST_OK;
+    const int64_t size = w->n_some * CLX_LADDER_RUNGS;
+    int64_t *bits = NULL;
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        w->in_grid[i] = (clx_keyed){code_of(w, w->some[i].u), (uint64_t)i};
+    }
+    memset(w->met_here, 0, (size_t)size * sizeof *w->met_here);
+    status = clx_sort_keyed(w->in_grid, w->n_some);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&bits, size, sizeof *bits);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+    w->next = 0;
+    visit(w, all);
+    CLAST_ASSERT(bits != NULL);
+    if (size > 0) {
+        memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
+    }
+    clx_comm_sum(w->comm, bits, size); // of all ranks' numbers one is not 0
+    for (int64_t i = 0; i < size; ++i) {
+        double met = 0.0;
+        memcpy(&met, &bits[i], sizeof met);
+        w->met[i] += met;
+    }
+done:
+    clx_free(bits);
+    return status;
+}
+
 /// Sum over points of what they met in two rungs.
 static void add_thrice(const ladder_walk *w, double thrice[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS])
 {
-    const double weight = w->n > 0 ? (double)w->n / (double)(1 + ((w->n - 1) >> w->thin)) : 0.0;
-    for (int64_t i = 0; i < w->n; i += INT64_C(1) << w->thin) {
-        const double square = weight * w->own[i] * w->own[i];
-        const double *met = w->met + (i >> w->thin) * CLX_LADDER_RUNGS;
+    const double weight = w->n_some > 0 ? (double)w->n_all / (double)w->n_some : 0.0;
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        const double square = weight * w->some[i].own * w->some[i].own;
+        const double *met = w->met + i * CLX_LADDER_RUNGS;
         for (int32_t r = 0; r < w->ladder->n && met[r] > 0.0; ++r) {
             const double own = square * met[r];
             for (int32_t q = 0; q <= r; ++q) {
@@ -347,61 +587,88 @@ static void add_thrice(const ladder_walk *w, double thrice[CLX_LADDER_RUNGS][CLX
 }
 
 /// Sums over shifts to means, and the covariance.
-static void finish(const ladder_walk *w, clx_ladder *ladder)
+static void finish(ladder_walk *w, clx_ladder *ladder)
 {
     double thrice[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS] = {{0}};
+    clx_exact_over(w->comm, w->pairs, CLX_LADDER_RUNGS);
+    clx_exact_over(w->comm, w->nested[0], CLX_LADDER_RUNGS * CLX_LADDER_RUNGS);
+    clx_comm_sum(w->comm, w->n_pair, CLX_LADDER_RUNGS);
     add_thrice(w, thrice);
     for (int32_t r = 0; r < ladder->n; ++r) {
-        ladder->pairs[r] /= N_SHIFT;
-        ladder->n_pair[r] /= N_SHIFT;
+        ladder->pairs[r] = clx_exact_value(&w->pairs[r]) / N_SHIFT;
+        ladder->n_pair[r] = (double)w->n_pair[r] / N_SHIFT;
         for (int32_t q = 0; q <= r; ++q) {
             // chance that a pair in one cell of the finer grid shares one of another shift's
             // coarser
             const double shared = pow(1.0 - ldexp(1.0, q - r) / 3.0, ladder->d);
-            const double twice =
-                w->nested[r][q] / N_SHIFT * (1.0 / N_SHIFT + (1.0 - 1.0 / N_SHIFT) * shared);
+            const double twice = clx_exact_value(&w->nested[r][q]) / N_SHIFT *
+                                 (1.0 / N_SHIFT + (1.0 - 1.0 / N_SHIFT) * shared);
             ladder->covariance[q][r] = ladder->covariance[r][q] =
                 4.0 * thrice[r][q] / (N_SHIFT * N_SHIFT) - 2.0 * twice;
         }
     }
 }
 
-clast_status clx_ladder_count(const clx_sample *sample, const double *weight, clx_ladder *ladder)
+static void set_sizes(ladder_walk *w)
+{
+    const clast_domain *domain = w->sample->domain;
+    w->volume = 1.0;
+    for (int32_t j = 0; j < 3 && domain->kind == CLAST_DOMAIN_MESH; ++j) {
+        w->volume *= domain->high[j] - domain->low[j];
+    }
+    w->volume = domain->kind == CLAST_DOMAIN_MESH ? w->volume : clast_domain_volume(domain);
+    for (int depth = 0; depth <= DEEPEST + 1; ++depth) {
+        w->width[depth] = ldexp(2.0, -depth);
+        w->least[depth] = least_part * w->volume * pow(w->width[depth], w->ladder->d);
+    }
+}
+
+static clast_status count(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
-    const clast_domain *domain = sample->domain;
-    ladder_walk w = {.sample = sample, .weight = weight, .ladder = ladder, .volume = 1.0};
-    *ladder = (clx_ladder){.d = domain->dimension};
-    for (int32_t j = 0; j < 3 && domain->kind == CLAST_DOMAIN_MESH; ++j) {
-        w.volume *= domain->high[j] - domain->low[j];
+    ladder_cell all;
+    CLX_TRY(start_grid(w, 0, &all));
+    w->n_all = w->point.n_all;
+    tally(w, &all);
+    clx_comm_sum(w->comm, w->tally, DEEPEST + 1);
+    choose_rungs(w, w->ladder);
+    CLX_TRY(take_sample(w));
+    for (int m = 0; m < N_SHIFT && w->n_all > 1; ++m) {
+        if (m > 0) {
+            CLX_TRY(start_grid(w, m, &all));
+        }
+        CLX_TRY(walk_grid(w, &all));
     }
-    w.volume = domain->kind == CLAST_DOMAIN_MESH ? w.volume : clast_domain_volume(domain);
-    for (int depth = 0; depth <= DEEPEST + 1; ++depth) {
-        w.width[depth] = ldexp(2.0, -depth);
-        w.least[depth] = least_part * w.volume * pow(w.width[depth], ladder->d);
-    }
-    CLX_TRY(clx_alloc(&w.point, sample->n, sizeof *w.point));
-    CLX_TRY(clx_alloc(&w.scratch, sample->n, sizeof *w.scratch));
-    CLX_TRY(clx_alloc(&w.count, INT64_C(1) << MOST_BITS, sizeof *w.count));
-    CLX_TRY(take_points(&w));
-    choose_rungs(&w, ladder);
-    while (w.n >> w.thin >= 2 * ENOUGH) {
-        ++w.thin;
-    }
-    CLX_TRY(clx_alloc(&w.met, (1 + (w.n >> w.thin)) * CLX_LADDER_RUNGS, sizeof *w.met));
-    for (int m = 0; m < N_SHIFT && w.n > 1; ++m) {
-        ladder_cell all = start_grid(&w, m);
-        all.ordered = m == 0 ? CLX_MORTON_LEVELS : 0; // as they were taken
-        visit(&w, &all);
-    }
-    finish(&w, ladder);
+    finish(w, w->ladder);
 done:
-    clx_free(w.point);
-    clx_free(w.scratch);
-    clx_free(w.count);
-    clx_free(w.u);
-    clx_free(w.own);
-    clx_free(w.met);
+    return status;
+}
+
+clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
+                              const double *weight, clx_ladder *ladder)
+{
+    CLAST_ASSERT(weight == NULL || comm->n_rank == 1);
+    clast_status status = CLAST_OK;
+    ladder_walk *w = NULL;
+    *ladder = (clx_ladder){.d = sample->domain->dimension};
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&w, 1, sizeof *w), NULL));
+    w->sample = sample;
+    w->comm = comm;
+    w->weight = weight;
+    w->ladder = ladder;
+    set_sizes(w);
+    CLX_TRY(count(w));
+done:
+    if (w != NULL) {
+        clx_ranked_free(&w->point);
+        clx_free(w->own);
+        clx_free(w->shared);
+        clx_free(w->some);
+        clx_free(w->in_grid);
+        clx_free(w->met);
+        clx_free(w->met_here);
+    }
+    clx_free(w);
     return status;
 }
 

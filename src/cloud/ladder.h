@@ -2,6 +2,7 @@
 // Pairs of points in one cell of a regular grid, for all halvings of its cells at once, averaged
 // over shifted grids, with the covariance of these sums: what tells whether a sample resolves its
 // own structure. [docs/theory/decompose.md section 8]
+#include "cloud/part.h"
 #include "cloud/sample.h"
 
 enum { CLX_LADDER_RUNGS = 12 };
@@ -21,6 +22,9 @@ typedef struct clx_ladder {
 /// in both; NAN where none have.
 double clx_ladder_change(const clx_ladder *before, const clx_ladder *now);
 
-/// @param weight  of all points of the cloud, or NULL (1)
-/// @note O(n log n), 5 sorts; bytes do not depend on threads
-clast_status clx_ladder_count(const clx_sample *sample, const double *weight, clx_ladder *ladder);
+/// @param sample  this rank's points    @param weight  of all points of the cloud, or NULL (1);
+/// with several ranks NULL
+/// @note O(n log n), 5 sorts; bytes do not depend on threads, ranks, nor the order of points
+/// without weights
+clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
+                              const double *weight, clx_ladder *ladder);

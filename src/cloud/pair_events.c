@@ -2,6 +2,7 @@
 // density. [docs/theory/pairs.md section 5]
 #include "cloud/pair_events.h"
 
+#include "cloud/pair_count.h"
 #include "cloud/pair_within.h"
 #include "cloud/resolution.h"
 
@@ -42,8 +43,9 @@ clast_estimate clx_pair_poisson(const clast_estimate *e, double n)
                             e->value * exp(hypot(log(e->high / e->value), own)), e->resolved};
 }
 
-clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *cloud,
-                             const clast_decompose_config *config, clast_decomposition *result)
+clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
+                             const clast_cloud *cloud, const clast_decompose_config *config,
+                             clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clast_pairs_config how;
@@ -59,7 +61,7 @@ clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *clou
         CLX_TRY(clast_fields_default(clast_pairs_fields, &how));
         how.radius = config->pairs_radius;
         how.outside = config->outside;
-        CLX_TRY(clast_pairs_count(domain, cloud, &how, &result->pairs));
+        CLX_TRY(clx_pairs_count(comm, domain, cloud, &how, NULL, &result->pairs));
     }
     const double n = (double)result->n;
     const double rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0; // else pairs per beta dt

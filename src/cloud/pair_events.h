@@ -9,5 +9,6 @@ clast_estimate clx_pair_poisson(const clast_estimate *estimate, double n);
 
 /// Counts pairs where config asks for them, and takes their estimate of the events where its
 /// estimator is pairs: all cells' events by one factor, the cap kept.
-clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *cloud,
-                             const clast_decompose_config *config, clast_decomposition *result);
+clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
+                             const clast_cloud *cloud, const clast_decompose_config *config,
+                             clast_decomposition *result);

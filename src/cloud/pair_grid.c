@@ -6,17 +6,21 @@
 #include "cloud/pair_sums.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/parallel.h"
+#include "cloud/part.h"
+#include "math/exact_sum.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 
-enum { N_CHUNK = 8, SPARSE_CHUNK = 3, DENSE = 1000000 };
+enum { MOST_CHUNK = 8, DENSE = 1000000 };
 
-/// Tensors filled side by side: more for many points. By their number alone, so that sums have one
-/// order for any thread count; 3 at least, for the axes take turns between two.
+/// Tensors filled side by side: more for many points, one a thread.
 static int n_chunk_of(int64_t n)
 {
-    return n < DENSE ? SPARSE_CHUNK : N_CHUNK;
+    const int32_t n_worker = clx_parallel_workers();
+    return n < DENSE || n_worker < 2 ? 1 : n_worker < MOST_CHUNK ? n_worker : MOST_CHUNK;
 }
 
 static int32_t cells_an_axis(int32_t d)
@@ -30,10 +34,22 @@ typedef struct {
     int64_t n, size; ///< points; moments in the tensor, (2 G)^d
     int32_t d, g;
     int n_chunk;
-    double *moment[N_CHUNK]; ///< [size] each; index axis-major, (cell, power) along each axis
-    double own[N_CHUNK][CLAST_N_DISCREPANCY]; ///< sum over points of the product of in-slab factors
-                                              ///< with themselves
+    double unit;                ///< moments are counted in 1 / unit
+    int64_t *count[MOST_CHUNK]; ///< [size] each; index axis-major, (cell, power) along each axis
+    double *moment;             ///< [size]
+    clx_exact_sum own[MOST_CHUNK][CLAST_N_DISCREPANCY]; ///< over points the product of in-slab
+                                                        ///< factors with themselves
 } tensor;
+
+/// A power of two that lets n moments of at most 1 be added in 62 bits.
+static double unit_of(int64_t n)
+{
+    int bits = 0;
+    while (n >> bits > 0) {
+        ++bits;
+    }
+    return ldexp(1.0, 62 - bits);
+}
 
 /// Pair factor of x with a y of its own slab: coefficients of (1, y).
 static void slab_coefficients(double x, int32_t g, double c[CLAST_N_DISCREPANCY][2])
@@ -76,10 +92,10 @@ static void add_point(tensor *t, int32_t chunk, const double *x)
         }
     }
     for (int m = 0; m < filled; ++m) {
-        t->moment[chunk][place[m]] += weight[m];
+        t->count[chunk][place[m]] += (int64_t)(weight[m] * t->unit + 0.5);
     }
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-        t->own[chunk][k] += own[k];
+        clx_exact_add(&t->own[chunk][k], own[k]);
     }
 }
 
@@ -191,9 +207,9 @@ static double dot(const double *a, const double *b, int64_t size)
     return sum;
 }
 
-static double contract(const tensor *t, int k, const double *moment, double *a, double *b)
+static double contract(const tensor *t, int k, double *a, double *b)
 {
-    const double *from = moment;
+    const double *from = t->moment;
     double *to = a;
     int64_t stride = 1;
     for (int32_t j = 0; j < t->d; ++j) {
@@ -203,53 +219,91 @@ static double contract(const tensor *t, int k, const double *moment, double *a, 
         to = to == a ? b : a;
         stride *= 2 * t->g;
     }
-    return dot(moment, from, t->size);
+    return dot(t->moment, from, t->size);
 }
 
-/// Adds the chunks' tensors to the first, in order.
+/// Adds the chunks' tensors to the first.
 static void add_tensors(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     tensor *t = context;
     (void)worker;
     for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
         for (int64_t i = begin; i < end; ++i) {
-            t->moment[0][i] += t->moment[chunk][i];
+            t->count[0][i] += t->count[chunk][i];
         }
     }
 }
 
-static clast_status fill_tensor(tensor *t)
+static clast_status alloc_tensor(tensor *t)
 {
     clast_status status = CLAST_OK;
     for (int chunk = 0; chunk < t->n_chunk; ++chunk) {
-        CLX_TRY(clx_alloc(&t->moment[chunk], t->size, sizeof *t->moment[chunk]));
+        CLX_TRY(clx_alloc(&t->count[chunk], t->size, sizeof *t->count[chunk]));
     }
-    clx_parallel_for(t->n_chunk, 1, add_chunk, t);
-    clx_parallel_for(t->size, 65536, add_tensors, t);
-    for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
-        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-            t->own[0][k] += t->own[chunk][k];
-        }
-    }
+    CLX_TRY(clx_alloc(&t->moment, t->size, sizeof *t->moment));
 done:
     return status;
 }
 
-clast_status clx_pair_sums_binned(const double *u, int64_t n, int32_t d,
-                                  double sum[CLAST_N_DISCREPANCY])
+/// Fills the tensor with all ranks' points; own[0] is the sum of all.
+static void fill_tensor(const clx_part *part, tensor *t)
+{
+    clx_parallel_for(t->n_chunk, 1, add_chunk, t);
+    clx_parallel_for(t->size, 65536, add_tensors, t);
+    clx_comm_sum(part->comm, t->count[0], t->size);
+    for (int64_t i = 0; i < t->size; ++i) {
+        t->moment[i] = (double)t->count[0][i] / t->unit;
+    }
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
+            clx_exact_merge(&t->own[0][k], &t->own[chunk][k]);
+        }
+    }
+    clx_exact_over(part->comm, t->own[0], CLAST_N_DISCREPANCY);
+}
+
+clast_status clx_pair_sums_binned(const clx_part *part, double sum[CLAST_N_DISCREPANCY])
 {
     clast_status status = CLAST_OK;
-    tensor t = {.u = u, .n = n, .d = d, .g = cells_an_axis(d), .n_chunk = n_chunk_of(n), .size = 1};
-    for (int32_t j = 0; j < d; ++j) {
-        t.size *= 2 * t.g;
+    const int32_t d = part->d;
+    tensor *t = NULL;
+    double *a = NULL;
+    double *b = NULL;
+    status = clx_alloc(&t, 1, sizeof *t);
+    if (status == CLAST_OK) {
+        *t = (tensor){.u = part->u,
+                      .n = part->n,
+                      .d = d,
+                      .g = cells_an_axis(d),
+                      .n_chunk = n_chunk_of(part->n),
+                      .unit = unit_of(part->n_all),
+                      .size = 1};
+        for (int32_t j = 0; j < d; ++j) {
+            t->size *= 2 * t->g;
+        }
+        status = alloc_tensor(t);
     }
-    CLX_TRY(fill_tensor(&t));
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    fill_tensor(part, t);
+    for (int chunk = 0; chunk < t->n_chunk; ++chunk) {
+        clx_free(t->count[chunk]);
+        t->count[chunk] = NULL;
+    }
+    status = clx_alloc(&a, t->size, sizeof *a);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&b, t->size, sizeof *b);
+    }
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-        sum[k] = contract(&t, k, t.moment[0], t.moment[1], t.moment[2]) - t.own[0][k];
+        sum[k] = contract(t, k, a, b) - clx_exact_value(&t->own[0][k]);
     }
 done:
-    for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
-        clx_free(t.moment[chunk]);
+    for (int chunk = 0; chunk < MOST_CHUNK && t != NULL; ++chunk) {
+        clx_free(t->count[chunk]);
     }
+    clx_free(t != NULL ? t->moment : NULL);
+    clx_free(t);
+    clx_free(a);
+    clx_free(b);
     return status;
 }

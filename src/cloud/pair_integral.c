@@ -5,9 +5,11 @@
 // which the pairs in shells of distance show for r > 0. A is fitted as a mixture of Gaussians in r,
 // A(r) = sum c_j exp(-r^2 / (4 s_j^2)), c_j >= 0: every function that is completely monotone in r^2
 // [Schoenberg1938]. Blobs, sheets, lines, plumes, their sums on any background and, by exp(-r / L),
-// densities with jumps are of this kind. The narrowest s is the widest one that fits as well as
-// narrower ones; the interval is that of the profile likelihood of Poisson numbers with shapes of
-// half that width allowed, widened by the projection term. [docs/theory/pairs.md section 4]
+// densities with jumps are of this kind; by exp(-sqrt(r / L)) such with poles. The narrowest s is
+// the widest one that fits as well as narrower ones; the interval is that of the profile likelihood
+// of Poisson numbers with shapes of half that width allowed, widened by the projection term. A
+// density with a pole shows narrower structure the more points there are: a width counts as seen
+// where a part of the points would show it too. [docs/theory/pairs.md section 4]
 #include "cloud/pair_integral.h"
 
 #include "base/alloc.h"
@@ -23,9 +25,11 @@ enum {
     N_NEWTON = 40,
     N_HALVING = 10,
     N_BISECT = 12,
-    N_STRETCH = 4,
+    N_STRETCH = 7,    ///< widths tried between two levels
     LEAST_PAIRS = 10, ///< within twice the narrowest width that is looked at
-    FINER = 2         ///< levels narrower than the chosen one that the interval allows
+    FINER = 2,        ///< levels narrower than the chosen one that the interval allows
+    STAYS = 1,        ///< levels that lie between a width and that of fewer points by chance
+    MOST_MOVED = 3    ///< the same in the family where more lie between
 };
 
 /// Where the choices of the fit stand; all measured in docs/theory/pairs.md.
@@ -34,8 +38,12 @@ static const double step = 0.70710678118654752; ///< from one s to the next
 static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
 static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
 static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
-static const double most_doubt = 0.2;   ///< half width of the profile's interval, as a logarithm,
+static const double pole = 3.0;         ///< the same of exp(-sqrt(r / L))
+static const double most_doubt = 0.3;   ///< half width of the profile's interval, as a logarithm,
                                         ///< with which a cloud is resolved
+static const double fewer = 0.2;        ///< share of the points that must show the same width
+static const double most_hidden = 0.05; ///< most that a pole may add to the value, as a logarithm,
+                                        ///< where they do not
 static const double most_size = 0.125;  ///< of the domain's: pairs closer than that and than the
                                         ///< narrowest s must be so many
 static const double least_pairs = 500.0;
@@ -44,10 +52,13 @@ static const double most_repeated = 0.05; ///< share of repeated points' pairs i
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
+/// What stands beside each Gaussian: nothing, exp(-r / L), exp(-sqrt(r / L)).
+typedef enum { FAMILY_SMOOTH, FAMILY_KINKED, FAMILY_POLED } shape_family;
+
 typedef struct {
     const clx_pair_shells *in;
-    bool has_kinks;                           ///< exp(-r / L) beside each Gaussian
-    int32_t n_shape;                          ///< 1 + n_level, or 1 + 2 n_level with kinks
+    shape_family family;
+    int32_t n_shape;                          ///< 1 + n_level, or 1 + 2 n_level with a companion
     int32_t n_level;                          ///< widths below the uniform shape
     double s[MOST_SHAPE];                     ///< of each level, descending, the first INFINITY
     double mass[MOST_SHAPE][CLAST_MAX_SHELL]; ///< pairs in each shell for c = 1
@@ -84,7 +95,22 @@ static double exp_in_ball(int32_t d, double length, double r)
     return unit[d - 1] * pow(length, d) * clx_gamma_p(d, r / length);
 }
 
-static void add_shape(fit *f, double s, bool is_kink)
+/// Integral of exp(-sqrt(r / length)) over it.
+static double pole_in_ball(int32_t d, double length, double r)
+{
+    CLAST_ASSERT(d >= 1 && d <= 3 && length > 0.0);
+    const double unit[3] = {4.0, 24.0 * CLAST_PI, 960.0 * CLAST_PI};
+    return unit[d - 1] * pow(length, d) * clx_gamma_p(2 * d, sqrt(r / length));
+}
+
+static double shape_in_ball(shape_family family, int32_t d, double s, double r)
+{
+    return family == FAMILY_KINKED  ? exp_in_ball(d, kink * s, r)
+           : family == FAMILY_POLED ? pole_in_ball(d, pole * s, r)
+                                    : gauss_in_ball(d, s, r);
+}
+
+static void add_shape(fit *f, double s, shape_family family)
 {
     CLAST_ASSERT(f->n_shape >= 0 && f->n_shape < MOST_SHAPE);
     const clx_pair_shells *in = f->in;
@@ -93,8 +119,7 @@ static void add_shape(fit *f, double s, bool is_kink)
     double before = 0.0;
     f->total[j] = 0.0;
     for (int32_t k = 0; k < in->n_shell; ++k) {
-        const double within = is_kink ? exp_in_ball(in->d, kink * s, in->radius[k])
-                                      : gauss_in_ball(in->d, s, in->radius[k]);
+        const double within = shape_in_ball(family, in->d, s, in->radius[k]);
         f->mass[j][k] = n_pair * (within - before);
         f->total[j] += f->mass[j][k];
         before = within;
@@ -118,11 +143,11 @@ static double least_scale(const clx_pair_shells *in)
 static int32_t shapes(const fit *f, int32_t level)
 {
     const int32_t most = level < f->n_level ? level : f->n_level;
-    return 1 + (f->has_kinks ? 2 : 1) * most;
+    return 1 + (f->family == FAMILY_SMOOTH ? 1 : 2) * most;
 }
 
 /// The shapes, all widths times `stretch`.
-static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, fit *f)
+static void prepare(const clx_pair_shells *in, shape_family family, double stretch, fit *f)
 {
     double sum = 0.0;
     double spread = 0.0;
@@ -130,19 +155,19 @@ static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, f
         sum += in->pairs[k];
         spread += in->spread[k];
     }
-    *f = (fit){.in = in, .has_kinks = has_kinks, .s = {(double)INFINITY}};
+    *f = (fit){.in = in, .family = family, .s = {(double)INFINITY}};
     f->scale = sum > 0.0 ? fmax(1.0, spread / sum) : 1.0;
     for (int32_t k = 0; k < in->n_shell; ++k) {
         f->pairs[k] = in->pairs[k] / f->scale;
     }
-    add_shape(f, INFINITY, false);
+    add_shape(f, INFINITY, FAMILY_SMOOTH);
     const double least = least_scale(in);
     double s = widest * in->radius[in->n_shell - 1];
     while (s >= least && f->n_shape + 2 <= MOST_SHAPE) {
-        if (has_kinks) {
-            add_shape(f, stretch * s, true);
+        if (family != FAMILY_SMOOTH) {
+            add_shape(f, stretch * s, family);
         }
-        add_shape(f, stretch * s, false);
+        add_shape(f, stretch * s, FAMILY_SMOOTH);
         f->s[++f->n_level] = stretch * s;
         s *= step;
     }
@@ -512,37 +537,73 @@ static double overdispersion(const fit *f, const mixture *m, int32_t level)
 
 /// What one family of shapes says.
 typedef struct {
-    int32_t level;
+    int32_t level, moved;      ///< levels from that of fewer points to it
     double likelihood, factor; ///< and the overdispersion that it is to be divided by
     double value, low, high, s;
     double least, most; ///< of the profile alone
     double fit_p;
 } answer;
 
-static answer ask(fit *f)
+/// Twice the gain in log-likelihood that a narrower level asks for where a share of the points
+/// shall show it: their pairs are share^2 as many, and have share as many neighbours.
+static double gain_of(double share, double factor)
+{
+    return gain_needed * (1.0 + share * (factor - 1.0)) / (share * share);
+}
+
+/// The widest level that fits as well as all, and how far from it `fewer` points would stop: all
+/// the way where they would show no structure at all.
+static mixture choose_level(const fit *f, answer *a)
 {
     const mixture all = best(f, f->n_shape, 0.0);
     mixture m = best(f, 1, 0.0);
-    answer a = {.level = 0};
-    double factor = overdispersion(f, &m, 0);
-    while (a.level < f->n_level && 2.0 * (all.likelihood - m.likelihood) > gain_needed * factor) {
-        m = best(f, shapes(f, ++a.level), 0.0);
-        factor = overdispersion(f, &m, a.level);
-    }
-    const mixture narrow = m;
-    double enough = 1.0;
-    double too_wide = 1.0 / step;
-    for (int b = 0; b < N_STRETCH && a.level > 0; ++b) { // the widest that will do
-        const double middle = sqrt(enough * too_wide);
-        prepare(f->in, f->has_kinks, middle, f);
-        m = best(f, shapes(f, a.level), 0.0);
-        if (2.0 * (narrow.likelihood - m.likelihood) > stretch_loss * factor) {
-            too_wide = middle;
-        } else {
-            enough = middle;
+    int32_t of_fewer = -1;
+    for (*a = (answer){.level = 0};; m = best(f, shapes(f, ++a->level), 0.0)) {
+        const double gain = 2.0 * (all.likelihood - m.likelihood);
+        a->factor = overdispersion(f, &m, a->level);
+        of_fewer = of_fewer < 0 && gain <= gain_of(fewer, a->factor) ? a->level : of_fewer;
+        if (a->level == f->n_level || gain <= gain_of(1.0, a->factor)) {
+            break;
         }
     }
-    prepare(f->in, f->has_kinks, enough, f);
+    of_fewer = of_fewer < 0 ? a->level : of_fewer;
+    a->moved = of_fewer == 0 && a->level > 0 ? f->n_level : a->level - of_fewer;
+    return m;
+}
+
+/// The k-th of the factors between two levels, 1 the first.
+static double stretch_of(int k)
+{
+    CLAST_ASSERT(k >= 0 && k <= N_STRETCH);
+    return pow(step, -(double)k / (N_STRETCH + 1));
+}
+
+/// The greatest of N_STRETCH widths from the level to the one above that fits as well as the best
+/// of them. Each is tried, for the likelihood does not fall steadily: a width between two levels is
+/// fitted best where one of them meets it.
+static double widest_stretch(fit *f, const answer *a, double likelihood)
+{
+    double found[N_STRETCH + 1] = {likelihood};
+    double most = likelihood;
+    int k = a->level > 0 ? N_STRETCH : 0;
+    for (int q = 1; q <= k; ++q) {
+        prepare(f->in, f->family, stretch_of(q), f);
+        found[q] = best(f, shapes(f, a->level), 0.0).likelihood;
+        most = fmax(most, found[q]);
+    }
+    while (k > 0 && 2.0 * (most - found[k]) > stretch_loss * a->factor) {
+        --k;
+    }
+    return stretch_of(k);
+}
+
+static answer ask(fit *f)
+{
+    answer a;
+    mixture m = choose_level(f, &a);
+    const double factor = a.factor;
+    const double enough = widest_stretch(f, &a, m.likelihood);
+    prepare(f->in, f->family, enough, f);
     m = best(f, shapes(f, a.level), 0.0);
     const int32_t finer = a.level == 0 ? 1 : shapes(f, a.level + FINER);
     const mixture top = best(f, finer, 0.0);
@@ -561,7 +622,6 @@ static answer ask(fit *f)
     a.high = a.value * exp(hypot(log(a.most / a.value), shared));
     a.s = f->s[a.level];
     a.likelihood = m.likelihood;
-    a.factor = factor;
     a.fit_p = fit_p(f, shapes(f, a.level), &m);
     return a;
 }
@@ -593,13 +653,37 @@ static double pairs_within(const clx_pair_shells *in, double r)
     return r > before ? sum * pow(r / before, in->d) : sum;
 }
 
+/// Whether a part of the points would show the same widths, or else a pole can add but little.
+static bool is_steady(const clx_pair_shells *in, const answer *smooth, const answer *kinked,
+                      double value, fit *f)
+{
+    const int32_t least = smooth->moved < kinked->moved ? smooth->moved : kinked->moved;
+    const int32_t most = smooth->moved > kinked->moved ? smooth->moved : kinked->moved;
+    if (least <= STAYS && most <= MOST_MOVED) {
+        return true;
+    }
+    prepare(in, FAMILY_POLED, 1.0, f);
+    const answer poled = ask(f);
+    return log(poled.most / value) <= most_hidden;
+}
+
+/// The families' mean by their likelihoods, and the hull of their intervals.
+static clast_estimate average(const answer *smooth, const answer *kinked)
+{
+    const double factor = fmax(smooth->factor, kinked->factor);
+    const double share = 1.0 / (1.0 + exp((smooth->likelihood - kinked->likelihood) / factor));
+    return (clast_estimate){exp((1.0 - share) * log(smooth->value) + share * log(kinked->value)),
+                            fmin(smooth->low, kinked->low), fmax(smooth->high, kinked->high),
+                            false};
+}
+
 clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *result)
 {
     clast_status status = CLAST_OK;
     clast_pair_integral made = {.scale = INFINITY};
     fit *f = NULL;
     CLX_TRY(clx_alloc(&f, 1, sizeof *f));
-    prepare(in, false, 1.0, f);
+    prepare(in, FAMILY_SMOOTH, 1.0, f);
     if (f->n_level == 0) { // next to no pairs
         made.estimate = (clast_estimate){NAN, 0.0, INFINITY, false};
         made.fit_p = 1.0;
@@ -610,15 +694,10 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     }
     const answer smooth = ask(f);
     const int32_t n_level = f->n_level;
-    prepare(in, true, 1.0, f);
+    prepare(in, FAMILY_KINKED, 1.0, f);
     const answer kinked = ask(f);
-    const double better =
-        (smooth.likelihood - kinked.likelihood) / fmax(smooth.factor, kinked.factor);
-    const double share = 1.0 / (1.0 + exp(better)); // of the kinked
     clast_estimate *e = &made.estimate;
-    e->value = exp((1.0 - share) * log(smooth.value) + share * log(kinked.value));
-    e->low = fmin(smooth.low, kinked.low);
-    e->high = fmax(smooth.high, kinked.high);
+    *e = average(&smooth, &kinked);
     const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
     const double doubt =
         0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
@@ -627,13 +706,16 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const double close = pairs_within(in, fmin(smooth.s, size));
     const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
     e->resolved = is_seen && is_allowed && doubt <= most_doubt && close >= least;
+    const bool is_chance = e->resolved && !is_steady(in, &smooth, &kinked, e->value, f);
+    e->resolved = e->resolved && !is_chance;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
     made.n_needed = in->n;
     set_window(in, &made);
     if (!e->resolved) { // the doubt falls as the root of the pairs
         const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
-        made.n_needed = is_seen && is_allowed ? in->n * fmax(1.1, more) : (double)INFINITY;
+        const double steady = is_chance ? 1.0 / fewer : 1.1; // these are then the fewer points
+        made.n_needed = is_seen && is_allowed ? in->n * fmax(steady, more) : (double)INFINITY;
         e->high = INFINITY;
     }
     if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {

@@ -8,6 +8,7 @@
 #include "cloud/pair_cells.h"
 #include "cloud/pair_count.h"
 #include "cloud/pair_integral.h"
+#include "cloud/part.h"
 #include "cloud/surface.h"
 #include <clast/decompose.h>
 #include <math.h>
@@ -69,10 +70,6 @@ static clast_status select_points(const clast_pairs_config *config, job *w)
     clast_status status = CLAST_OK;
     const clast_cloud *cloud = w->cloud;
     const int32_t d = cloud->dimension;
-    for (int64_t i = 0; i < cloud->n * d; ++i) {
-        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
-                  "point %lld has a coordinate that is not finite", (long long)(i / d + 1));
-    }
     CLX_TRY(clx_alloc(&w->inside, cloud->n, sizeof *w->inside));
     CLX_TRY(clx_alloc(&w->x, cloud->n * d, sizeof *w->x));
     CLX_TRY(clx_alloc(&w->u, cloud->n * d, sizeof *w->u));
@@ -249,7 +246,7 @@ static clast_status count_ladder(const job *w, clx_ladder *ladder)
     for (int64_t i = 0; i < w->n; ++i) {
         sample.number[i] = i;
     }
-    CLX_TRY(clx_ladder_count(&sample, NULL, ladder));
+    CLX_TRY(clx_ladder_count(clast_comm_one(), &sample, NULL, ladder));
 done:
     clx_free(sample.number);
     return status;
@@ -310,20 +307,39 @@ static clast_status check(const clast_domain *domain, const clast_cloud *cloud,
     CLX_CHECK(cloud->weight == NULL, CLAST_E_CONFIG,
               "pairs of points with weights are not counted: g(r) of parcels is not that of the "
               "particles they stand for; leave the weight column out");
+    for (int64_t i = 0; i < cloud->n * cloud->dimension; ++i) {
+        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
+                  "point %lld has a coordinate that is not finite",
+                  (long long)(i / cloud->dimension + 1));
+    }
 done:
     return status;
 }
 
-clast_status clx_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
-                             const clast_pairs_config *config, const clx_ladder *ladder,
-                             clast_pairs *pairs)
+/// All ranks' points in the order of their places: sums over pairs then have one order.
+static clast_status take_all(const clast_comm *comm, const clast_cloud *cloud, clast_cloud *all)
+{
+    clast_status status = CLAST_OK;
+    const clx_part part = clx_part_of(comm, cloud->x, cloud->n, cloud->dimension);
+    CLX_CHECK(comm->n_rank == 1 || part.n_all <= CLX_PAIRS_MOST, CLAST_E_LIMIT,
+              "pairs by distance of %lld points are not counted over ranks (of %d at the most): "
+              "--estimator cells, or one process",
+              (long long)part.n_all, CLX_PAIRS_MOST);
+    CLX_TRY(clx_part_share(&part, &all->x));
+    all->n = part.n_all;
+    all->dimension = part.d;
+done:
+    return status;
+}
+
+static clast_status count_all(const clast_domain *domain, const clast_cloud *cloud,
+                              const clast_pairs_config *config, const clx_ladder *ladder,
+                              clast_pairs *pairs)
 {
     clast_status status = CLAST_OK;
     clast_pairs made = {0};
     clx_ladder own = {0};
     job w = {.domain = domain, .cloud = cloud};
-    CLX_NEED(pairs);
-    CLX_TRY(check(domain, cloud, config));
     CLX_TRY(select_points(config, &w));
     CLX_TRY(make_cells(config, &w));
     CLX_TRY(clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error));
@@ -351,10 +367,25 @@ done:
     return status;
 }
 
+clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
+                             const clast_cloud *cloud, const clast_pairs_config *config,
+                             const clx_ladder *ladder, clast_pairs *pairs)
+{
+    clast_status status = CLAST_OK;
+    clast_cloud all = {0};
+    CLX_NEED(pairs);
+    CLX_TRY(clast_comm_agree(comm, check(domain, cloud, config), NULL));
+    CLX_TRY(take_all(comm, cloud, &all));
+    CLX_TRY(clast_comm_agree(comm, count_all(domain, &all, config, ladder, pairs), NULL));
+done:
+    clast_cloud_free(&all);
+    return status;
+}
+
 clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
                                const clast_pairs_config *config, clast_pairs *pairs)
 {
-    return clx_pairs_count(domain, cloud, config, NULL, pairs);
+    return clx_pairs_count(clast_comm_one(), domain, cloud, config, NULL, pairs);
 }
 
 clast_estimate clast_estimate_choose(const clast_estimate *cells, const clast_estimate *pairs,

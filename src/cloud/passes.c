@@ -9,6 +9,8 @@
 #include "cloud/uniformity.h"
 #include "math/rng.h"
 #include "math/sort.h"
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 
@@ -17,13 +19,15 @@ enum { GRID_MOST = 20000, GRID_LEAST = 1000, GRID_WORK = 20000000 };
 
 typedef struct {
     const clast_decompose_config *config;
+    const clast_comm *comm;
     clast_uniformity_config vote;
     clx_depth_law law;
     double side[3];
     clx_passes *passes;
     clast_table *search;        ///< the result's
     double *u;                  ///< synthetic sample [n][d]
-    int64_t n, capacity;        ///< points of it
+    int64_t n, capacity;        ///< points of it here
+    int64_t n_all;              ///< on all ranks
     uint8_t *active;            ///< [n_bin]
     uint8_t *label, *best;      ///< [n_bin]
     int32_t *bin_of, *depth_of; ///< [n] bin and depth class of each point
@@ -60,16 +64,20 @@ static clast_status classify(work *w)
     clx_free(w->depth_of);
     w->bin_of = NULL;
     w->depth_of = NULL;
-    CLX_TRY(clx_alloc(&w->bin_of, w->n, sizeof *w->bin_of));
-    CLX_TRY(clx_alloc(&w->depth_of, w->n, sizeof *w->depth_of));
-    if (bins->count == NULL) {
-        CLX_TRY(clx_alloc(&bins->count, bins->n_bin, sizeof *bins->count));
+    status = clx_alloc(&w->bin_of, w->n, sizeof *w->bin_of);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&w->depth_of, w->n, sizeof *w->depth_of);
     }
+    if (status == CLAST_OK && bins->count == NULL) {
+        status = clx_alloc(&bins->count, bins->n_bin, sizeof *bins->count);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     clx_parallel_for(w->n, POINTS_A_BLOCK, classify_points, w);
     memset(bins->count, 0, (size_t)bins->n_bin * sizeof *bins->count);
     for (int64_t i = 0; i < w->n; ++i) {
         ++bins->count[w->bin_of[i]];
     }
+    clx_bins_add_ranks(w->comm, bins);
 done:
     return status;
 }
@@ -103,6 +111,7 @@ static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan
             w->depth_count[k] += w->depth_count[(int64_t)chunk * (w->n_grid + 1) + k];
         }
     }
+    clx_comm_sum(w->comm, w->depth_count, (int64_t)w->n_grid + 1);
     *plan = clx_ghosts_plan(w->passes->bins.count, label, w->passes->bins.n_bin);
     const clx_ghost_sample sample = {&w->passes->bins, label,    &w->law, *plan,
                                      w->depth_count,   w->n_grid};
@@ -177,7 +186,7 @@ static clast_status note_search(work *w, int32_t number, const clx_label_cut *cu
     clast_table *table = w->search;
     const int64_t row = table->n_row;
     const double n_bin = (double)w->passes->bins.n_bin;
-    const double n = (double)w->n;
+    const double n = (double)w->n_all;
     const double value[N_COLUMN] = {number,
                                     (double)cut->lambda * n_bin / n,
                                     cut->under * n_bin / n,
@@ -255,7 +264,7 @@ static clast_status search(work *w, const clx_levels *levels, int32_t number, cl
         }
     }
     pass->lambda_count = best.plan.n_replaced > 0 ? best.cut.lambda : 0;
-    pass->lower = best.cut.under * (double)w->passes->bins.n_bin / (double)w->n;
+    pass->lower = best.cut.under * (double)w->passes->bins.n_bin / (double)w->n_all;
     *plan = best.plan;
 done:
     return status;
@@ -275,8 +284,9 @@ static clast_status add_ghost(work *w, int64_t bin, clx_rng *rng)
     return status;
 }
 
-/// Keeps the points of ambient bins and puts floor(c) or ceil(c) ghosts into each selected one.
-static clast_status replace(work *w, const clx_ghost_plan *plan, int32_t pass)
+/// Keeps the points of ambient bins and puts floor(c) or ceil(c) ghosts into each selected one:
+/// each rank into a stretch of the bins.
+static clast_status replace_here(work *w, const clx_ghost_plan *plan, int32_t pass)
 {
     clast_status status = CLAST_OK;
     const int32_t d = w->passes->bins.d;
@@ -288,7 +298,9 @@ static clast_status replace(work *w, const clx_ghost_plan *plan, int32_t pass)
         }
     }
     w->n = kept;
-    for (int64_t b = 0; b < w->passes->bins.n_bin; ++b) {
+    const int64_t n_bin = w->passes->bins.n_bin;
+    const int64_t end = n_bin * (w->comm->rank + 1) / w->comm->n_rank;
+    for (int64_t b = n_bin * w->comm->rank / w->comm->n_rank; b < end; ++b) {
         if (w->best[b] == 0) {
             continue;
         }
@@ -299,9 +311,22 @@ static clast_status replace(work *w, const clx_ghost_plan *plan, int32_t pass)
         for (int64_t k = 0; k < n; ++k) {
             CLX_TRY(add_ghost(w, b, &rng));
         }
-        w->passes->tag[b] = (uint16_t)(pass * 8 + w->best[b]);
-        w->active[b] = 0;
     }
+done:
+    return status;
+}
+
+static clast_status replace(work *w, const clx_ghost_plan *plan, int32_t pass)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_comm_agree(w->comm, replace_here(w, plan, pass), NULL));
+    for (int64_t b = 0; b < w->passes->bins.n_bin; ++b) {
+        if (w->best[b] != 0) {
+            w->passes->tag[b] = (uint16_t)(pass * 8 + w->best[b]);
+            w->active[b] = 0;
+        }
+    }
+    w->n_all = clx_comm_total(w->comm, w->n);
 done:
     return status;
 }
@@ -322,7 +347,8 @@ static clast_status one_pass(work *w, int32_t number, clast_pass *pass, bool *se
         CLX_TRY(search(w, &levels, number, pass, &plan));
     }
     if (pass->lambda_count > 0) {
-        pass->lambda = (double)pass->lambda_count * (double)w->passes->bins.n_bin / (double)w->n;
+        pass->lambda =
+            (double)pass->lambda_count * (double)w->passes->bins.n_bin / (double)w->n_all;
         CLX_TRY(replace(w, &plan, number));
         *selected = true;
     }
@@ -348,7 +374,8 @@ static clast_status iterate(work *w, clast_decomposition *result)
         }
         result->pass[result->n_pass++] = pass;
         if (again) {
-            CLX_TRY(clx_uniformity_decide(w->u, w->n, w->passes->bins.d, &w->vote, &reject));
+            const clx_part part = clx_part_of(w->comm, w->u, w->n, w->passes->bins.d);
+            CLX_TRY(clx_uniformity_decide(&part, &w->vote, &reject));
             if (!reject) {
                 result->stop = CLAST_STOP_UNIFORM;
                 break;
@@ -359,21 +386,33 @@ done:
     return status;
 }
 
-static clast_status prepare(work *w, const double *u, int64_t n, int32_t d)
+static clast_status alloc_work(work *w, const clx_part *part)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_bin = w->passes->bins.n_bin;
+    CLX_TRY(clx_alloc(&w->passes->tag, n_bin, sizeof *w->passes->tag));
+    CLX_TRY(clx_alloc(&w->active, n_bin, 1));
+    CLX_TRY(clx_alloc(&w->label, n_bin, 1));
+    CLX_TRY(clx_alloc(&w->best, n_bin, 1));
+    CLX_TRY(clx_grow(&w->u, &w->capacity, part->n, (size_t)part->d * sizeof *w->u));
+    CLX_TRY(clx_alloc(&w->depth_count, N_CHUNK * ((int64_t)w->n_grid + 1), sizeof *w->depth_count));
+done:
+    return status;
+}
+
+static clast_status prepare(work *w, const clx_part *part)
 {
     clast_status status = CLAST_OK;
     double width[3];
-    CLX_TRY(clx_bins_choose(u, n, d, width, &w->passes->bins));
-    CLX_TRY(clx_alloc(&w->passes->tag, w->passes->bins.n_bin, sizeof *w->passes->tag));
-    CLX_TRY(clx_alloc(&w->active, w->passes->bins.n_bin, 1));
-    CLX_TRY(clx_alloc(&w->label, w->passes->bins.n_bin, 1));
-    CLX_TRY(clx_alloc(&w->best, w->passes->bins.n_bin, 1));
-    CLX_TRY(clx_grow(&w->u, &w->capacity, n, (size_t)d * sizeof *w->u));
-    memcpy(w->u, u, (size_t)n * (size_t)d * sizeof *u);
-    memset(w->active, 1, (size_t)w->passes->bins.n_bin);
-    w->n = n;
+    CLX_TRY(clx_bins_choose(part, width, &w->passes->bins));
     choose_grid(w);
-    CLX_TRY(clx_alloc(&w->depth_count, N_CHUNK * ((int64_t)w->n_grid + 1), sizeof *w->depth_count));
+    CLX_TRY(clast_comm_agree(w->comm, alloc_work(w, part), NULL));
+    if (part->n > 0) {
+        memcpy(w->u, part->u, (size_t)part->n * (size_t)part->d * sizeof *part->u);
+    }
+    memset(w->active, 1, (size_t)w->passes->bins.n_bin);
+    w->n = part->n;
+    w->n_all = part->n_all;
 done:
     return status;
 }
@@ -387,19 +426,19 @@ clast_status clx_passes_vote(const clast_decompose_config *config, clast_uniform
     return clast_uniformity_choose(config->tests, &vote->left_out);
 }
 
-clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
+clast_status clx_passes_run(const clx_part *part, const clast_domain *domain,
                             const clast_decompose_config *config, clast_decomposition *result,
                             clx_passes *passes)
 {
     clast_status status = CLAST_OK;
-    work w = {.config = config, .passes = passes, .search = &result->search};
+    work w = {.config = config, .comm = part->comm, .passes = passes, .search = &result->search};
     clx_domain_sides(domain, w.side);
     w.law = clx_depth_law_of_box(domain->dimension, w.side);
     CLX_TRY(clx_passes_vote(config, &w.vote));
-    CLX_TRY(prepare(&w, u, n, domain->dimension));
-    result->points_per_bin = (double)n / (double)passes->bins.n_bin;
+    CLX_TRY(prepare(&w, part));
+    result->points_per_bin = (double)part->n_all / (double)passes->bins.n_bin;
     CLX_TRY(iterate(&w, result));
-    CLX_TRY(clx_bins_count(&passes->bins, u, n, NULL)); // the real points again
+    CLX_TRY(clx_bins_count(&passes->bins, part)); // the real points again
 done:
     clx_free(w.u);
     clx_free(w.active);

@@ -10,9 +10,9 @@ typedef struct clx_passes {
     uint16_t *tag; ///< [n_bin] pass * 8 + label of selected bins, 0 for ambient ones
 } clx_passes;
 
-/// Runs the passes that config asks for on points of the unit cube; fills result->pass, n_pass,
-/// stop and points_per_bin.
-clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
+/// Runs the passes that config asks for on points of the unit cube, of all ranks; fills
+/// result->pass, n_pass, stop and points_per_bin.
+clast_status clx_passes_run(const clx_part *part, const clast_domain *domain,
                             const clast_decompose_config *config, clast_decomposition *result,
                             clx_passes *passes);
 

@@ -2,6 +2,7 @@
 #include "cloud/sample.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/parallel.h"
 #include "cloud/surface.h"
 #include "math/rng.h"
@@ -17,27 +18,29 @@ void clx_sample_free(clx_sample *sample)
     *sample = (clx_sample){0};
 }
 
-static clast_status check_points(const clast_cloud *cloud)
+/// `before`: points of the ranks before this one, for messages.
+static clast_status check_points(const clast_cloud *cloud, int64_t before)
 {
     clast_status status = CLAST_OK;
     for (int64_t i = 0; i < cloud->n * cloud->dimension; ++i) {
         CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
                   "point %lld has a coordinate that is not finite",
-                  (long long)(i / cloud->dimension + 1));
+                  (long long)(before + i / cloud->dimension + 1));
     }
     for (int64_t i = 0; i < cloud->n && cloud->radius != NULL; ++i) {
         CLX_CHECK(cloud->radius[i] > 0.0 && isfinite(cloud->radius[i]), CLAST_E_FORMAT,
-                  "the radius of point %lld is %g; it must be a number > 0", (long long)i + 1,
-                  cloud->radius[i]);
+                  "the radius of point %lld is %g; it must be a number > 0",
+                  (long long)(before + i + 1), cloud->radius[i]);
     }
     for (int64_t i = 0; i < cloud->n && cloud->variable != NULL; ++i) { // NAN: not known
         CLX_CHECK(!isinf(cloud->variable[i]), CLAST_E_FORMAT,
-                  "the variable of point %lld is infinite", (long long)i + 1);
+                  "the variable of point %lld is infinite", (long long)(before + i + 1));
     }
     for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
         const double w = cloud->weight[i];
         CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0", (long long)i + 1, w);
+                  "the weight of point %lld is %g; it must be a number > 0",
+                  (long long)(before + i + 1), w);
     }
 done:
     return status;
@@ -82,15 +85,25 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
 {
     clast_status status = CLAST_OK;
     map_context context = {.cloud = cloud, .sample = s};
-    CLX_TRY(check_points(cloud));
-    CLX_TRY(clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u));
-    CLX_TRY(clx_alloc(&s->number, cloud->n, sizeof *s->number));
+    int64_t before = 0;
+    int64_t total = 0;
+    CLX_TRY(clx_comm_before(s->comm, cloud->n, &before, &total));
+    status = check_points(cloud, before);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u);
+    }
+    if (status == CLAST_OK) {
+        status = clx_alloc(&s->number, cloud->n, sizeof *s->number);
+    }
+    CLX_TRY(clast_comm_agree(s->comm, status, NULL));
     clx_parallel_for(cloud->n, BLOCK, map_block, &context);
     close_gaps(cloud, s);
-    CLX_CHECK(s->n == cloud->n || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
+    s->n_real_all = clx_comm_total(s->comm, s->n);
+    s->n_outside_all = total - s->n_real_all;
+    CLX_CHECK(s->n_outside_all == 0 || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
               "%lld of %lld points lie outside the domain%s%s; give the true domain, or leave them "
               "out with --outside drop",
-              (long long)(cloud->n - s->n), (long long)cloud->n, config->domain != NULL ? " " : "",
+              (long long)s->n_outside_all, (long long)total, config->domain != NULL ? " " : "",
               config->domain != NULL ? config->domain : "");
 done:
     return status;
@@ -174,11 +187,12 @@ done:
     return status;
 }
 
-clast_status clx_sample_map(const clast_cloud *cloud, const clast_decompose_config *config,
-                            const clast_domain *domain, clx_sample *sample)
+clast_status clx_sample_map(const clast_comm *comm, const clast_cloud *cloud,
+                            const clast_decompose_config *config, const clast_domain *domain,
+                            clx_sample *sample)
 {
     clast_status status = CLAST_OK;
-    clx_sample made = {.domain = domain};
+    clx_sample made = {.domain = domain, .comm = comm};
     CLX_CHECK(domain->dimension == cloud->dimension, CLAST_E_CONFIG,
               "domain '%s' has %d dimensions, the points have %d",
               config->domain != NULL ? config->domain : "", domain->dimension, cloud->dimension);
@@ -200,12 +214,13 @@ clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose
     return is_mesh ? extend(config->seed, sample) : CLAST_OK;
 }
 
-clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clast_domain *domain, clx_sample *sample)
+clast_status clx_sample_make(const clast_comm *comm, const clast_cloud *cloud,
+                             const clast_decompose_config *config, const clast_domain *domain,
+                             clx_sample *sample)
 {
     clast_status status = CLAST_OK;
     clx_sample made = {0};
-    CLX_TRY(clx_sample_map(cloud, config, domain, &made));
+    CLX_TRY(clx_sample_map(comm, cloud, config, domain, &made));
     CLX_TRY(clx_sample_complete(cloud, config, &made));
     *sample = made;
     made = (clx_sample){0};

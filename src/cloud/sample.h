@@ -2,30 +2,35 @@
 // The points that are tested and cut into cells, in the unit cube.
 #include <clast/cloud.h>
 #include <clast/decompose.h>
+#include <clast/machine.h>
 
 /// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
 /// (thinned out for their weights).
 typedef struct clx_sample {
     const clast_domain *domain; ///< borrowed
-    int64_t n_test, n;          ///< tested, and all
+    const clast_comm *comm;     ///< ranks that have a part of the points each; borrowed
+    int64_t n_test, n;          ///< tested, and all; here
     int64_t n_real;
-    double *u;       ///< [n][d]
-    int64_t *number; ///< [n] which point of the cloud, -1: a ghost
+    int64_t n_real_all, n_outside_all; ///< on all ranks
+    double *u;                         ///< [n][d]
+    int64_t *number;                   ///< [n] which point of the cloud, -1: a ghost
 } clx_sample;
 
-/// Maps a cloud's points; with a mesh domain round(n (V_box / V - 1)) uniform ghosts fill the rest
-/// of the box; of weighted points i is tested with chance w_i / w_max, so that those tested are a
-/// sample of the real particles.
+/// Maps a cloud's points, the part of this rank; called by all ranks. On one rank with a mesh
+/// domain round(n (V_box / V - 1)) uniform ghosts fill the rest of the box, and of weighted points
+/// i is tested with chance w_i / w_max, so that those tested are a sample of the real particles.
 ///
 /// @return CLAST_E_FORMAT for coordinates that are not finite, weights that are not > 0, points
 /// outside with CLAST_OUTSIDE_ERROR
-clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clast_domain *domain, clx_sample *sample);
+clast_status clx_sample_make(const clast_comm *comm, const clast_cloud *cloud,
+                             const clast_decompose_config *config, const clast_domain *domain,
+                             clx_sample *sample);
 
 /// clx_sample_make in two steps: every point of the cloud that lies in the domain, tested all; then
 /// thinned out for weights, and filled up by ghosts.
-clast_status clx_sample_map(const clast_cloud *cloud, const clast_decompose_config *config,
-                            const clast_domain *domain, clx_sample *sample);
+clast_status clx_sample_map(const clast_comm *comm, const clast_cloud *cloud,
+                            const clast_decompose_config *config, const clast_domain *domain,
+                            clx_sample *sample);
 clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose_config *config,
                                  clx_sample *sample);
 void clx_sample_free(clx_sample *sample);

@@ -61,15 +61,15 @@ static void cast(clast_uniformity *r, int test, double statistic, double p,
     }
 }
 
-static clast_status cast_discrepancies(const double *u, int64_t n, int32_t d,
-                                       const clast_uniformity_config *config, clast_uniformity *r)
+static clast_status cast_discrepancies(const clx_part *part, const clast_uniformity_config *config,
+                                       clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
     clast_discrepancy found[CLAST_N_DISCREPANCY];
     if (!votes(config, 0) && !votes(config, 1) && !votes(config, 2)) {
         return CLAST_OK;
     }
-    CLX_TRY(clast_discrepancy_test(u, n, d, CLAST_SUMS_AUTO, found));
+    CLX_TRY(clx_discrepancy_test(part, CLAST_SUMS_AUTO, found));
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
         const double p = config->liang   ? found[k].p_T
                          : config->paper ? found[k].p_paper
@@ -83,27 +83,27 @@ done:
     return status;
 }
 
-static clast_status cast_henze_zirkler(const double *u, int64_t n, int32_t d,
-                                       const clast_uniformity_config *config, clast_uniformity *r)
+static clast_status cast_henze_zirkler(const clx_part *part, const clast_uniformity_config *config,
+                                       clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
     clast_henze_zirkler found;
     if (votes(config, HENZE_ZIRKLER)) {
-        CLX_TRY(clast_henze_zirkler_test(u, n, d, CLAST_SUMS_AUTO, &found));
+        CLX_TRY(clx_henze_zirkler_test(part, CLAST_SUMS_AUTO, &found));
         cast(r, HENZE_ZIRKLER, found.HZ, config->paper ? found.p_paper : found.p, config);
     }
 done:
     return status;
 }
 
-static clast_status cast_pearson(const double *u, int64_t n, int32_t d,
-                                 const clast_uniformity_config *config, clast_uniformity *r)
+static clast_status cast_pearson(const clx_part *part, const clast_uniformity_config *config,
+                                 clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
     static const int32_t pair[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     clast_pearson found;
-    if (votes(config, PEARSON) && d > 1) {
-        CLX_TRY(clast_pearson_test(u, n, d, &found));
+    if (votes(config, PEARSON) && part->d > 1) {
+        CLX_TRY(clx_pearson_test(part, &found));
         int least = 0;
         for (int k = 1; k < found.n_pair && k < 3; ++k) {
             least = found.p[k] < found.p[least] ? k : least;
@@ -117,34 +117,35 @@ done:
     return status;
 }
 
-clast_status clx_uniformity_decide(const double *u, int64_t n, int32_t d,
-                                   const clast_uniformity_config *config, bool *reject)
+clast_status clx_uniformity_decide(const clx_part *part, const clast_uniformity_config *config,
+                                   bool *reject)
 {
     clast_status status = CLAST_OK;
     clast_uniformity made = {0};
-    if (n >= 5) {
-        CLX_TRY(cast_discrepancies(u, n, d, config, &made));
-        CLX_TRY(cast_pearson(u, n, d, config, &made));
+    if (part->n_all >= 5) {
+        CLX_TRY(cast_discrepancies(part, config, &made));
+        CLX_TRY(cast_pearson(part, config, &made));
         if (made.n_reject == config->votes - 1) { // only now does the last test matter
-            CLX_TRY(cast_henze_zirkler(u, n, d, config, &made));
+            CLX_TRY(cast_henze_zirkler(part, config, &made));
         }
     }
-    *reject = n >= 5 && made.n_reject >= config->votes;
+    *reject = part->n_all >= 5 && made.n_reject >= config->votes;
 done:
     return status;
 }
 
-static clast_status measure_score(const double *u, int64_t n, int32_t d, const double side[3],
-                                  bool paper, clast_uniformity *r)
+static clast_status measure_score(const clx_part *part, const double side[3], bool paper,
+                                  clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
-    double *depth = NULL;
-    const clx_depth_law law = clx_depth_law_of_box(d, side);
-    CLX_TRY(clx_boundary_depths(&law, u, n, &depth));
-    r->score = paper ? clx_depth_trapezoid(&law, depth, n) : clx_depth_distance(&law, depth, n);
-    r->ideal = clx_depth_ideal(&law, (double)n);
+    clx_depths depths = {{0}, 0.0};
+    const clx_depth_law law = clx_depth_law_of_box(part->d, side);
+    CLX_TRY(clx_depths_sort(&law, part, -1, &depths));
+    CLX_TRY(paper ? clx_depths_trapezoid(&law, part, &depths, &r->score)
+                  : clx_depths_distance(&law, part, &depths, &r->score));
+    r->ideal = clx_depth_ideal(&law, (double)part->n_all);
 done:
-    clx_free(depth);
+    clx_depths_free(&depths);
     return status;
 }
 
@@ -174,6 +175,25 @@ done:
     return status;
 }
 
+clast_status clx_uniformity_test(const clx_part *part, const double side[3],
+                                 const clast_uniformity_config *config, clast_uniformity *result)
+{
+    clast_status status = CLAST_OK;
+    clast_uniformity made = {0};
+    if (part->n_all >= 1) {
+        CLX_TRY(measure_score(part, side, config->paper, &made));
+    }
+    if (part->n_all >= 5) {
+        CLX_TRY(cast_discrepancies(part, config, &made));
+        CLX_TRY(cast_henze_zirkler(part, config, &made));
+        CLX_TRY(cast_pearson(part, config, &made));
+        made.reject = made.n_reject >= config->votes;
+    }
+    *result = made;
+done:
+    return status;
+}
+
 // The four arguments of a sample stand in the published order.
 // NOLINTNEXTLINE(readability-function-size)
 clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const double side[3],
@@ -181,20 +201,11 @@ clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const 
 {
     CLX_ARGUMENTS(u, side, config, result);
     clast_status status = CLAST_OK;
-    clast_uniformity made = {0};
     CLX_TRY(check_config(config));
     CLX_TRY(clx_cube_check(u, n, d, 0, "a test of uniformity"));
     CLX_TRY(check_sides(side, d));
-    if (n >= 1) {
-        CLX_TRY(measure_score(u, n, d, side, config->paper, &made));
-    }
-    if (n >= 5) {
-        CLX_TRY(cast_discrepancies(u, n, d, config, &made));
-        CLX_TRY(cast_henze_zirkler(u, n, d, config, &made));
-        CLX_TRY(cast_pearson(u, n, d, config, &made));
-        made.reject = made.n_reject >= config->votes;
-    }
-    *result = made;
+    const clx_part part = clx_part_whole(u, n, d);
+    CLX_TRY(clx_uniformity_test(&part, side, config, result));
 done:
     return status;
 }

@@ -1,8 +1,18 @@
 #pragma once
-// The vote without the report.
+// The five tests of points that lie on one rank or on many, and their vote.
+#include "cloud/part.h"
+
 #include <clast/decompose.h>
+
+// The public tests (clast/decompose.h) of the points of all ranks; arguments are not checked.
+clast_status clx_discrepancy_test(const clx_part *part, clast_sums sums, clast_discrepancy *result);
+clast_status clx_henze_zirkler_test(const clx_part *part, clast_sums sums,
+                                    clast_henze_zirkler *result);
+clast_status clx_pearson_test(const clx_part *part, clast_pearson *result);
+clast_status clx_uniformity_test(const clx_part *part, const double side[3],
+                                 const clast_uniformity_config *config, clast_uniformity *result);
 
 /// The decision of clast_uniformity_test alone; Henze and Zirkler's test, the dearest, is run only
 /// when the others leave it open.
-clast_status clx_uniformity_decide(const double *u, int64_t n, int32_t d,
-                                   const clast_uniformity_config *config, bool *reject);
+clast_status clx_uniformity_decide(const clx_part *part, const clast_uniformity_config *config,
+                                   bool *reject);

@@ -1,12 +1,19 @@
 // Uniformity tree: points are sorted along the Morton curve once, so that every cell is a range of
 // them and its blocks are ranges too. [docs/theory/decompose.md section 7]
+//
+// Over ranks each has a stretch of the curve and grows the cells that lie in it, without a word to
+// the others. Of cells that a border between two stretches cuts, a few in each depth, all ranks add
+// up the counts beforehand, and decide alike. [docs/theory/cloud-ranks.md]
 #include "cloud/uniformity_tree.h"
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/part.h"
 #include "math/morton.h"
 #include "math/sort.h"
 #include "math/special.h"
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,25 +21,43 @@
 // block (1.5e6 samples), so those are tested; as cells they are given with 5.
 enum { TESTED_LEAST = 1, GIVEN_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
 
+/// Points in the blocks of a cell that a border between ranks cuts.
+typedef struct {
+    uint64_t key;
+    int depth, levels;
+    int64_t count[MAX_BLOCK];
+} shared_cell;
+
 typedef struct {
     const clx_uniformity_tree_points *points;
     int32_t d;
     const clx_uniformity_tree_config *config;
-    clx_keyed *point; ///< [n] by Morton code
+    clx_keyed *point;  ///< [n] by Morton code, on the only rank
+    clx_ranked ranked; ///< the codes of several ranks, instead
     clx_uniformity_tree_cells *cells;
     int32_t *of_point;
     int64_t *begin;     ///< of each cell in point; made at the end
     double limit[2][3]; ///< [is root] chi-square over this rejects, for blocks 1, 2 halvings down
     int32_t n_group, n_untested;
+    shared_cell *shared; ///< [n_shared] in the order in which they were met
+    int64_t n_shared, shared_capacity;
+    bool is_survey; ///< only cells that borders cut are looked at, to count them
 } growth;
 
 typedef struct {
     uint64_t key;       ///< Morton code of the low corner
-    int64_t begin, end; ///< in growth.point
+    int64_t begin, end; ///< points here
+    int64_t n;          ///< points on all ranks
     int depth;
     int32_t group;
     bool is_of_uneven; ///< some cell above was split for its counts
+    bool is_told;      ///< as a cell, by this rank
 } node;
+
+static uint64_t code_at(const growth *g, int64_t i)
+{
+    return g->ranked.key != NULL ? g->ranked.key[i] : g->point[i].key;
+}
 
 static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
@@ -55,7 +80,7 @@ static int64_t first_from(const growth *g, int64_t begin, int64_t end, uint64_t 
     CLAST_ASSERT(begin <= end);
     while (begin < end) {
         const int64_t middle = begin + (end - begin) / 2;
-        if (g->point[middle].key < key) {
+        if (code_at(g, middle) < key) {
             begin = middle + 1;
         } else {
             end = middle;
@@ -72,7 +97,7 @@ static void find_blocks(const growth *g, const node *cell, int levels, int64_t *
     if (cell->end - cell->begin < FEW) {
         memset(start, 0, ((size_t)n_block + 1) * sizeof *start);
         for (int64_t i = cell->begin; i < cell->end; ++i) {
-            ++start[((g->point[i].key - cell->key) >> shift) + 1];
+            ++start[((code_at(g, i) - cell->key) >> shift) + 1];
         }
         start[0] = cell->begin;
         for (int b = 0; b < n_block; ++b) {
@@ -87,21 +112,79 @@ static void find_blocks(const growth *g, const node *cell, int levels, int64_t *
     start[n_block] = cell->end;
 }
 
-/// Tested points of each block of the cell, `levels` halvings down; returns their number.
-static int64_t count_tested(const growth *g, const node *cell, int levels, int64_t *count)
+/// Whether a border between ranks cuts the cell.
+static bool is_shared(const growth *g, const node *cell)
 {
-    int64_t start[MAX_BLOCK + 1];
-    int64_t n = 0;
+    const uint64_t end = cell->key + (UINT64_C(1) << bits_below(g, cell->depth));
+    bool is_cut = false;
+    for (int32_t k = 1; k < g->points->comm->n_rank && !is_cut; ++k) {
+        is_cut = g->ranked.first[k] > cell->key && g->ranked.first[k] < end;
+    }
+    return is_cut;
+}
+
+/// Whether the cell begins in this rank's stretch of the curve: it is then this rank's to tell.
+static bool is_own(const growth *g, const node *cell)
+{
+    const clast_comm *comm = g->points->comm;
+    return comm->n_rank == 1 || (cell->key >= g->ranked.first[comm->rank] &&
+                                 cell->key < g->ranked.first[comm->rank + 1]);
+}
+
+/// Points of all ranks in the blocks of a cell that is cut: known from the survey, or added up now,
+/// when all ranks ask.
+static clast_status count_shared(growth *g, const node *cell, int levels, int64_t *count)
+{
+    clast_status status = CLAST_OK;
+    const int n_block = 1 << (g->d * levels);
+    for (int64_t k = 0; k < g->n_shared; ++k) {
+        const shared_cell *known = &g->shared[k];
+        if (known->key == cell->key && known->depth == cell->depth && known->levels == levels) {
+            memcpy(count, known->count, (size_t)n_block * sizeof *count);
+            return CLAST_OK;
+        }
+    }
+    CLAST_ASSERT(g->is_survey);
+    CLX_TRY(clast_comm_agree(
+        g->points->comm,
+        clx_grow(&g->shared, &g->shared_capacity, g->n_shared + 1, sizeof *g->shared), NULL));
+    clx_comm_sum(g->points->comm, count, n_block);
+    shared_cell *made = &g->shared[g->n_shared++];
+    *made = (shared_cell){.key = cell->key, .depth = cell->depth, .levels = levels};
+    memcpy(made->count, count, (size_t)n_block * sizeof *count);
+done:
+    return status;
+}
+
+/// Points of each block of the cell, `levels` halvings down, on all ranks; start as find_blocks.
+static clast_status count_points(growth *g, const node *cell, int levels, int64_t *start,
+                                 int64_t *count)
+{
     const int n_block = 1 << (g->d * levels);
     find_blocks(g, cell, levels, start);
     for (int b = 0; b < n_block; ++b) {
         count[b] = start[b + 1] - start[b];
+    }
+    return is_shared(g, cell) ? count_shared(g, cell, levels, count) : CLAST_OK;
+}
+
+/// Tested points of each block of the cell, `levels` halvings down, and their number.
+static clast_status count_tested(growth *g, const node *cell, int levels, int64_t *count,
+                                 int64_t *n)
+{
+    clast_status status = CLAST_OK;
+    int64_t start[MAX_BLOCK + 1];
+    const int n_block = 1 << (g->d * levels);
+    CLX_TRY(count_points(g, cell, levels, start, count));
+    *n = 0;
+    for (int b = 0; b < n_block; ++b) {
         for (int64_t i = start[b]; i < start[b + 1] && g->points->n_test < g->points->n; ++i) {
             count[b] -= g->point[i].item < (uint64_t)g->points->n_test ? 0 : 1;
         }
-        n += count[b];
+        *n += count[b];
     }
-    return n;
+done:
+    return status;
 }
 
 /// Pearson's chi-square for even counts of n points.
@@ -186,27 +269,30 @@ static int levels_with(const growth *g, const node *cell, int64_t n, int64_t lea
 
 /// Whether the cell's counts are uneven; *levels: halvings to the blocks that it is given as when
 /// they are not, 0 for a cell of too few points to be tested.
-static bool is_uneven(const growth *g, const node *cell, int *levels)
+static clast_status judge(growth *g, const node *cell, bool *uneven, int *levels)
 {
+    clast_status status = CLAST_OK;
     int64_t count[MAX_BLOCK];
+    int64_t n = 0;
     const double *limit = g->limit[cell->depth == 0 ? 1 : 0];
     *levels = 0;
+    *uneven = false;
     if (cell->depth >= CLX_MORTON_LEVELS) {
-        return false;
+        return CLAST_OK;
     }
-    const int64_t n = count_tested(g, cell, 1, count);
+    CLX_TRY(count_tested(g, cell, 1, count, &n));
     if (n < g->config->least) {
-        return false;
+        return CLAST_OK;
     }
     *levels = levels_with(g, cell, n, GIVEN_LEAST);
-    if ((cell->depth == 0 && g->points->is_uneven) || unevenness(count, 1 << g->d, n) > limit[1]) {
-        return true;
+    *uneven =
+        (cell->depth == 0 && g->points->is_uneven) || unevenness(count, 1 << g->d, n) > limit[1];
+    if (!*uneven && levels_with(g, cell, n, TESTED_LEAST) > 1) {
+        CLX_TRY(count_tested(g, cell, 2, count, &n));
+        *uneven = unevenness(count, 1 << (2 * g->d), n) > limit[2];
     }
-    if (levels_with(g, cell, n, TESTED_LEAST) > 1) {
-        (void)count_tested(g, cell, 2, count);
-        return unevenness(count, 1 << (2 * g->d), n) > limit[2];
-    }
-    return false;
+done:
+    return status;
 }
 
 static clast_status make_room(clx_uniformity_tree_cells *c)
@@ -228,6 +314,9 @@ done:
 static clast_status add_cell(growth *g, const node *cell)
 {
     clx_uniformity_tree_cells *c = g->cells;
+    if (g->is_survey || !cell->is_told) {
+        return CLAST_OK;
+    }
     const clast_status status = make_room(c);
     if (status != CLAST_OK) {
         return status;
@@ -242,7 +331,7 @@ static clast_status add_cell(growth *g, const node *cell)
         c->low[c->n][j] = j < g->d ? (double)at * width : 0.0;
         c->high[c->n][j] = j < g->d ? (double)(at + 1) * width : 1.0;
     }
-    c->count[c->n] = cell->end - cell->begin;
+    c->count[c->n] = cell->n;
     c->group[c->n] = cell->group;
     c->key[c->n++] = cell->key;
     return CLAST_OK;
@@ -256,16 +345,19 @@ static clast_status each_block(growth *g, const node *cell, int levels,
 {
     clast_status status = CLAST_OK;
     int64_t start[MAX_BLOCK + 1];
+    int64_t count[MAX_BLOCK];
     const int n_block = 1 << (g->d * levels);
     const int shift = bits_below(g, cell->depth + levels);
-    find_blocks(g, cell, levels, start);
+    CLX_TRY(count_points(g, cell, levels, start, count));
     for (int b = 0; b < n_block; ++b) {
         const node block = {.key = cell->key + ((uint64_t)b << shift),
                             .begin = start[b],
                             .end = start[b + 1],
+                            .n = count[b],
                             .depth = cell->depth + levels,
                             .group = g->n_group + (b >> g->d), // blocks come half by half
-                            .is_of_uneven = cell->is_of_uneven};
+                            .is_of_uneven = cell->is_of_uneven,
+                            .is_told = is_own(g, cell)};
         CLX_TRY(take(g, &block));
     }
 done:
@@ -274,8 +366,15 @@ done:
 
 static clast_status grow(growth *g, const node *cell)
 {
+    clast_status status = CLAST_OK;
     int levels = 0;
-    if (is_uneven(g, cell, &levels)) {
+    bool uneven = false;
+    const bool is_here = is_own(g, cell);
+    if (!is_shared(g, cell) && (g->is_survey || !is_here)) {
+        return CLAST_OK;
+    }
+    CLX_TRY(judge(g, cell, &uneven, &levels));
+    if (uneven) {
         node split = *cell;
         split.is_of_uneven = true;
         return each_block(g, &split, 1, grow);
@@ -284,16 +383,20 @@ static clast_status grow(growth *g, const node *cell)
         return each_block(g, cell, 1, grow);
     }
     if (g->config->refine && cell->is_of_uneven && levels > 0) {
-        const clast_status status = each_block(g, cell, levels, add_cell);
-        g->n_group += 1 << (g->d * (levels - 1));
-        return status;
+        CLX_TRY(each_block(g, cell, levels, add_cell));
+        g->n_group += is_here ? 1 << (g->d * (levels - 1)) : 0;
+        return CLAST_OK;
     }
     node whole = *cell;
-    whole.group = cell->is_of_uneven ? -2 - g->n_untested++ : -1;
-    if (cell->depth >= CLX_MORTON_LEVELS && cell->end - cell->begin >= g->config->least) {
-        ++g->cells->n_deepest;
+    whole.is_told = is_here;
+    whole.group = cell->is_of_uneven ? -2 - g->n_untested : -1;
+    g->n_untested += cell->is_of_uneven && is_here ? 1 : 0;
+    if (cell->depth >= CLX_MORTON_LEVELS && cell->n >= g->config->least) {
+        g->cells->n_deepest += is_here ? 1 : 0;
     }
-    return add_cell(g, &whole);
+    status = add_cell(g, &whole);
+done:
+    return status;
 }
 
 static void number_points(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -307,38 +410,157 @@ static void number_points(int64_t begin, int64_t end, int32_t worker, void *cont
     }
 }
 
+/// Points of the only rank in the order of their codes.
+static clast_status order_points(growth *g)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&g->point, g->points->n, sizeof *g->point));
+    clx_parallel_for(g->points->n, POINTS_A_BLOCK, take_keys, g);
+    CLX_TRY(clx_sort_keyed(g->point, g->points->n));
+done:
+    return status;
+}
+
+static clast_status grow_alone(growth *g)
+{
+    clast_status status = CLAST_OK;
+    const node root = {.end = g->points->n, .n = g->points->n};
+    CLX_TRY(order_points(g));
+    CLX_TRY(grow(g, &root));
+    CLX_TRY(clx_alloc(&g->begin, g->cells->n, sizeof *g->begin));
+    for (int32_t c = 1; c < g->cells->n; ++c) {
+        g->begin[c] = g->begin[c - 1] + g->cells->count[c - 1];
+    }
+    clx_parallel_for(g->cells->n, 256, number_points, g);
+done:
+    return status;
+}
+
+typedef struct {
+    const growth *g;
+    uint64_t *code;
+} code_context;
+
+static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const code_context *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        c->code[i] = clx_morton_of(c->g->points->u + i * c->g->d, c->g->d);
+    }
+}
+
+static clast_status order_codes(growth *g)
+{
+    clast_status status = CLAST_OK;
+    code_context c = {g, NULL};
+    const clx_uniformity_tree_points *p = g->points;
+    CLX_TRY(clast_comm_agree(p->comm, clx_alloc(&c.code, p->n, sizeof *c.code), NULL));
+    clx_parallel_for(p->n, POINTS_A_BLOCK, take_codes, &c);
+    CLX_TRY(clx_ranked_sort(p->comm, &c.code, p->n, UINT64_C(1) << bits_below(g, 0), &g->ranked));
+done:
+    clx_free(c.code);
+    return status;
+}
+
+/// Replaces a rank's array [n] by those of all ranks.
+static clast_status share_array(const clast_comm *comm, void *array, int64_t n, size_t size)
+{
+    clast_status status = CLAST_OK;
+    clx_gathered all = {0};
+    void *own = NULL;
+    memcpy(&own, array, sizeof own);
+    CLX_TRY(clx_comm_share(comm, own, n * (int64_t)size, &all));
+    memcpy(array, &all.bytes, sizeof all.bytes);
+    clx_free(own);
+done:
+    return status;
+}
+
+/// The cells of all ranks, one behind the other: they follow the curve. Groups are numbered on.
+static clast_status share_cells(const growth *g)
+{
+    clast_status status = CLAST_OK;
+    const clast_comm *comm = g->points->comm;
+    clx_uniformity_tree_cells *c = g->cells;
+    int64_t group = 0;
+    int64_t untested = 0;
+    int64_t before = 0;
+    int64_t total = 0;
+    CLX_TRY(clx_comm_before(comm, g->n_group, &group, &total));
+    CLX_TRY(clx_comm_before(comm, g->n_untested, &untested, &total));
+    CLX_TRY(clx_comm_before(comm, c->n, &before, &total));
+    CLX_CHECK(total <= INT32_MAX, CLAST_E_LIMIT, "%lld cells are too many for one tree (2^31 - 1)",
+              (long long)total);
+    for (int32_t k = 0; k < c->n; ++k) {
+        c->group[k] += (int32_t)(c->group[k] >= 0 ? group : c->group[k] < -1 ? -untested : 0);
+    }
+    CLX_TRY(share_array(comm, &c->low, c->n, sizeof *c->low));
+    CLX_TRY(share_array(comm, &c->high, c->n, sizeof *c->high));
+    CLX_TRY(share_array(comm, &c->count, c->n, sizeof *c->count));
+    CLX_TRY(share_array(comm, &c->key, c->n, sizeof *c->key));
+    CLX_TRY(share_array(comm, &c->group, c->n, sizeof *c->group));
+    c->n = (int32_t)total;
+    c->capacity = total;
+    c->n_deepest = (int32_t)clx_comm_total(comm, c->n_deepest);
+done:
+    return status;
+}
+
+static void locate_points(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const growth *g = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        g->of_point[i] =
+            clx_uniformity_tree_locate(g->cells->key, g->cells->n, g->points->u + i * g->d, g->d);
+    }
+}
+
+static clast_status grow_over_ranks(growth *g)
+{
+    clast_status status = CLAST_OK;
+    CLAST_ASSERT(g->points->n_test == g->points->n && g->points->variable == NULL);
+    CLX_TRY(order_codes(g));
+    const node root = {.end = g->ranked.n, .n = g->ranked.n_all};
+    g->is_survey = true;
+    CLX_TRY(grow(g, &root));
+    g->is_survey = false;
+    g->n_group = 0;
+    g->n_untested = 0;
+    g->cells->n_deepest = 0;
+    CLX_TRY(clast_comm_agree(g->points->comm, grow(g, &root), NULL));
+    CLX_TRY(share_cells(g));
+    clx_parallel_for(g->points->n, POINTS_A_BLOCK, locate_points, g);
+done:
+    return status;
+}
+
 clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point)
 {
     clast_status status = CLAST_OK;
-    const int64_t n = points->n;
-    const int32_t d = points->d;
-    growth g = {.points = points, .d = d, .config = config, .cells = cells, .of_point = of_point};
-    const node root = {.end = n};
+    const int64_t n = clx_comm_total(points->comm, points->n);
+    growth g = {
+        .points = points, .d = points->d, .config = config, .cells = cells, .of_point = of_point};
     *cells = (clx_uniformity_tree_cells){0};
     CLX_CHECK(n <= INT32_MAX, CLAST_E_LIMIT, "%lld points are too many for one tree (2^31 - 1)",
               (long long)n);
-    CLX_TRY(clx_alloc(&g.point, n, sizeof *g.point));
     for (int levels = 1; levels <= 2; ++levels) {
-        const double freedom = (double)((1 << (d * levels)) - 1);
+        const double freedom = (double)((1 << (g.d * levels)) - 1);
         g.limit[0][levels] = critical(0.5 * config->level, freedom);
         g.limit[1][levels] = critical(0.5 * config->root_level, freedom);
     }
-    clx_parallel_for(n, POINTS_A_BLOCK, take_keys, &g);
-    CLX_TRY(clx_sort_keyed(g.point, n));
-    CLX_TRY(grow(&g, &root));
-    CLX_TRY(clx_alloc(&g.begin, cells->n, sizeof *g.begin));
-    for (int32_t c = 1; c < cells->n; ++c) {
-        g.begin[c] = g.begin[c - 1] + cells->count[c - 1];
-    }
-    clx_parallel_for(cells->n, 256, number_points, &g);
+    CLX_TRY(points->comm->n_rank == 1 ? grow_alone(&g) : grow_over_ranks(&g));
 done:
     if (status != CLAST_OK) {
         clx_uniformity_tree_free(cells);
     }
     clx_free(g.point);
+    clx_ranked_free(&g.ranked);
     clx_free(g.begin);
+    clx_free(g.shared);
     return status;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The uniformity tree: a box is split in all axes while a chi-square test finds its points uneven.
-#include "base/status.h"
+#include "base/comm.h"
 
 /// Cells of the tree as boxes of the unit cube, along the Morton curve.
 typedef struct clx_uniformity_tree_cells {
@@ -24,11 +24,13 @@ typedef struct clx_uniformity_tree_config {
 
 /// What is split.
 typedef struct clx_uniformity_tree_points {
-    const double *u; ///< [n][d]
-    int64_t n_test;  ///< the first so many are tested, the others only put into cells
+    const clast_comm *comm; ///< ranks that have a part of the points each
+    const double *u;        ///< [n][d] of this rank
+    int64_t n_test; ///< the first so many are tested, the others only put into cells; n with ranks
     int64_t n;
     int32_t d;
-    const double *variable; ///< [n] cells shall be uniform in it too; NAN: not known; or NULL
+    const double *variable; ///< [n] cells shall be uniform in it too; NAN: not known; or NULL, as
+                            ///< with ranks
     bool is_uneven;         ///< all points together are known to be
 } clx_uniformity_tree_points;
 
@@ -36,9 +38,12 @@ typedef struct clx_uniformity_tree_points {
 /// point a block is expected, reject evenness at level / 2; and while the variable's means in the
 /// halves differ (analysis of variance at level) and it scatters by more than the tolerance.
 ///
-/// @param of_point  [n] cell of each point
+/// Called by all ranks; cells are those of all points, on every rank.
+///
+/// @param of_point  [n] cell of each point of this rank
 /// @return CLAST_E_LIMIT for more than 2^31 - 1 points
 /// @note O(n); depth at most 20, so that equal points end; bytes do not depend on threads
+/// nor ranks
 clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point);

@@ -59,11 +59,11 @@ const char *clx_decomposition_fault(const clast_decomposition *result)
     if (result == NULL) {
         return "is NULL";
     }
-    if (result->n < 0 || result->n_outside < 0 || result->n > INT64_MAX / 2 ||
+    if (result->n < 0 || result->n_outside < 0 || result->n_here < 0 || result->n > INT64_MAX / 2 ||
         result->n_outside > INT64_MAX / 2 || result->n_pass < 0 ||
         result->n_pass > CLAST_MAX_PASS || result->dimension < 1 || result->dimension > 3) {
         return "a number of points or passes, or the dimension, cannot be";
     }
     const char *fault = clx_table_fault(&result->search);
-    return fault != NULL ? fault : clx_cells_fault(&result->cells, result->n + result->n_outside);
+    return fault != NULL ? fault : clx_cells_fault(&result->cells, result->n_here);
 }

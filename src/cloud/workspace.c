@@ -262,6 +262,7 @@ static clast_status refill(call *c)
     c->made.n = c->sample.n_real;
     c->made.n_test = c->is_test ? c->sample.n_test : c->made.n_test;
     c->made.n_outside = c->cloud.n - c->sample.n_real;
+    c->made.n_here = c->cloud.n;
     c->made.events = c->made.events_low = c->made.events_high = 0.0;
     c->made.n_capped = 0;
     CLX_TRY(clx_cell_cache_refill(&w->cache, &c->sample, c->cloud.n, &c->made.cells, &has_all));
@@ -332,7 +333,7 @@ static void forget(clast_workspace *w)
 static clast_status run_call(call *c, const clast_domain *domain)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_sample_map(&c->cloud, c->config, domain, &c->sample));
+    CLX_TRY(clx_sample_map(clast_comm_one(), &c->cloud, c->config, domain, &c->sample));
     c->is_test = is_test_due(c);
     CLX_TRY(find_cut_due(c));
     if (c->is_cut) {

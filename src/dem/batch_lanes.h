@@ -50,6 +50,18 @@ CLX_INLINE void read_periods(clx_dem_pair *const pair[CLX_LANES], clx_lanes peri
     period[1] = __builtin_convertvector((ints)both >> 16, clx_lanes);
 }
 
+/// clx_cell_offset
+CLX_INLINE void nearest_image(const clx_periodic_cell *cell, clx_lanes r[3])
+{
+    const clx_lanes z = -r[2] * cell->inverse[2] + CLX_WHOLE_CELL - CLX_WHOLE_CELL;
+    r[2] = r[2] + cell->side[2] * z;
+    r[0] = r[0] + cell->shift * z;
+    for (int c = 0; c < 2; ++c) {
+        const clx_lanes n = -r[c] * cell->inverse[c] + CLX_WHOLE_CELL - CLX_WHOLE_CELL;
+        r[c] = r[c] + cell->side[c] * n;
+    }
+}
+
 /// Offsets of b from a, with the radii as fourth components of a and b.
 CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_lanes a[4],
                         clx_lanes b[4], clx_lanes r[3])
@@ -62,6 +74,9 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
     if (!(dem->period[0] > 0.0 || dem->period[1] > 0.0)) { // most beds: 3 of 4 operations less
         r[0] = r[0] + 0.0;                                 // -0 is 0, as below
         r[1] = r[1] + 0.0;
+        if (__builtin_expect(dem->cell != NULL, 0)) {
+            nearest_image(dem->cell, r);
+        }
         return;
     }
     clx_lanes period[2];

@@ -1,5 +1,6 @@
 // Shapes as mechanics sees them, and the items that collide for them.
 #include "base/alloc.h"
+#include "base/lines.h"
 #include "base/whole.h"
 #include "dem/dem.h"
 #include "shape/whole.h"
@@ -220,16 +221,30 @@ done:
     return status;
 }
 
-clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
+clast_status clx_grains_reserve(clast_dem *dem, int64_t n)
 {
     CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
-    int64_t need = dem->n_item;
-    for (int32_t i = 0; i < n; ++i) {
-        need += dem->has_items ? n_item_of(dem, grain[i].shape) : 1;
+    if (n <= dem->grain_capacity) {
+        return CLAST_OK;
     }
-    CLX_CHECK(need <= INT32_MAX, CLAST_E_LIMIT, "%lld spheres of clumps", (long long)need);
-    CLX_TRY(clx_neighbour_list_reserve(&dem->list, need));
+    const int64_t capacity = n + n / 2 + 16;
+    const int64_t blocks = capacity / CLX_SWEEP_BLOCK + 1;
+    int64_t records[2] = {dem->grain_capacity, dem->grain_capacity};
+    CLX_TRY(clx_grow_lines(&dem->grain, &records[0], capacity, sizeof *dem->grain));
+    CLX_TRY(clx_grow_lines(&dem->motion, &records[1], capacity, sizeof *dem->motion));
+    CLX_TRY(clx_realloc(&dem->travel, capacity, sizeof *dem->travel));
+    CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
+    dem->grain_capacity = capacity;
+done:
+    return status;
+}
+
+clast_status clx_items_reserve_all(clast_dem *dem, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(n <= INT32_MAX, CLAST_E_LIMIT, "%lld spheres of clumps", (long long)n);
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, n));
     if (!dem->all_round) {
         CLX_TRY(clx_realloc(&dem->convex, dem->list.item_capacity + 1, sizeof *dem->convex));
     }
@@ -243,6 +258,16 @@ clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain 
     }
 done:
     return status;
+}
+
+clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
+{
+    CLAST_ASSERT(n >= 0);
+    int64_t need = dem->n_item;
+    for (int32_t i = 0; i < n; ++i) {
+        need += dem->has_items ? n_item_of(dem, grain[i].shape) : 1;
+    }
+    return clx_items_reserve_all(dem, need);
 }
 
 /// Item k of a shape that is not one convex body.

@@ -2,9 +2,10 @@
 #include <clast/dem.h>
 
 #include "base/alloc.h"
-#include "base/lines.h"
 #include "dem/dem.h"
+#include "dem/energy.h"
 #include "dem/fluid.h"
+#include "dem/ranks.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -21,8 +22,11 @@ clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
     made->law = clx_law_make(config);
     made->all_round = true;
     clx_dem_build_walls(made);
+    CLX_TRY(clx_cell_make(made));
     *dem = made;
+    made = NULL;
 done:
+    clast_dem_destroy(made);
     return status;
 }
 
@@ -34,6 +38,7 @@ void clast_dem_destroy(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_body; ++i) {
         clx_body_free(&dem->body[i]);
     }
+    clx_ranks_destroy(dem->ranks);
     clx_neighbour_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
     clx_inner_free(&dem->inner);
@@ -48,6 +53,8 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->item_turn);
     clx_free(dem->block_flag);
     clx_free(dem->slabs.solid);
+    clx_free(dem->cell);
+    clx_energy_destroy(dem->energy);
     clx_free(dem);
 }
 
@@ -68,8 +75,11 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     clast_status status = CLAST_OK;
     const clast_dem_config *c = &dem->config;
     const double depth = c->depth > 0.0 ? c->depth : c->width;
-    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width : fmin(c->width, depth);
-    if (c->domain == CLAST_DEM_PERIODIC) {
+    const bool is_cell = c->domain == CLAST_DEM_CELL;
+    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width
+                          : is_cell                       ? fmin(fmin(c->width, depth), c->height)
+                                                          : fmin(c->width, depth);
+    if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
         CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
                   "grain %lld reaches %g m across, %g m with its skin, more than half the period "
                   "of %g m",
@@ -117,25 +127,6 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     CLX_TRY(clx_dem_check_step(&dem->law, dem->config.time_step, g->density * volume,
                                cbrt(3.0 * volume / (4.0 * CLAST_PI))));
     CLX_TRY(clx_fluid_check(dem, g, number));
-done:
-    return status;
-}
-
-static clast_status reserve(clast_dem *dem, int64_t n)
-{
-    CLAST_ASSERT(n >= 0);
-    clast_status status = CLAST_OK;
-    if (n <= dem->grain_capacity) {
-        return CLAST_OK;
-    }
-    const int64_t capacity = n + n / 2 + 16;
-    const int64_t blocks = capacity / CLX_SWEEP_BLOCK + 1;
-    int64_t records[2] = {dem->grain_capacity, dem->grain_capacity};
-    CLX_TRY(clx_grow_lines(&dem->grain, &records[0], capacity, sizeof *dem->grain));
-    CLX_TRY(clx_grow_lines(&dem->motion, &records[1], capacity, sizeof *dem->motion));
-    CLX_TRY(clx_realloc(&dem->travel, capacity, sizeof *dem->travel));
-    CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
-    dem->grain_capacity = capacity;
 done:
     return status;
 }
@@ -192,12 +183,14 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
     for (int32_t i = 0; i < n; ++i) {
         CLX_TRY(check_grain(dem, &grain[i], (int64_t)dem->n_grain + i));
     }
-    CLX_TRY(reserve(dem, (int64_t)dem->n_grain + n));
+    CLX_TRY(clx_grains_reserve(dem, (int64_t)dem->n_grain + n));
     CLX_TRY(clx_items_reserve(dem, n, grain));
+    const int32_t first = dem->n_grain;
     for (int32_t i = 0; i < n; ++i) {
         clx_dem_set_grain(dem, dem->n_grain, &grain[i]);
         clx_items_add(dem, dem->n_grain++);
     }
+    clx_energy_added(dem, first);
     dem->list.is_due = true;
 done:
     return status;
@@ -211,32 +204,6 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
     dem->drive = *drive;
 }
 
-/// Contacts, then motion, of all grains.
-static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
-{
-    clast_status status = CLAST_OK;
-    clx_inner_list *inner = &dem->inner;
-    clx_inner_unpack(dem);
-    if (!inner->is_gathered) {
-        CLX_TRY(clx_inner_gather(dem));
-    }
-    clx_contacts(dem);
-    if (verifies) {
-        clx_verify(dem);
-    }
-    *is_fine = clx_move(dem);
-done:
-    return status;
-}
-
-static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
-{
-    const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
-    return verifies || dem->item != NULL || dem->container != NULL
-               ? step_in_passes(dem, verifies, is_fine)
-               : clx_sweep(dem, is_fine);
-}
-
 // A step, in the order in which it happens:
 //   1. neighbour list   items that have used up their margin search their neighbours anew
 //   2. inner list       pairs of it that may touch before some grain's path is used up
@@ -245,13 +212,20 @@ static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
 //   5. contacts         gap and normal of each active pair, its contact law, force and torques
 //   6. motion           sums, then velocities, positions and orientations; who has used up what
 // 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
-// contacts share their stiffness, a container has triangles, or contacts are verified.
+// contacts share their stiffness, a container has triangles, contacts are verified, or their energy
+// is booked.
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
+    if (dem->ranks != NULL) {
+        return clx_ranks_step(dem, n_step);
+    }
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
+        if (dem->cell != NULL) {
+            clx_cell_begin_step(dem);
+        }
         if (dem->list.is_due) {
             clx_inner_unpack(dem);
             CLX_TRY(clx_neighbour_list_refresh(dem));
@@ -263,7 +237,10 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_check_starts(dem));
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
-        CLX_TRY(contacts_and_motion(dem, &is_fine));
+        CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
+        if (dem->cell != NULL) {
+            clx_cell_end_step(dem);
+        }
         ++dem->step;
         if (!is_fine) {
             clx_inner_unpack(dem);

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "convex/wall_mesh.h"
 #include "dem/body.h"
+#include "dem/cell.h"
 #include "dem/inner_list.h"
 #include "dem/law.h"
 #include "dem/neighbour_list.h"
@@ -40,6 +41,7 @@ struct clast_dem {
     clx_wall wall[CLX_MAX_WALL];
     double period[2];         ///< widths of a periodic domain, else 0
     double inverse_period[2]; ///< 1 over them, else 0
+    clx_periodic_cell *cell;  ///< of a domain that is periodic in three directions, or NULL
     clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
@@ -63,7 +65,24 @@ struct clast_dem {
     clx_sweeping sweeping;
     clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
+    struct clx_ranks *ranks;         ///< steps its grains over several ranks, or NULL
+    const uint8_t *is_ghost; ///< [n_grain] of a rank's own simulation: moved by another; else NULL
+    const int32_t *number;   ///< [n_grain] of such a simulation: grains' numbers; else NULL
+    struct clx_energy *energy; ///< the energy book, or NULL
 };
+
+/// The number that a grain has for the user.
+static inline int32_t clx_grain_number(const clast_dem *dem, int32_t g)
+{
+    return g >= 0 && dem->number != NULL ? dem->number[g] : g;
+}
+
+/// Whether the grains of both items are moved by other ranks.
+static inline bool clx_are_ghosts(const clast_dem *dem, int32_t a, int32_t b)
+{
+    return dem->is_ghost != NULL && dem->is_ghost[dem->item != NULL ? dem->item[a].grain : a] &&
+           dem->is_ghost[dem->item != NULL ? dem->item[b].grain : b];
+}
 
 static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)
 {
@@ -143,6 +162,13 @@ clast_status clx_dem_check_step(const clx_law *law, double time_step, double mas
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
 
+/// Contacts, then motion, of all grains: a step's work. *is_fine as clx_move.
+clast_status clx_contacts_and_motion(clast_dem *dem, bool *is_fine);
+
+/// Capacity for n grains; for n items, where those are not grains or have convex shapes too.
+clast_status clx_grains_reserve(clast_dem *dem, int64_t n);
+clast_status clx_items_reserve_all(clast_dem *dem, int64_t n);
+
 /// Capacity for the items of n more grains; then items of the grain g, which is set.
 clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain);
 void clx_items_add(clast_dem *dem, int32_t g);
@@ -180,7 +206,8 @@ void clx_verify(clast_dem *dem);
 static inline double clx_item_moved(const clast_dem *dem, int32_t i)
 {
     const clx_anchor *at = &dem->list.anchor[i];
-    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position));
+    const double images = dem->cell != NULL ? 0.5 * dem->cell->path : 0.0;
+    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position)) + images;
     if (clx_item_is_round(dem, i)) {
         return shifted;
     }

@@ -12,8 +12,8 @@
      0,                                                                                            \
      0,                                                                                            \
      "-",                                                                                          \
-     "container, its sides",                                                                       \
-     "cylinder|periodic|box|open",                                                                 \
+     "container, its sides; cell: periodic in x, y and z (height)",                                \
+     "cylinder|periodic|box|open|cell",                                                            \
      .common = true},                                                                              \
         {CLX_DEM_AT(TYPE, IN, width, F64),                                                         \
          0.104,                                                                                    \

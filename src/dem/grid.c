@@ -63,6 +63,7 @@ static void measure_levels(const clast_dem *dem, clx_dem_grid *grid)
         smallest = fmin(smallest, clx_item_radius(dem, i));
     }
     memset(grid->cutoff, 0, sizeof grid->cutoff);
+    grid->tilt = dem->cell != NULL ? dem->cell->shift * dem->cell->inverse[2] : 0.0;
     grid->n_level = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         const double radius = clx_item_radius(dem, i);
@@ -74,7 +75,9 @@ static void measure_levels(const clast_dem *dem, clx_dem_grid *grid)
     for (int32_t l = 0; l < grid->n_level; ++l) {
         for (int c = 0; c < 3; ++c) {
             const double width = 2.0 * grid->cutoff[l];
-            const double period = c < 2 ? dem->period[c] : 0.0;
+            const double period = dem->cell != NULL ? dem->cell->side[c]
+                                  : c < 2           ? dem->period[c]
+                                                    : 0.0;
             const double n = width > 0.0 ? fmax(1.0, floor(period / width)) : 1.0;
             grid->n_cell[l][c] = period > 0.0 ? (int32_t)n : 0;
             grid->inverse[l][c] = period > 0.0 ? n / period : width > 0.0 ? 1.0 / width : 0.0;
@@ -101,7 +104,8 @@ static void find_cell(const clast_dem *dem, clx_dem_grid *grid, int32_t i)
 {
     clx_cell *cell = &grid->cell[i];
     for (int c = 0; c < 3; ++c) {
-        const double x = dem->list.anchor[i].position[c];
+        const double *at = dem->list.anchor[i].position;
+        const double x = c == 0 ? at[0] - grid->tilt * at[2] : at[c];
         cell->at[c] = cell_of(grid, cell->level, c, column_of(grid, cell->level, c, x));
     }
     cell->bucket = hash(grid, cell->level, cell->at);
@@ -179,9 +183,11 @@ bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[
     const double far = cutoff + grid->cutoff[level];
     for (int c = 0; c < 3; ++c) {
         const int32_t n = grid->n_cell[level][c];
-        const double low = column_of(grid, level, c, x[c] - far);
+        const double at = c == 0 ? x[0] - grid->tilt * x[2] : x[c];
+        const double reach = c == 0 ? far + fabs(grid->tilt) * far : far;
+        const double low = column_of(grid, level, c, at - reach);
         walk->low[c] = cell_of(grid, level, c, low);
-        walk->n[c] = (int32_t)(column_of(grid, level, c, x[c] + far) - low) + 1;
+        walk->n[c] = (int32_t)(column_of(grid, level, c, at + reach) - low) + 1;
         if (n > 0 && walk->n[c] > n) {
             walk->n[c] = n;
         }

@@ -17,6 +17,7 @@ typedef struct clx_dem_grid {
     double cutoff[CLX_MAX_LEVEL];     ///< largest radius and margin of a level's items; 0: empty
     double inverse[CLX_MAX_LEVEL][3]; ///< cells a metre
     int32_t n_cell[CLX_MAX_LEVEL][3]; ///< around a period, else 0
+    double tilt; ///< columns along x lie at x - tilt z: where images above are shifted, else 0
     int32_t capacity;
     uint32_t n_bucket; ///< a power of two
     clx_cell *cell;    ///< [n_item]

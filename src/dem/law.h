@@ -187,6 +187,21 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
     return s;
 }
 
+/// The same as exact steps reduce them.
+static inline clx_springs clx_law_held_springs(const clx_law *law, const clx_meeting *c)
+{
+    clx_springs s = clx_law_springs(law, c);
+    if (law->is_exact) {
+        const clx_law_limit normal = clx_law_hold(law, c->held * c->head_on);
+        const clx_law_limit across = clx_law_hold(law, c->held);
+        s.elastic *= normal.spring;
+        s.normal_damping *= normal.damping;
+        s.tangential *= across.spring;
+        s.tangential_damping *= across.damping;
+    }
+    return s;
+}
+
 /// Restitution of an impact in a fluid: e_dry exp(-35 / St), St = m u / (6 pi mu R*^2), that is
 /// rho d u / (9 mu) of a sphere at a wall. [Gondret2002; Legendre2005] Not below CLX_LAW_SOFT.
 static inline double clx_law_impact(const clx_law *law, const clx_meeting *c)
@@ -226,15 +241,7 @@ static inline void clx_law_rotate(const clx_meeting *c, double dt, double slide[
 static inline void clx_law_force(const clx_law *law, const clx_meeting *c, double dt,
                                  double slide[3], clx_contact_force *force)
 {
-    clx_springs s = clx_law_springs(law, c);
-    if (law->is_exact) {
-        const clx_law_limit normal = clx_law_hold(law, c->held * c->head_on);
-        const clx_law_limit across = clx_law_hold(law, c->held);
-        s.elastic *= normal.spring;
-        s.normal_damping *= normal.damping;
-        s.tangential *= across.spring;
-        s.tangential_damping *= across.damping;
-    }
+    const clx_springs s = clx_law_held_springs(law, c);
     const double apart = v3_dot(c->velocity, c->normal);
     double along[3];
     v3_axpy(along, c->velocity, -apart, c->normal);

@@ -143,6 +143,10 @@ void clx_count_contacts(const clast_dem *dem, int32_t *count)
 /// Position moved into the period about the origin.
 static void wrap(const clast_dem *dem, double x[3])
 {
+    if (dem->cell != NULL) {
+        clx_cell_wrap(dem->cell, x);
+        return;
+    }
     for (int c = 0; c < 2; ++c) {
         if (dem->period[c] > 0.0) {
             x[c] -= dem->period[c] * floor(x[c] / dem->period[c] + 0.5);

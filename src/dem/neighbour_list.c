@@ -71,22 +71,30 @@ static void set_anchor(clast_dem *dem, int32_t i)
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
     }
+    for (int c = 0; c < 3 && dem->cell != NULL; ++c) {
+        at->margin = fmin(at->margin, 0.25 * dem->cell->side[c] - radius);
+    }
     dem->list.limit[i] = dem->travel[g] + CLX_SURE * at->margin;
 }
 
-/// All items that have used half of their margin.
-static void mark_stale(clast_dem *dem)
+void clx_neighbour_list_mark(clast_dem *dem)
 {
     clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
-        const bool is_within =
-            i < l->n_known && clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
+        if (clx_are_ghosts(dem, i, i)) {
+            continue; // its rank marks it
+        }
+        const bool is_within = i < l->n_known && dem->cell == NULL &&
+                               clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
         l->is_stale[i] = is_within ? 0 : 1;
         if (l->is_stale[i] != 0) {
             set_anchor(dem, i);
         }
     }
     l->n_known = dem->n_item;
+    if (dem->cell != NULL) { // whose images move: all search anew
+        dem->cell->path = 0.0;
+    }
 }
 
 static clast_status add_found(clx_neighbour_list *l, clx_found found)
@@ -103,6 +111,9 @@ static clast_status find_walls(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
     const clx_anchor *at = &dem->list.anchor[i];
+    if (clx_are_ghosts(dem, i, i)) {
+        return CLAST_OK;
+    }
     for (int32_t w = dem->n_wall - 1; w >= 0; --w) {
         double normal[3];
         const double d = clx_wall_distance(&dem->wall[w], at->position, normal);
@@ -138,8 +149,11 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
             r[c] += n * dem->period[c];
         }
     }
+    if (dem->cell != NULL) {
+        clx_cell_offset(dem->cell, r);
+    }
     const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
-    if (v3_norm2(r) >= cutoff * cutoff) {
+    if (v3_norm2(r) >= cutoff * cutoff || clx_are_ghosts(dem, i, k)) {
         return CLAST_OK;
     }
     const clx_found found =
@@ -371,17 +385,48 @@ done:
     return status;
 }
 
+/// Refuses a cell that has become too narrow for its grains.
+static clast_status check_room(const clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    const clx_periodic_cell *cell = dem->cell;
+    double most = 0.0;
+    const double narrow = fmin(cell->side[0], fmin(cell->side[1], cell->side[2]));
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        most = fmax(most, clx_item_radius(dem, i));
+    }
+    CLX_CHECK(4.0 * most * (1.0 + dem->config.skin) <= narrow, CLAST_E_GEOMETRY,
+              "the cell's narrowest side has come down to %g m, less than two of its largest grain "
+              "(%g m across, %g m with its skin): take more grains in a larger cell",
+              narrow, 2.0 * most, 2.0 * most * (1.0 + dem->config.skin));
+done:
+    return status;
+}
+
+clast_status clx_neighbour_list_search(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    if (dem->n_item > 0) { // a rank may have none
+        CLX_TRY(find(dem));
+        CLX_TRY(sort_found(dem));
+        CLX_TRY(merge(dem));
+    }
+    dem->list.is_due = false;
+    dem->inner.is_due = true;
+    ++dem->list.n_refresh;
+done:
+    return status;
+}
+
 clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
-    mark_stale(dem);
-    CLX_TRY(find(dem));
-    CLX_TRY(sort_found(dem));
-    CLX_TRY(merge(dem));
-    dem->list.is_due = false;
-    dem->inner.is_due = true;
-    ++dem->list.n_refresh;
+    if (dem->cell != NULL) {
+        CLX_TRY(check_room(dem));
+    }
+    clx_neighbour_list_mark(dem);
+    CLX_TRY(clx_neighbour_list_search(dem));
 done:
     return status;
 }

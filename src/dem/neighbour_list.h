@@ -52,6 +52,11 @@ typedef struct clx_neighbour_list {
 
 /// Brings the lists up to date for the items that have used half of their margin.
 clast_status clx_neighbour_list_refresh(clast_dem *dem);
+
+/// The same in two steps: marks these items and sets their anchors, but of ghosts; then searches.
+void clx_neighbour_list_mark(clast_dem *dem);
+clast_status clx_neighbour_list_search(clast_dem *dem);
+
 void clx_neighbour_list_free(clx_neighbour_list *list);
 
 /// A slot for a pair's warm start, which begins empty.

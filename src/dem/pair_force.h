@@ -147,6 +147,50 @@ static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *
     return of_a * of_b / (of_a + of_b);
 }
 
+/// A pair that touches as the law sees it, but for what exact steps limit (clx_hold_pair).
+static inline void clx_meet_pair(const clast_dem *dem, const clx_dem_pair *p,
+                                 clx_contact_history *history, const clx_dem_touch *t,
+                                 clx_meeting *m)
+{
+    const clx_law *law = &dem->law;
+    const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
+    const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
+    const bool needs_radius = law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY ||
+                              law->rolling > 0.0 || law->is_wet;
+    const double ra = needs_radius ? clx_item_curve(dem, p->a) : 0.0;
+    m->overlap = -t->distance;
+    v3_copy(m->normal, t->normal);
+    clx_approach(a, b, t, m);
+    if (dem->cell != NULL && p->b >= 0) {
+        double image[3];
+        clx_cell_velocity(dem->cell, a, b, t->arm_a, t->arm_b, image);
+        v3_add(m->velocity, m->velocity, image);
+    }
+    if (p->b >= 0) {
+        m->mass = a->mass * b->mass / (a->mass + b->mass);
+        m->radius = 0.0;
+        if (needs_radius) {
+            const double rb = clx_item_curve(dem, p->b);
+            m->radius = ra * rb / (ra + rb);
+        }
+        m->friction = law->friction[0];
+    } else {
+        m->mass = a->mass;
+        m->radius = ra;
+        m->friction = law->friction[1];
+    }
+    m->restitution = 0.0;
+    if (law->is_wet) {
+        if (history->restitution == 0.0) {
+            history->restitution = clx_law_impact(law, m);
+        }
+        m->restitution = history->restitution;
+    }
+    if (dem->config.added_mass > 0.0) {
+        m->mass = clx_heavier_mass(dem, p);
+    }
+}
+
 /// Adds the force of a pair that touches to its grains' sums; `history` as clx_pair_history.
 static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p,
                                       clx_contact_history *history, const clx_dem_touch *t,
@@ -155,37 +199,9 @@ static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p,
     const clx_law *law = &dem->law;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
-    const bool needs_radius = law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY ||
-                              law->rolling > 0.0 || law->is_wet;
-    const double ra = needs_radius ? clx_item_curve(dem, p->a) : 0.0;
     clx_meeting m;
     clx_contact_force force;
-    m.overlap = -t->distance;
-    v3_copy(m.normal, t->normal);
-    clx_approach(a, b, t, &m);
-    if (p->b >= 0) {
-        m.mass = a->mass * b->mass / (a->mass + b->mass);
-        m.radius = 0.0;
-        if (needs_radius) {
-            const double rb = clx_item_curve(dem, p->b);
-            m.radius = ra * rb / (ra + rb);
-        }
-        m.friction = law->friction[0];
-    } else {
-        m.mass = a->mass;
-        m.radius = ra;
-        m.friction = law->friction[1];
-    }
-    m.restitution = 0.0;
-    if (law->is_wet) {
-        if (history->restitution == 0.0) {
-            history->restitution = clx_law_impact(law, &m);
-        }
-        m.restitution = history->restitution;
-    }
-    if (dem->config.added_mass > 0.0) {
-        m.mass = clx_heavier_mass(dem, p);
-    }
+    clx_meet_pair(dem, p, history, t, &m);
     if (law->is_exact) {
         double load[2];
         clx_hold_pair(law, a, b, t, &m, load);

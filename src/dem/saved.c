@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/lines.h"
 #include "dem/dem.h"
+#include "dem/energy.h"
 #include <string.h>
 
 enum { WARM_START = sizeof(clx_warm_start) };
@@ -16,6 +17,8 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->limit);
     clx_free(s->held);
     clx_free(s->history);
+    clx_free(s->cell);
+    clx_free(s->energy);
     clx_free(s->id);
     clx_free(s->pair);
     clx_free(s->warm_start);
@@ -46,6 +49,74 @@ static void write_pair(const clx_dem_pair *pair, int32_t *id, double *out)
     id[4] = (int32_t)pair->touches;
     out[0] = pair->active_from;
     memcpy(out + 1, pair->slide, 3 * sizeof *out);
+}
+
+/// The periodic cell as plain numbers, and back.
+static void write_cell(const clx_periodic_cell *cell, double x[CLX_SAVED_CELL])
+{
+    v3_copy(x, cell->side);
+    v3_copy(x + 3, cell->rate);
+    v3_copy(x + 6, cell->first);
+    x[9] = cell->shift;
+    x[10] = cell->shear;
+    x[11] = cell->path;
+    x[12] = cell->sheared;
+}
+
+static void read_cell(const double x[CLX_SAVED_CELL], clx_periodic_cell *cell)
+{
+    v3_copy(cell->side, x);
+    v3_copy(cell->rate, x + 3);
+    v3_copy(cell->first, x + 6);
+    cell->shift = x[9];
+    cell->shear = x[10];
+    cell->path = x[11];
+    cell->sheared = x[12];
+    for (int c = 0; c < 3; ++c) {
+        cell->inverse[c] = 1.0 / cell->side[c];
+    }
+}
+
+/// The cell and the energy book, which few simulations have.
+static clast_status save_extras(const clast_dem *dem, clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    if (dem->cell != NULL) {
+        CLX_TRY(clx_alloc(&s->cell, CLX_SAVED_CELL, sizeof *s->cell));
+        write_cell(dem->cell, s->cell);
+    }
+    if (dem->energy != NULL) {
+        s->n_energy = CLX_N_WORK;
+        CLX_TRY(clx_alloc(&s->energy, CLX_N_WORK, sizeof *s->energy));
+        memcpy(s->energy, dem->energy->sum, sizeof dem->energy->sum);
+    }
+done:
+    return status;
+}
+
+static clast_status restore_extras(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK((dem->cell != NULL) == (s->cell != NULL) &&
+                  (dem->energy != NULL) == (s->energy != NULL) &&
+                  (s->energy == NULL || s->n_energy == CLX_N_WORK),
+              CLAST_E_FORMAT, "the checkpoint's cell or energy is of another configuration");
+    for (int k = 0; s->cell != NULL && k < CLX_SAVED_CELL; ++k) {
+        const bool is_side = k < 3 || (k >= 6 && k < 9);
+        CLX_CHECK(isfinite(s->cell[k]) && (!is_side || s->cell[k] > 0.0), CLAST_E_FORMAT,
+                  "the checkpoint's cell is none");
+    }
+    for (int64_t k = 0; k < s->n_energy; ++k) {
+        CLX_CHECK(isfinite(s->energy[k]), CLAST_E_FORMAT, "the checkpoint's energy is not finite");
+    }
+    if (s->cell != NULL) {
+        read_cell(s->cell, dem->cell);
+    }
+    if (s->energy != NULL) {
+        memcpy(dem->energy->sum, s->energy, sizeof dem->energy->sum);
+    }
+done:
+    return status;
 }
 
 clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
@@ -99,6 +170,7 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
             memcpy(s.history, l->history, (size_t)s.n_pair * sizeof *l->history);
         }
     }
+    CLX_TRY(save_extras(dem, &s));
     *saved = s;
     s = (clx_dem_saved){0};
 done:
@@ -235,6 +307,7 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     CLX_CHECK(dem->n_grain == 0 && s->n_grain <= INT32_MAX && s->step >= 0, CLAST_E_FORMAT,
               "the checkpoint does not fit");
     CLX_TRY(read_grains(dem, s));
+    CLX_TRY(restore_extras(dem, s));
     CLX_CHECK(s->n_known >= 0 && s->n_known <= dem->n_item, CLAST_E_FORMAT,
               "the checkpoint knows %lld items of %d", (long long)s->n_known, dem->n_item);
     CLX_TRY(read_pairs(dem, s));

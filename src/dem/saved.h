@@ -8,7 +8,8 @@ enum {
     CLX_SAVED_ANCHOR = 8,
     CLX_SAVED_ID = 5,
     CLX_SAVED_PAIR = 4,
-    CLX_SAVED_HISTORY = 4
+    CLX_SAVED_HISTORY = 4,
+    CLX_SAVED_CELL = 13
 };
 
 typedef struct clx_dem_saved {
@@ -24,8 +25,12 @@ typedef struct clx_dem_saved {
     double *held;       ///< [n_grain] stability loads of exact steps, or NULL
     double *history; ///< [n_pair][4] contact histories: torques of rolling springs, restitutions;
                      ///< or NULL
-    int32_t *id;     ///< [n_pair][5] a, b, image in x and y, flags
-    double *pair;    ///< [n_pair][4] active_from, slide
+    double *cell; ///< [13] sides, rates, first sides, shift and its rate, path, strain of shear; or
+                  ///< NULL
+    double *energy; ///< [n_energy] sums of the energy book, or NULL
+    int64_t n_energy;
+    int32_t *id;              ///< [n_pair][5] a, b, image in x and y, flags
+    double *pair;             ///< [n_pair][4] active_from, slide
     int32_t warm_start_width; ///< bytes of a warm start
     uint8_t *warm_start;      ///< [n_pair][warm_start_width], or NULL while all items are spheres
 } clx_dem_saved;

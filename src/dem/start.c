@@ -29,7 +29,8 @@ clast_status clx_check_starts(clast_dem *dem)
             return clx_fail(CLAST_E_GEOMETRY,
                             "grains %d and %d begin inside of each other, by %.2g of the smaller "
                             "one's radius: place them apart",
-                            clx_item_grain(dem, pair->a), clx_item_grain(dem, pair->b),
+                            clx_grain_number(dem, clx_item_grain(dem, pair->a)),
+                            clx_grain_number(dem, clx_item_grain(dem, pair->b)),
                             -t.distance / radius);
         }
     }

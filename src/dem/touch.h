@@ -14,6 +14,10 @@ typedef struct clx_dem_touch {
 static inline void clx_pair_offset(const clast_dem *dem, const clx_dem_pair *pair, double r[3])
 {
     v3_sub(r, clx_item_position(dem, pair->b), clx_item_position(dem, pair->a));
+    if (dem->cell != NULL) {
+        clx_cell_offset(dem->cell, r);
+        return;
+    }
     for (int c = 0; c < 2; ++c) {
         const double turns = (-r[c] * dem->inverse_period[c] - pair->period[c]) / CLX_PERIOD_TURN;
         const double n = pair->period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);

@@ -37,7 +37,8 @@ void clx_verify(clast_dem *dem)
     const clx_neighbour_list *l = &dem->list;
     for (int64_t k = 0; k < l->n_pair && !dem->all_round; ++k) {
         const clx_dem_pair *pair = &l->pair[k];
-        if (pair->b < 0 || clx_pair_is_round(dem, pair)) {
+        if (pair->b < 0 || clx_pair_is_round(dem, pair) ||
+            clx_are_ghosts(dem, pair->a, pair->a)) { // counted by the rank of a
             continue;
         }
         const double gap = cold_gap(dem, pair);

@@ -6,7 +6,6 @@
 // was; their sizes differ so much that a few hundred leave 1e-11.
 #include <clast/mesh_repair.h>
 
-#include "base/alloc.h"
 #include "base/whole.h"
 #include "geom/collapse.h"
 #include "geom/repair.h"

@@ -161,9 +161,9 @@ done:
     return status;
 }
 
-static clast_status load_named(const char *role, const clast_aggregate_config *config,
-                               const char *text, const char *spheres, double density,
-                               clast_assembly *assembly)
+clast_status clx_load_named(const char *role, const clast_aggregate_config *config,
+                            const char *text, const char *spheres, double density,
+                            clast_assembly *assembly)
 {
     const clast_status status = clx_path_is(text, "h5")
                                     ? load_state(text, spheres, assembly)
@@ -208,16 +208,16 @@ static clast_status load_shapes(const clast_aggregate_config *config, clast_aggr
 {
     clast_status status = CLAST_OK;
     if (config->core[0] != '\0') {
-        CLX_TRY(load_named("core", config, config->core, config->core_spheres,
-                           config->params.core_density, &made->core));
+        CLX_TRY(clx_load_named("core", config, config->core, config->core_spheres,
+                               config->params.core_density, &made->core));
     }
     CLX_TRY(clx_alloc(&made->coat, config->coat.n, sizeof *made->coat));
     made->n_coat = config->coat.n;
     for (int32_t i = 0; i < config->coat.n; ++i) {
         const int32_t k = config->params.coat_density.n > 1 ? i : 0;
         const char *spheres = config->coat_spheres.n > 0 ? config->coat_spheres.item[i] : "";
-        CLX_TRY(load_named("coat", config, config->coat.item[i], spheres,
-                           config->params.coat_density.item[k], &made->coat[i]));
+        CLX_TRY(clx_load_named("coat", config, config->coat.item[i], spheres,
+                               config->params.coat_density.item[k], &made->coat[i]));
     }
 done:
     return status;

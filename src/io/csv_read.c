@@ -2,6 +2,8 @@
 //
 // Two passes over the bytes: the first checks the shape and finds which columns hold numbers, the
 // second fills the table, so memory is taken only for cells that exist.
+#include "io/points.h"
+
 #include <clast/table.h>
 
 #include "base/alloc.h"
@@ -27,6 +29,7 @@ typedef struct {
     int64_t line; ///< of `at`, from 1
     char separator, comment;
     bool has_comment;
+    bool is_part; ///< of a file: numbers of rows are not those of all
     int64_t n_comment, n_blank;
 } cursor;
 
@@ -306,8 +309,9 @@ static clast_status survey(cursor c, int header, outline *o, cursor *end)
     }
     CLX_CHECK(o->n_ragged == 0, CLAST_E_FORMAT,
               "%s:%" PRId64 ": %" PRId64 " cells where the first row has %d; %" PRId64
-              " such rows in all%s",
+              " such rows in %s%s",
               c.name, o->ragged_line, o->ragged_cells, o->n_column, o->n_ragged,
+              c.is_part ? "this part of the file" : "all",
               c.separator == ',' && o->ragged_cells == (int64_t)2 * o->n_column
                   ? "; decimal commas? write 0.5, not 0,5"
                   : "");
@@ -468,12 +472,9 @@ done:
     return status;
 }
 
-clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n,
-                                   const clast_csv_options *options, clast_table *table,
-                                   clast_csv_report *report)
+static clast_status parse(cursor c, const void *bytes, size_t n, const clast_csv_options *options,
+                          clast_table *table, clast_csv_report *report)
 {
-    CLX_ARGUMENTS(name, table);
-    CLX_ARRAY(bytes, n);
     static const clast_csv_options guess = {0};
     clast_status status = CLAST_OK;
     const clast_csv_options *wish = options != NULL ? options : &guess;
@@ -481,14 +482,12 @@ clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n
     clast_csv_report found = {0};
     outline o = {0};
     cursor end = {0};
-    cursor c = {.name = name,
-                .line = 1,
-                .comment = wish->comment != 0 ? wish->comment : '#',
-                .has_comment = !wish->no_comment};
+    c.comment = wish->comment != 0 ? wish->comment : '#';
+    c.has_comment = !wish->no_comment;
     CLX_TRY(check_bytes(&c, n > 0 ? bytes : "", n));
     c.separator = wish->separator != 0 ? wish->separator : guess_separator(c);
     CLX_TRY(survey(c, wish->header, &o, &end));
-    CLX_TRY(clast_table_init(&made, name, o.n_row));
+    CLX_TRY(clast_table_init(&made, c.name, o.n_row));
     CLX_TRY(add_columns(&c, &o, &made, &found));
     CLX_TRY(fill(&c, &made, &found));
     *table = made;
@@ -505,6 +504,23 @@ done:
     clast_table_free(&made);
     clx_free(o.seen);
     return status;
+}
+
+clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n,
+                                   const clast_csv_options *options, clast_table *table,
+                                   clast_csv_report *report)
+{
+    CLX_ARGUMENTS(name, table);
+    CLX_ARRAY(bytes, n);
+    return parse((cursor){.name = name, .line = 1}, bytes, n, options, table, report);
+}
+
+clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
+                                const clast_csv_options *options, int64_t first_line,
+                                clast_table *table)
+{
+    const cursor start = {.name = name, .line = first_line, .is_part = true};
+    return parse(start, bytes, n, options, table, NULL);
 }
 
 clast_status clast_table_read_csv(const char *path, const clast_csv_options *options,

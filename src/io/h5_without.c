@@ -34,10 +34,19 @@ clast_status clx_h5_open(const char *path, clx_h5 **h5)
     return refuse(path);
 }
 
-clast_status clx_points_h5(const char *path, const char *dataset, clast_table *table)
+clast_status clx_points_h5(const char *path, const char *dataset, const clx_rows *rows,
+                           clast_table *table)
 {
     (void)dataset;
+    (void)rows;
     (void)table;
+    return refuse(path);
+}
+
+clast_status clx_points_h5_rows(const char *path, const char *dataset, int64_t *n_row)
+{
+    (void)dataset;
+    (void)n_row;
     return refuse(path);
 }
 

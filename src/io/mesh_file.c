@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/number.h"
 #include "base/path.h"
 #include "base/whole.h"
 #include "geom/whole.h"

@@ -7,6 +7,7 @@
 #include "io/bed_tables.h"
 #include "io/config_files.h"
 #include "io/shape_word.h"
+#include "io/start_file.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/form.h>
@@ -31,6 +32,7 @@ void clast_pack_unload(clast_pack_source *source)
     clx_free(source->hull);
     clast_mesh_free(&source->container);
     clast_mesh_free(&source->container_closed);
+    clast_assembly_free(&source->start);
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
@@ -284,6 +286,94 @@ done:
     return status;
 }
 
+/// `made` will be moved to `source`, from where its input borrows.
+static clast_status load_container(const clast_pack_config *config, const clast_pack_source *source,
+                                   clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(read_container(config, made));
+    if (made->container.n_tri > 0) {
+        made->input.container = &source->container;
+        made->input.container_closed = &source->container_closed;
+    }
+done:
+    return status;
+}
+
+static clast_status load_shapes(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&made->shape, config->shapes.n, sizeof *made->shape));
+    CLX_TRY(clx_alloc(&made->hull, config->shapes.n, sizeof *made->hull));
+    for (int32_t i = 0; i < config->shapes.n; ++i) {
+        status = take_shape(config, i, &made->shape[i], &made->hull[made->n_hull]);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("shapes");
+            goto done;
+        }
+        ++made->n_shape;
+        made->n_hull += made->hull[made->n_hull].n_triangle > 0 ? 1 : 0;
+    }
+done:
+    return status;
+}
+
+/// Grains of a start: rows with poses name the configuration's shapes, other files have their own.
+static clast_status read_start(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    clast_table poses = {0};
+    CLX_TRY(clx_start_poses(config, &poses));
+    if (poses.n_column > 0) {
+        CLX_TRY(load_shapes(config, made));
+        CLX_TRY(clx_start_of_poses(config, &poses, made->n_shape, made->shape, &made->start));
+    } else {
+        CLX_CHECK(config->shapes.n == 1 && strcmp(config->shapes.item[0], "sphere") == 0,
+                  CLAST_E_CONFIG, "start brings its shapes: leave out shapes");
+        CLX_TRY(clx_start_read(config, &made->start));
+        const clast_assembly *a = &made->start;
+        CLX_TRY(clx_alloc(&made->shape, a->n_shape, sizeof *made->shape));
+        for (; made->n_shape < a->n_shape; ++made->n_shape) {
+            CLX_TRY(clast_shape_copy(&a->shape[made->n_shape], &made->shape[made->n_shape]));
+        }
+    }
+done:
+    clast_table_free(&poses);
+    return status;
+}
+
+/// A bed from elsewhere: its shapes, and sizes between the least and the greatest of its grains.
+static clast_status load_start(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    double low = INFINITY;
+    double high = 0.0;
+    CLX_TRY(read_start(config, made));
+    const clast_assembly *a = &made->start;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const double size = 2.0 * a->scale[i] * a->shape[a->shape_id[i]].semi_axes[1];
+        low = fmin(low, size);
+        high = fmax(high, size);
+    }
+    CLX_TRY(clast_grading_uniform(low, high, &made->grading));
+    made->input = (clast_pack_input){
+        .grading = made->grading, .n_shape = made->n_shape, .shape = made->shape};
+done:
+    return status;
+}
+
+/// Sizes and shapes that grains are made of.
+static clast_status load_grains(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(load_sizes(config, made));
+    CLX_TRY(load_shapes(config, made));
+    made->input = (clast_pack_input){
+        .grading = made->grading, .n_shape = made->n_shape, .shape = made->shape};
+done:
+    return status;
+}
+
 clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
 {
     CLX_ARGUMENTS(config, source);
@@ -295,27 +385,14 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
     if (config->unit[0] != '\0') {
         CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
     }
-    CLX_TRY(load_sizes(config, &made));
-    CLX_TRY(clx_alloc(&made.shape, config->shapes.n, sizeof *made.shape));
-    CLX_TRY(clx_alloc(&made.hull, config->shapes.n, sizeof *made.hull));
-    for (int32_t i = 0; i < config->shapes.n; ++i) {
-        status = take_shape(config, i, &made.shape[i], &made.hull[made.n_hull]);
-        if (status != CLAST_OK) {
-            clx_fail_prefix("shapes");
-            goto done;
-        }
-        ++made.n_shape;
-        made.n_hull += made.hull[made.n_hull].n_triangle > 0 ? 1 : 0;
+    if (config->start[0] != '\0') {
+        CLX_TRY(load_start(config, &made));
+        made.input.start = &source->start;
+    } else {
+        CLX_TRY(load_grains(config, &made));
+        made.input.curve = made.curve.n_class > 0 ? &source->curve : NULL;
     }
-    made.input = (clast_pack_input){.grading = made.grading,
-                                    .curve = made.curve.n_class > 0 ? &source->curve : NULL,
-                                    .n_shape = made.n_shape,
-                                    .shape = made.shape};
-    CLX_TRY(read_container(config, &made));
-    if (made.container.n_tri > 0) { // borrowed from where the source ends up
-        made.input.container = &source->container;
-        made.input.container_closed = &source->container_closed;
-    }
+    CLX_TRY(load_container(config, source, &made));
     *source = made;
     made = (clast_pack_source){0};
 done:
@@ -348,6 +425,7 @@ int32_t clx_pack_n_file(const clast_pack_config *config)
     }
     int32_t n = curve_file(config->curve) != NULL ? 1 : 0;
     n += config->container[0] != '\0' ? 1 : 0;
+    n += config->start[0] != '\0' ? 1 : 0;
     for (int32_t i = 0; i < config->shapes.n; ++i) {
         n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
     }
@@ -368,6 +446,10 @@ const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char
     *role = "container";
     if (config->container[0] != '\0' && i-- == 0) {
         return config->container;
+    }
+    *role = "start";
+    if (config->start[0] != '\0' && i-- == 0) {
+        return config->start;
     }
     *role = "curve";
     return curve_file(config->curve);

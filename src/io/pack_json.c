@@ -44,6 +44,72 @@ static json_t *verified(const clast_dem_verification *v)
     return o;
 }
 
+/// What went between ranks.
+static json_t *ranks(const clast_pack_ranks *r)
+{
+    json_t *o = json_object();
+    put_count(o, "n", r->n);
+    put_count(o, "n_idle", r->n_idle);
+    put_count(o, "n_balance", r->n_balance);
+    put_count(o, "n_migrated", r->n_migrated);
+    put(o, "ghosts", r->ghosts);
+    put(o, "step_bytes", r->step_bytes);
+    put(o, "list_bytes", r->list_bytes);
+    put(o, "imbalance", r->imbalance);
+    (void)json_object_set_new(o, "is_zoltan", json_boolean(r->is_zoltan));
+    return o;
+}
+
+static json_t *tensor(const double x[6])
+{
+    static const char *const name[6] = {"xx", "yy", "zz", "xy", "xz", "yz"};
+    json_t *o = json_object();
+    for (int e = 0; e < 6; ++e) {
+        put(o, name[e], x[e]);
+    }
+    return o;
+}
+
+/// A cell and what it carries.
+static json_t *loaded(const clast_pack_result *r)
+{
+    static const char *const side[3] = {"width", "depth", "height"};
+    static const char *const strain[3] = {"strain_x", "strain_y", "strain_z"};
+    json_t *o = json_object();
+    double stress[6];
+    for (int k = 0; k < 3; ++k) {
+        put(o, side[k], r->cell.side[k]);
+        put(o, strain[k], r->cell.strain[k]);
+    }
+    for (int e = 0; e < 6; ++e) {
+        stress[e] = r->load.stress[e] + r->load.kinetic_stress[e];
+    }
+    put(o, "shear_strain", r->cell.shear_strain);
+    (void)json_object_set_new(o, "stress", tensor(stress));
+    put(o, "pressure", (stress[0] + stress[1] + stress[2]) / 3.0);
+    (void)json_object_set_new(o, "fabric", tensor(r->load.fabric));
+    put_count(o, "n_rattler", r->load.n_rattler);
+    put(o, "coordination_held", r->load.coordination_held);
+    put(o, "unbalanced", r->load.unbalanced);
+    return o;
+}
+
+static json_t *energies(const clast_dem_energy *e)
+{
+    json_t *o = json_object();
+    put(o, "put_in", e->put_in);
+    put(o, "kinetic", e->translation + e->rotation);
+    put(o, "springs", e->normal_springs + e->tangential_springs);
+    put(o, "damping", e->damping[0] + e->damping[1]);
+    put(o, "friction", e->friction[0] + e->friction[1]);
+    put(o, "rolling", e->rolling[0] + e->rolling[1]);
+    put(o, "fluid", e->fluid);
+    put(o, "calming", e->calming);
+    put(o, "scheme", e->scheme);
+    put(o, "rest", e->rest);
+    return o;
+}
+
 clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char **text)
 {
     CLX_ARGUMENTS(r, text);
@@ -94,10 +160,23 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     if (r->dem.verified.n > 0) {
         (void)json_object_set_new(o, "verified", verified(&r->dem.verified));
     }
+    if (r->n_overlap > 0) {
+        put_count(o, "n_overlap_start", r->n_overlap);
+        put(o, "deepest_overlap_start", r->deepest_start);
+    }
+    if (r->load.volume > 0.0) {
+        (void)json_object_set_new(o, "cell", loaded(r));
+    }
+    if (r->energy.put_in != 0.0) {
+        (void)json_object_set_new(o, "energy", energies(&r->energy));
+    }
     if (times) {
         put(o, "wall_s", r->wall_s);
         put(o, "ns_per_grain_step",
             r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : (double)NAN);
+    }
+    if (times && r->ranks.n > 1) { // like the clocks, no property of the bed
+        (void)json_object_set_new(o, "ranks", ranks(&r->ranks));
     }
     dumped = json_dumps(o, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
     CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");

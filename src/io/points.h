@@ -1,6 +1,12 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
 #include <clast/status.h>
+#include <clast/table.h>
+
+/// Some rows of an array.
+typedef struct clx_rows {
+    int64_t first, n;
+} clx_rows;
 
 clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);
@@ -12,7 +18,20 @@ clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast
 /// Whether the bytes begin with a count, a line of words, and so many rows "NAME x y z".
 bool clx_points_is_xyz(const void *bytes, size_t n);
 
-clast_status clx_points_h5(const char *path, const char *dataset, clast_table *table);
+/// Reads an array or a folder of arrays: rows first .. first + n - 1 of them (n < 0: all).
+clast_status clx_points_h5(const char *path, const char *dataset, const clx_rows *rows,
+                           clast_table *table);
+
+/// Rows of all arrays of an HDF5 file that clx_points_h5 reads.
+clast_status clx_points_h5_rows(const char *path, const char *dataset, int64_t *n_row);
+
+/// Whether a file that begins with these bytes is delimited text.
+bool clx_points_is_text(const char *bytes, size_t n);
+
+/// Part of a file of delimited text, whose first line has this number.
+clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
+                                const clast_csv_options *options, int64_t first_line,
+                                clast_table *table);
 
 /// Adds an array value [n_row][width] as columns: `name` for one number, name_x .. for two or
 /// three, name_0 .. for more; plain x, y, z for the name "". A name that is taken gets "_2", "_3",

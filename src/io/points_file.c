@@ -36,6 +36,13 @@ static bool is_vtk_xml(const char *bytes, size_t n)
     return false;
 }
 
+bool clx_points_is_text(const char *bytes, size_t n)
+{
+    return !begins(bytes, n, "\x89HDF") && !begins(bytes, n, "# vtk DataFile") &&
+           !begins(bytes, n, "ITEM:") && !is_vtk_xml(bytes, n) && !is_word(bytes, n, "ply") &&
+           !clx_points_is_xyz(bytes, n);
+}
+
 clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
                                const clast_points_options *options, clast_table *table)
 {
@@ -71,7 +78,7 @@ clast_status clast_cloud_read(const char *path, const clast_points_options *opti
     if (begins(bytes, (size_t)n, "\x89HDF")) {
         clx_free(bytes);
         bytes = NULL;
-        CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, table));
+        CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, NULL, table));
     } else {
         CLX_TRY(clast_cloud_parse(path, bytes, (size_t)n, options, table));
     }

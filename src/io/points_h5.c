@@ -71,9 +71,41 @@ done:
     return status;
 }
 
+/// What is read of a file: some rows, or their number alone.
+typedef struct {
+    const clx_rows *rows; ///< NULL: all
+    int64_t *n_row;       ///< NULL: the rows themselves
+} wish;
+
+/// Numbers [rows->n][width] of the array.
+static bool read_rows(hid_t set, const clx_rows *rows, int64_t width, int rank, double *value)
+{
+    const hsize_t first[2] = {(hsize_t)rows->first, 0};
+    const hsize_t size[2] = {(hsize_t)rows->n, (hsize_t)width};
+    if (rows->n == 0) {
+        return true;
+    }
+    const hid_t file = H5Dget_space(set);
+    const hid_t memory = H5Screate_simple(rank, size, NULL);
+    const bool is_read = file >= 0 && memory >= 0 &&
+                         H5Sselect_hyperslab(file, H5S_SELECT_SET, first, NULL, size, NULL) >= 0 &&
+                         H5Dread(set, H5T_NATIVE_DOUBLE, memory, file, H5P_DEFAULT, value) >= 0;
+    (void)(file >= 0 && H5Sclose(file));
+    (void)(memory >= 0 && H5Sclose(memory));
+    return is_read;
+}
+
+static int rank_of(hid_t set)
+{
+    const hid_t space = H5Dget_space(set);
+    const int rank = space >= 0 ? H5Sget_simple_extent_ndims(space) : 0;
+    (void)(space >= 0 && H5Sclose(space));
+    return rank;
+}
+
 /// One array into the table, which is made for the first one.
 static clast_status add_array(const clx_h5 *h5, const char *path, const char *label,
-                              clast_table *table)
+                              const wish *asked, clast_table *table)
 {
     clast_status status = CLAST_OK;
     double *value = NULL;
@@ -82,6 +114,18 @@ static clast_status add_array(const clx_h5 *h5, const char *path, const char *la
     const hid_t set = H5Dopen2(h5->file, path, H5P_DEFAULT);
     CLX_CHECK(set >= 0, CLAST_E_FORMAT, "%s: %s is damaged or not an array", h5->label, path);
     CLX_TRY(check_array(h5, path, set, &n, &width));
+    if (asked->n_row != NULL) {
+        CLX_CHECK(*asked->n_row < 0 || n == *asked->n_row, CLAST_E_FORMAT,
+                  "%s: array %s has %" PRId64 " rows, the others have %" PRId64, h5->label, path, n,
+                  *asked->n_row);
+        *asked->n_row = n;
+        goto done;
+    }
+    const clx_rows rows = asked->rows != NULL ? *asked->rows : (clx_rows){0, n};
+    CLX_CHECK(rows.first >= 0 && rows.n <= n - rows.first, CLAST_E_FORMAT,
+              "%s: array %s has %" PRId64 " rows, not %" PRId64, h5->label, path, n,
+              rows.first + rows.n);
+    n = rows.n;
     if (table->n_column == 0) {
         clast_table_free(table);
         CLX_TRY(clast_table_init(table, h5->label, n));
@@ -90,9 +134,8 @@ static clast_status add_array(const clx_h5 *h5, const char *path, const char *la
               "%s: array %s has %" PRId64 " rows, the others have %" PRId64, h5->label, path, n,
               table->n_row);
     CLX_TRY(clx_alloc(&value, n * width, sizeof *value));
-    CLX_CHECK(n == 0 || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
-              CLAST_E_FORMAT, "%s: array %s is damaged or packed in a way that is not read",
-              h5->label, path);
+    CLX_CHECK(read_rows(set, &rows, width, rank_of(set), value), CLAST_E_FORMAT,
+              "%s: array %s is damaged or packed in a way that is not read", h5->label, path);
     CLX_TRY(add_values(table, label, width, value));
 done:
     clx_free(value);
@@ -110,7 +153,8 @@ static bool is_array(const clx_h5 *h5, const char *path)
 }
 
 /// All arrays [n] of a folder, in order of name; others are left out.
-static clast_status add_folder(clx_h5 *h5, const char *path, int64_t n_member, clast_table *table)
+static clast_status add_folder(clx_h5 *h5, const char *path, int64_t n_member, const wish *asked,
+                               clast_table *table)
 {
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_member; ++k) {
@@ -123,17 +167,18 @@ static clast_status add_folder(clx_h5 *h5, const char *path, int64_t n_member, c
             continue;
         }
         const clx_h5_session session = clx_h5_enter();
-        status = is_array(h5, whole) ? add_array(h5, whole, label, table) : CLAST_OK;
+        status = is_array(h5, whole) ? add_array(h5, whole, label, asked, table) : CLAST_OK;
         clx_h5_leave(&session);
         CLX_TRY(status);
     }
-    CLX_CHECK(table->n_column > 0, CLAST_E_FORMAT, "%s: %s holds no array of numbers", h5->label,
-              path);
+    CLX_CHECK(table->n_column > 0 || (asked->n_row != NULL && *asked->n_row >= 0), CLAST_E_FORMAT,
+              "%s: %s holds no array of numbers", h5->label, path);
 done:
     return status;
 }
 
-clast_status clx_points_h5(const char *path, const char *dataset, clast_table *table)
+static clast_status read_points(const char *path, const char *dataset, const wish *asked,
+                                clast_table *table)
 {
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
@@ -149,19 +194,36 @@ clast_status clx_points_h5(const char *path, const char *dataset, clast_table *t
     const clx_h5_session session = clx_h5_enter();
     const bool array = strcmp(name, "/") != 0 && is_array(h5, name);
     if (array) {
-        status = add_array(h5, name, strrchr(name, '/') + 1, &made);
+        status = add_array(h5, name, strrchr(name, '/') + 1, asked, &made);
     }
     clx_h5_leave(&session);
     CLX_TRY(status);
     if (!array) {
         int64_t n_member = 0;
         CLX_TRY(clx_h5_count(h5, name, &n_member));
-        CLX_TRY(add_folder(h5, name, n_member, &made));
+        CLX_TRY(add_folder(h5, name, n_member, asked, &made));
     }
     *table = made;
     made = (clast_table){0};
 done:
     clx_h5_close(h5);
     clast_table_free(&made);
+    return status;
+}
+
+clast_status clx_points_h5(const char *path, const char *dataset, const clx_rows *rows,
+                           clast_table *table)
+{
+    const wish asked = {rows, NULL};
+    return read_points(path, dataset, &asked, table);
+}
+
+clast_status clx_points_h5_rows(const char *path, const char *dataset, int64_t *n_row)
+{
+    const wish asked = {NULL, n_row};
+    clast_table none = {0};
+    *n_row = -1;
+    const clast_status status = read_points(path, dataset, &asked, &none);
+    clast_table_free(&none);
     return status;
 }

@@ -1,7 +1,6 @@
 // VTU: assemblies for ParaView and its like, as surfaces with cell data or as points with poses.
 #include "io/export.h"
 
-#include "base/alloc.h"
 #include "io/vtk_array.h"
 #include <clast/mesh.h>
 #include <clast/shape.h>

@@ -50,7 +50,11 @@ enum clx_stream {
     CLX_STREAM_PERMUTATION = 42,
     CLX_STREAM_PACK_SHAPE = 50,
     CLX_STREAM_PACK_VELOCITY = 51,
-    CLX_STREAM_PACK_TURN = 52
+    CLX_STREAM_PACK_TURN = 52,
+    CLX_STREAM_EVOLVE_PLACE = 60,
+    CLX_STREAM_EVOLVE_SHAPE = 61,
+    CLX_STREAM_EVOLVE_MOVE = 62,
+    CLX_STREAM_EVOLVE_MEET = 63
 };
 
 /// Cursor at the first draw of (seed, stream, index).

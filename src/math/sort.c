@@ -226,6 +226,11 @@ done:
     return status;
 }
 
+clast_status clx_sort_keys(uint64_t *key, int64_t n)
+{
+    return n < 2 ? CLAST_OK : sort_entries(key, n, 1);
+}
+
 clast_status clx_sort_keyed(clx_keyed *entry, int64_t n)
 {
     return n < 2 ? CLAST_OK : sort_entries(&entry->key, n, 2);

@@ -12,6 +12,9 @@ typedef struct clx_keyed {
 /// Sorts n finite doubles ascending in place; O(n), two scratch arrays of n.
 CLX_SHARED clast_status clx_sort_doubles(double *value, int64_t n);
 
+/// Sorts n keys ascending in place; O(n), one scratch array of n.
+clast_status clx_sort_keys(uint64_t *key, int64_t n);
+
 /// Sorts by key, ascending and stable; O(n), one scratch array of n.
 clast_status clx_sort_keyed(clx_keyed *entry, int64_t n);
 

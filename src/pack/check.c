@@ -3,6 +3,7 @@
 
 #include <clast/porosity.h>
 #include <math.h>
+#include <string.h>
 
 /// Several mean "as the other" by -1 alone.
 static clast_status check_sentinel(const char *name, double value)
@@ -42,6 +43,33 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
               "out");
     CLX_CHECK(has_container || c->container_unit == NULL || c->container_unit[0] == '\0',
               CLAST_E_CONFIG, "container_unit %s without a container", c->container_unit);
+    const bool has_start = c->start != NULL && c->start[0] != '\0';
+    CLX_CHECK(!has_start ||
+                  (strcmp(c->curve, usual->curve) == 0 && c->shape_weight.n == 0 &&
+                   c->mass == usual->mass && !c->form_law && !c->ellipsoids &&
+                   c->spacing == usual->spacing && c->generator == usual->generator &&
+                   c->density_of == usual->density_of && c->initial_speed == usual->initial_speed),
+              CLAST_E_CONFIG,
+              "start brings the grains: leave out curve, shape_weight, mass, form_law, "
+              "ellipsoids, spacing, generator, density_of and initial_speed");
+    CLX_CHECK(has_start || ((c->start_unit == NULL || c->start_unit[0] == '\0') &&
+                            (c->start_columns == NULL || c->start_columns[0] == '\0') &&
+                            c->start_diameter == 0.0),
+              CLAST_E_CONFIG, "start_unit, start_columns and start_diameter are of a start");
+    const bool is_cell = d->domain == CLAST_DEM_CELL;
+    CLX_CHECK(!is_cell || (c->shaking_time == usual->shaking_time &&
+                           c->shake_amplitude == usual->shake_amplitude &&
+                           c->damping == usual->damping && c->fill_low == usual->fill_low &&
+                           c->fill_high == usual->fill_high && c->first_low == usual->first_low &&
+                           c->first_high == usual->first_high && c->trim == usual->trim),
+              CLAST_E_CONFIG,
+              "domain cell is filled whole, and loaded by its stages: leave out shaking_time, "
+              "shake_amplitude, damping, fill_low, fill_high, first_low, first_high and trim");
+    CLX_CHECK(is_cell ||
+                  (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
+                   c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
+              CLAST_E_CONFIG,
+              "load_rate, load_tolerance, load_rest and max_load_time act in domain cell alone");
     CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
               "depth %g m: a cylinder has a width alone", d->depth);
     CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,

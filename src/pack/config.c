@@ -61,6 +61,15 @@ const clast_field clast_pack_fields[] = {
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)", .common = true),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL, .common = true},
+    TEXT(
+        start, "",
+        "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its "
+        "export as CSV beside shapes), or "
+        "spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)",
+        .group = "a bed from elsewhere"),
+    TEXT(start_unit, "", "length unit of the start, where it does not say"),
+    TEXT(start_columns, "", "columns of its spheres in their order: id,x,y,z,d"),
+    NUMBER(start_diameter, 0, 0, 1e6, "m", "of all its spheres; 0: as the file says"),
     TEXT(container, "",
          "surface, closed or open, that holds the grains in place of domain, width, depth and "
          "height; grains are made inside of it",
@@ -99,6 +108,20 @@ const clast_field clast_pack_fields[] = {
     {FIELD(I64, max_steps), 0, 0, 9e15, "-", "stop after so many time steps as it is; 0: never",
      NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
+
+    {FIELD(TEXT_LIST, stages), 0, 0, 0, "-",
+     "stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, "
+     "triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, "
+     "above 0 pressing); then until rest, strain E, stress P or time T",
+     "", .group = "load"},
+    NUMBER(load_rate, 1, 1e-9, 1e9, "1/s",
+           "rate of strain at which a pressure is approached, at most"),
+    NUMBER(load_tolerance, 0.01, 1e-9, 1, "-", "share of a pressure within which it is reached"),
+    NUMBER(
+        load_rest, 1e-3, 1e-12, 1, "-",
+        "a loaded bed rests when the mean force on a grain over that of a contact is below this"),
+    NUMBER(max_load_time, 20, 0, 1e9, "s", "give up when a stage has not come to its end by then"),
+    FLAG(energy, 0, "book the work of all forces by kind: load.csv, energy_book.svg"),
 
     NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)",
            .group = "measures"),

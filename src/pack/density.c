@@ -2,6 +2,7 @@
 // the list of sizes.
 #include "math/rng.h"
 #include "pack/pack.h"
+#include "pack/start.h"
 #include "shape/curve.h"
 #include <clast/shape.h>
 #include <math.h>
@@ -65,6 +66,10 @@ void clx_pack_densities(const clast_pack *p, double *low, double *high)
     const clast_f64_list *d = &p->config.density;
     const bool by_shape = p->config.density_of == CLAST_PACK_DENSITY_SHAPE;
     const int32_t n = by_shape ? p->input.n_shape : d->n;
+    if (p->input.start != NULL) {
+        clx_pack_start_densities(p, low, high);
+        return;
+    }
     if (p->config.density_of == CLAST_PACK_DENSITY_LIST) {
         clx_grading_densities(p->input.grading, low, high);
         return;

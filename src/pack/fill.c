@@ -8,12 +8,18 @@
 double clx_pack_fill_low(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;
+    if (c->dem.domain == CLAST_DEM_CELL) {
+        return p->base;
+    }
     return p->base + p->tall * (p->n_fill == 0 && c->first_low >= 0.0 ? c->first_low : c->fill_low);
 }
 
 static double fill_high(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;
+    if (c->dem.domain == CLAST_DEM_CELL) {
+        return p->base + p->tall;
+    }
     return p->base +
            p->tall * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
 }
@@ -125,11 +131,12 @@ static bool is_clear_of(const clast_pack *p, const filling *f, int32_t i, const 
 {
     CLAST_ASSERT(i >= 0 && i < f->n && radius > 0.0);
     const clast_dem_config *d = &p->config.dem;
-    const double period[2] = {d->width, d->depth > 0.0 ? d->depth : d->width};
+    const double period[3] = {d->width, d->depth > 0.0 ? d->depth : d->width, d->height};
+    const int n_period = d->domain == CLAST_DEM_CELL ? 3 : d->domain == CLAST_DEM_PERIODIC ? 2 : 0;
     const double reach = radius + f->radius[i];
     double r[3];
     v3_sub(r, x, f->grain[i].position);
-    for (int k = 0; k < 2 && d->domain == CLAST_DEM_PERIODIC; ++k) {
+    for (int k = 0; k < n_period; ++k) {
         r[k] -= period[k] * floor(r[k] / period[k] + 0.5);
     }
     return v3_norm2(r) >= reach * reach;

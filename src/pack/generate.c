@@ -135,6 +135,9 @@ static void draw_motion(const clast_pack *p, int64_t index, double size, clast_d
     g->velocity[0] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0);
     g->velocity[1] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0);
     g->velocity[2] = -u;
+    if (p->config.dem.domain == CLAST_DEM_CELL) { // has no down
+        g->velocity[2] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0);
+    }
     for (int k = 0; k < 3; ++k) {
         g->spin[k] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0) / size;
     }
@@ -174,7 +177,9 @@ done:
 static double reach_limit(const clast_dem_config *d)
 {
     const double depth = d->depth > 0.0 ? d->depth : d->width;
-    return d->domain == CLAST_DEM_PERIODIC   ? 0.25 * fmin(d->width, depth) / (1.0 + d->skin)
+    return d->domain == CLAST_DEM_CELL
+               ? 0.25 * fmin(fmin(d->width, depth), d->height) / (1.0 + d->skin)
+           : d->domain == CLAST_DEM_PERIODIC ? 0.25 * fmin(d->width, depth) / (1.0 + d->skin)
            : d->domain == CLAST_DEM_CYLINDER ? 0.5 * d->width
            : d->domain == CLAST_DEM_BOX      ? 0.5 * fmin(d->width, depth)
                                              : (double)INFINITY;
@@ -201,7 +206,9 @@ clast_status clx_pack_check_draws(clast_pack *p)
                   "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "
                   "domain, or another seed if few grains are as large",
                   (long long)i, 2.0 * reach,
-                  d->domain == CLAST_DEM_PERIODIC ? "half the period, less the skin," : "the width",
+                  d->domain == CLAST_DEM_PERIODIC || d->domain == CLAST_DEM_CELL
+                      ? "half the period, less the skin,"
+                      : "the width",
                   fmin(d->width, d->depth > 0.0 ? d->depth : d->width));
         mass += g.density * measures[1] * g.scale * g.scale * g.scale;
         CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,

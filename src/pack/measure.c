@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "dem/body.h"
 #include "dem/dem.h"
+#include "dem/ranks.h"
 #include "pack/pack.h"
 #include <clast/assembly.h>
 #include <math.h>
@@ -43,6 +44,7 @@ clast_status clx_pack_series_row(clast_pack *p)
     clast_dem_measures m;
     int32_t lost = -1;
     const int64_t row = p->series.n_row;
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     if (p->is_held && clx_pack_n_outside(p, &lost) > 0) {
         return clx_fail(CLAST_E_CONVERGE,
                         "grain %d has passed the walls of the closed container by step %lld: it "
@@ -50,7 +52,7 @@ clast_status clx_pack_series_row(clast_pack *p)
                         "shorter collision_time and time_step",
                         lost, (long long)clast_dem_n_step(p->dem));
     }
-    clast_dem_measure(p->dem, &m);
+    CLX_TRY(clx_dem_gather_measures(p->dem, &m));
     const bool is_empty = m.n_grain == 0;
     const double value[N_COLUMN] = {(double)m.step,
                                     m.time,
@@ -144,6 +146,14 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     r->walls = clast_bed_side_walls(&bed, &a);
     measure_ratio(&a, 1, r->flatness);
     measure_ratio(&a, 0, r->elongation);
+    if (p->dem->cell != NULL) { // all of it, without a floor or a top
+        const double *side = p->dem->cell->side;
+        r->porosity = 1.0 - r->load.solid / r->load.volume;
+        r->z_low = 0.0;
+        r->z_high = r->top = side[2];
+        r->untrimmed = r->porosity;
+        goto done;
+    }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     whole.trim = 0.0;
     if (clast_porosity_measure(&a, &bed, &profile, &whole, &bulk) == CLAST_OK) {
@@ -219,12 +229,17 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .hash = clast_dem_hash(pack->dem),
                            .n_fill = pack->n_fill,
                            .n_waited = pack->n_waited,
+                           .n_overlap = pack->n_overlap,
+                           .deepest_start = pack->deepest,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .clocked_steps = pack->clocked_steps,
                            .grain_steps = pack->grain_steps};
     int32_t first = -1;
     clast_dem_measure(pack->dem, &r.dem);
+    clast_dem_read_cell(pack->dem, &r.cell);
+    CLX_TRY(clast_dem_load_measure(pack->dem, &r.load));
+    clast_dem_energy_measure(pack->dem, &r.energy);
     r.n_outside = clx_pack_n_outside(pack, &first);
     measure_motion(pack, &r);
     CLX_TRY(count_loose(pack, &r));

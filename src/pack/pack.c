@@ -5,12 +5,17 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "dem/dem.h"
+#include "dem/ranks.h"
+#include "pack/load.h"
+#include "pack/start.h"
+#include <clast/machine.h>
 #include <clast/settling.h>
+#include <clast/status.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
-static const char *const names[] = {"generate", "shake", "damp", "done"};
+static const char *const names[] = {"generate", "shake", "damp", "done", "load"};
 
 const char *clast_pack_phase_name(clast_pack_phase phase)
 {
@@ -29,6 +34,13 @@ clast_bed clast_pack_bed(const clast_pack *pack)
         return bed;
     }
     const double depth = d->depth > 0.0 ? d->depth : d->width;
+    if (d->domain == CLAST_DEM_CELL) {
+        clast_dem_cell cell;
+        clast_dem_read_cell(pack->dem, &cell);
+        return (clast_bed){.kind = CLAST_BED_PERIODIC,
+                           .low = {-0.5 * cell.side[0], -0.5 * cell.side[1]},
+                           .high = {0.5 * cell.side[0], 0.5 * cell.side[1]}};
+    }
     return (clast_bed){.kind = d->domain == CLAST_DEM_CYLINDER   ? CLAST_BED_CYLINDER
                                : d->domain == CLAST_DEM_PERIODIC ? CLAST_BED_PERIODIC
                                                                  : CLAST_BED_BOX,
@@ -61,7 +73,8 @@ static clast_status check_room(const clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_pack_config *c = &p->config;
     const clast_bed bed = clast_pack_bed(p);
-    const double edge[2] = {p->base, p->base + c->fill_low * p->tall};
+    const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
+    const double edge[2] = {p->base, p->base + (is_cell ? 1.0 : c->fill_low) * p->tall};
     double room = 0.0;
     double light = 0.0;
     double heavy = 0.0;
@@ -70,13 +83,16 @@ static clast_status check_room(const clast_pack *p)
         "a height of %g m is %g slices of %g m (layer), a row of the profile each; at most %g: "
         "take a lower domain or a greater layer",
         p->tall, p->tall / c->layer, c->layer, MOST_SLICES);
-    CLX_TRY(clx_pack_check_densities(p));
+    if (p->input.start == NULL) {
+        CLX_TRY(clx_pack_check_densities(p));
+    }
     clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
-    CLX_CHECK(c->dem.floor || p->inside != NULL, CLAST_E_CONFIG, "a packing needs a floor");
+    CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell, CLAST_E_CONFIG,
+              "a packing needs a floor");
     clast_bed_volumes(&bed, 1, edge, &room);
-    CLX_CHECK(0.5 * heavy * room >= c->mass, CLAST_E_CONFIG,
+    CLX_CHECK(0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
               "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
               "made (fill_low of height), takes %g kg; take a taller or wider domain, or a greater "
               "fill_low",
@@ -98,16 +114,55 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     CLX_TRY(clx_pack_check(config));
     made->config = *config;
     made->input = *input;
+    if (input->start != NULL) {
+        CLX_TRY(clx_pack_start_check(made));
+    }
     CLX_TRY(clx_pack_contain(made));
     CLX_TRY(check_room(made));
     CLX_TRY(clx_pack_prepare(made));
-    CLX_TRY(clx_pack_check_draws(made));
+    if (input->start == NULL) {
+        CLX_TRY(clx_pack_check_draws(made));
+    }
+    CLX_TRY(clx_pack_load_check(made));
     CLX_TRY(clx_pack_series_begin(made));
+    CLX_TRY(clx_pack_load_table(made));
+    if (config->energy) {
+        CLX_TRY(clast_dem_begin_energy(made->dem));
+    }
     *pack = made;
     made = NULL;
 done:
     clast_pack_destroy(made);
     return status;
+}
+
+clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm)
+{
+    return clx_dem_share(pack->dem, comm);
+}
+
+clast_status clx_pack_gather(clast_pack *pack)
+{
+    return clx_dem_gather_all(pack->dem);
+}
+
+void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks)
+{
+    clx_rank_counts c = {0};
+    *ranks = (clast_pack_ranks){.n = 1};
+    if (!clx_dem_rank_counts(pack->dem, &c)) {
+        return;
+    }
+    const double steps = c.n_step > 0 ? (double)c.n_step : 1.0;
+    *ranks = (clast_pack_ranks){.n = pack->dem->ranks->comm->n_rank,
+                                .n_idle = c.n_idle,
+                                .n_balance = c.n_balance,
+                                .n_migrated = c.n_migrated,
+                                .ghosts = (double)c.n_ghost / steps,
+                                .step_bytes = (double)c.step_bytes / steps,
+                                .list_bytes = (double)c.list_bytes / steps,
+                                .imbalance = c.imbalance,
+                                .is_zoltan = c.is_zoltan};
 }
 
 void clast_pack_destroy(clast_pack *pack)
@@ -118,6 +173,7 @@ void clast_pack_destroy(clast_pack *pack)
     clast_dem_destroy(pack->dem);
     clast_bvh_destroy(pack->inside);
     clast_table_free(&pack->series);
+    clast_table_free(&pack->load.table);
     clx_free(pack->unit_size);
     clx_free(pack->weight);
     clx_free(pack->waiting);
@@ -143,13 +199,17 @@ void clx_pack_drive(clast_pack *p)
     clast_dem_set_drive(p->dem, &d);
 }
 
-static void begin_phase(clast_pack *p, clast_pack_phase phase)
+static clast_status begin_phase(clast_pack *p, clast_pack_phase phase)
 {
-    CLAST_ASSERT(phase >= p->phase);
+    CLAST_ASSERT(phase >= p->phase || p->phase == CLAST_PACK_LOAD);
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     p->phase = phase;
     p->phase_step = clast_dem_n_step(p->dem);
     p->last_height = clast_dem_mean_height(p->dem, NULL);
     clx_pack_drive(p);
+done:
+    return status;
 }
 
 /// Longest time in which a grain that reaches above `low` sinks through the whole height [s]: its
@@ -185,7 +245,7 @@ static double sinking_time(const clast_pack *p, double low)
 static const double PATIENCE = 50.0;
 
 /// A bed that grew into the place of generation would wait for ever.
-static clast_status check_waiting(const clast_pack *p, double low)
+static clast_status check_waiting(clast_pack *p, double low)
 {
     clast_status status = CLAST_OK;
     const double waited =
@@ -194,6 +254,7 @@ static clast_status check_waiting(const clast_pack *p, double low)
     if (waited == 0.0 || (gravity > 0.0 && waited <= PATIENCE * sqrt(2.0 * p->tall / gravity))) {
         return CLAST_OK;
     }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     const double sinking = sinking_time(p, low);
     CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
               "nothing draws the grains of fill %d down from above %g m (gravity %g m/s2, "
@@ -208,21 +269,38 @@ done:
     return status;
 }
 
+/// All grains of a cell at once; then its stages begin.
+static clast_status generate_in_cell(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p));
+    CLX_CHECK(p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
+              "the cell holds %g kg of %g kg on this lattice without overlaps; take a larger cell "
+              "(width, depth, height), or another generator or spacing: its stages press it "
+              "together",
+              p->mass, p->config.mass);
+    CLX_TRY(begin_phase(p, CLAST_PACK_LOAD));
+    CLX_TRY(clx_pack_load_begin(p));
+done:
+    return status;
+}
+
 /// A new fill once the last one has left the place where grains are made.
 static clast_status generate(clast_pack *p)
 {
     clast_status status = CLAST_OK;
-    double top = -INFINITY;
-    if (p->n_fill > 0) {
-        (void)clast_dem_mean_height(p->dem, &top);
+    const double top = p->n_fill > 0 ? clx_dem_highest(p->dem) : -(double)INFINITY;
+    if (p->input.start != NULL) {
+        CLX_TRY(clx_pack_start_place(p));
+        return begin_phase(p, CLAST_PACK_SHAKE);
     }
     if (p->drawn_mass >= p->config.mass && p->n_waiting == 0) {
-        begin_phase(p, CLAST_PACK_SHAKE);
-        return CLAST_OK;
+        return begin_phase(p, CLAST_PACK_SHAKE);
     }
     const double low = clx_pack_fill_low(p);
     if (p->n_fill == 0 || top < low) {
-        CLX_TRY(clx_pack_fill(p));
+        CLX_TRY(clx_dem_gather_grains(p->dem));
+        CLX_TRY(clx_dem_agree(p->dem, clx_pack_fill(p)));
         clx_pack_drive(p);
     }
     CLX_TRY(check_waiting(p, low));
@@ -239,6 +317,7 @@ static clast_status look(clast_pack *p)
     if (since == 0 || since % steps_of(p, c->check_time) != 0) {
         return CLAST_OK;
     }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     const double height = clast_dem_mean_height(p->dem, NULL);
     const bool is_level = fabs(height - p->last_height) < c->height_change;
     const bool is_slow = clast_dem_max_speed(p->dem) < c->still_speed;
@@ -247,8 +326,7 @@ static clast_status look(clast_pack *p)
                    : c->rule == CLAST_PACK_BY_SPEED ? is_slow
                                                     : is_level || is_slow;
     if (p->converged) {
-        begin_phase(p, CLAST_PACK_DONE);
-        return CLAST_OK;
+        return begin_phase(p, CLAST_PACK_DONE);
     }
     CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
               "the bed is not still after %g s of damping: its mean height moves by more than %g m "
@@ -264,7 +342,14 @@ static clast_status series_row_due(clast_pack *p)
     const int64_t n = p->series.n_row;
     const bool is_due = step % steps_of(p, p->config.series_time) == 0 &&
                         (n == 0 || clast_table_numbers(&p->series, "step")[n - 1] < (double)step);
-    return is_due ? clx_pack_series_row(p) : CLAST_OK;
+    if (!is_due) {
+        return CLAST_OK;
+    }
+    clast_status status = clx_pack_series_row(p);
+    if (status == CLAST_OK) {
+        status = clx_pack_load_row(p);
+    }
+    return clx_dem_agree(p->dem, status);
 }
 
 /// What is due at this step, before it is taken.
@@ -272,13 +357,22 @@ static clast_status decide(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const int64_t step = clast_dem_n_step(p->dem);
+    if (p->phase == CLAST_PACK_GENERATE && p->config.dem.domain == CLAST_DEM_CELL) {
+        CLX_TRY(generate_in_cell(p));
+    }
+    if (p->phase == CLAST_PACK_LOAD) {
+        CLX_TRY(clx_pack_load_look(p));
+        if (p->load.is_over) {
+            begin_phase(p, CLAST_PACK_DONE);
+        }
+    }
     if (p->phase == CLAST_PACK_GENERATE && step % steps_of(p, 1e-3) == 0) {
         CLX_TRY(generate(p));
     }
     if (p->phase == CLAST_PACK_SHAKE &&
         (p->config.shaking_time == 0.0 ||
          step - p->phase_step >= steps_of(p, p->config.shaking_time))) {
-        begin_phase(p, CLAST_PACK_DAMP);
+        CLX_TRY(begin_phase(p, CLAST_PACK_DAMP));
     }
     if (p->phase == CLAST_PACK_DAMP) {
         CLX_TRY(look(p));
@@ -301,6 +395,9 @@ static int64_t quiet_steps(const clast_pack *p)
         n = k < n ? k : n;
     } else if (p->phase == CLAST_PACK_SHAKE) {
         const int64_t k = p->phase_step + steps_of(p, p->config.shaking_time) - step;
+        n = k < n ? k : n;
+    } else if (p->phase == CLAST_PACK_LOAD) {
+        const int64_t k = CLX_SERVO_STEPS - (step - p->phase_step) % CLX_SERVO_STEPS;
         n = k < n ? k : n;
     } else {
         const int64_t k = check - (step - p->phase_step) % check;
@@ -381,6 +478,10 @@ int64_t clast_pack_expected_steps(const clast_pack *pack)
     const clast_pack_config *c = &pack->config;
     const double dt = c->dem.time_step;
     double time = (double)clast_dem_n_step(pack->dem) * dt;
+    if (c->dem.domain == CLAST_DEM_CELL) { // stages tell no time: a fair guess of each
+        const double left = (double)(c->stages.n - pack->load.stage) * 0.2;
+        return c->max_steps > 0 ? c->max_steps : (int64_t)((time + left) / dt);
+    }
     if (pack->n_fill == 0 || pack->mass <= 0.0) {
         return c->max_steps;
     }

@@ -10,6 +10,16 @@ typedef struct clx_pack_number {
     int32_t form;  ///< shape of the simulation that was made for it, or -1
 } clx_pack_number;
 
+/// Where the stages of a load are.
+typedef struct clx_pack_loading {
+    clast_table table; ///< load.csv
+    int32_t stage;
+    int64_t begun;             ///< step at which the stage began
+    double strain[3], sheared; ///< of the cell then
+    double steady[3];          ///< strain rates that the servo has come to [1/s]
+    bool is_over;
+} clx_pack_loading;
+
 struct clast_pack {
     clast_pack_config config; ///< borrowed texts and lists
     clast_pack_input input;   ///< borrowed
@@ -39,6 +49,9 @@ struct clast_pack {
     bool converged;
     double grain_steps, clocked_steps;
     clast_table series;
+    clx_pack_loading load;
+    int64_t n_overlap;     ///< of a start
+    double deepest;        ///< of those, over the smaller one's radius
     double step_s, wall_s; ///< clocks, which no result depends on
 };
 
@@ -88,3 +101,11 @@ void clx_pack_drive(clast_pack *pack);
 
 clast_status clx_pack_series_begin(clast_pack *pack);
 clast_status clx_pack_series_row(clast_pack *pack);
+
+/// Spreads its grains over ranks from the next step on; called by all, as all of its functions then
+/// are. Before the state is read or written, clx_pack_gather brings it to rank 0.
+CLX_SHARED clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm);
+CLX_SHARED clast_status clx_pack_gather(clast_pack *pack);
+
+/// What went between ranks so far.
+CLX_SHARED void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks);

@@ -2,6 +2,8 @@
 #include "pack/saved.h"
 
 #include "base/alloc.h"
+#include "math/vec3.h"
+#include "pack/load.h"
 #include <clast/shape.h>
 #include <math.h>
 #include <string.h>
@@ -16,11 +18,17 @@ void clx_pack_saved_free(clx_pack_saved *saved)
 clast_status clx_pack_save(clast_pack *p, clx_pack_saved *saved)
 {
     clast_status status = CLAST_OK;
-    clx_pack_saved s = {.count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step,
-                                  p->converged ? 1 : 0, p->n_drawn, p->n_waited, 0},
-                        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
-                        .n_waiting = p->n_waiting,
-                        .series = &p->series};
+    clx_pack_saved s = {
+        .count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step, p->converged ? 1 : 0,
+                  p->n_drawn, p->n_waited, 0},
+        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
+        .stage = {(double)p->load.stage, (double)p->load.begun, p->load.strain[0],
+                  p->load.strain[1], p->load.strain[2], p->load.sheared, p->load.steady[0],
+                  p->load.steady[1], p->load.steady[2], (double)p->n_overlap, p->deepest},
+        .has_stage = p->config.dem.domain == CLAST_DEM_CELL || p->input.start != NULL,
+        .load = clast_pack_load_table(p),
+        .n_waiting = p->n_waiting,
+        .series = &p->series};
     CLX_TRY(clx_alloc(&s.waiting, 2 * s.n_waiting, sizeof *s.waiting));
     for (int64_t i = 0; i < s.n_waiting; ++i) {
         s.waiting[2 * i] = p->waiting[i].index;
@@ -34,20 +42,19 @@ done:
     return status;
 }
 
-static clast_status take_series(clast_pack *p, const clast_table *from)
+static clast_status take_rows(clast_table *to, const clast_table *from)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(from->n_column == p->series.n_column, CLAST_E_FORMAT,
-              "the checkpoint's time series has %d columns, not %d", from->n_column,
-              p->series.n_column);
-    CLX_TRY(clast_table_resize(&p->series, from->n_row));
+    CLX_CHECK(from->n_column == to->n_column, CLAST_E_FORMAT,
+              "the checkpoint's time series has %d columns, not %d", from->n_column, to->n_column);
+    CLX_TRY(clast_table_resize(to, from->n_row));
     for (int32_t c = 0; c < from->n_column; ++c) {
         CLX_CHECK(from->column[c].number != NULL &&
-                      strcmp(from->column[c].name, p->series.column[c].name) == 0,
+                      strcmp(from->column[c].name, to->column[c].name) == 0,
                   CLAST_E_FORMAT, "column %d of the checkpoint's time series is not %s", c,
-                  p->series.column[c].name);
+                  to->column[c].name);
         for (int64_t i = 0; i < from->n_row; ++i) {
-            p->series.column[c].number[i] = from->column[c].number[i];
+            to->column[c].number[i] = from->column[c].number[i];
             CLX_CHECK(isfinite(from->column[c].number[i]), CLAST_E_FORMAT,
                       "row %lld of the checkpoint's time series: %s is not finite", (long long)i,
                       from->column[c].name);
@@ -144,10 +151,37 @@ done:
     return status;
 }
 
+/// Where the stages of a load are.
+static clast_status take_load(clast_pack *p, const clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    const bool is_cell = p->config.dem.domain == CLAST_DEM_CELL;
+    CLX_CHECK(clx_pack_has_load(&p->config) == (s->load != NULL), CLAST_E_FORMAT,
+              "the checkpoint lacks the rows of load.csv");
+    if (s->load != NULL) {
+        CLX_TRY(take_rows(&p->load.table, s->load));
+    }
+    CLX_CHECK(!is_cell || (s->stage[0] >= 0.0 && s->stage[0] < p->config.stages.n &&
+                           s->stage[1] >= 0.0 && s->stage[1] < 9e15 && v3_is_finite(s->stage + 2) &&
+                           isfinite(s->stage[5]) && v3_is_finite(s->stage + 6)),
+              CLAST_E_FORMAT, "the checkpoint's stage is none");
+    p->load.stage = is_cell ? (int32_t)s->stage[0] : 0;
+    p->load.begun = is_cell ? (int64_t)s->stage[1] : 0;
+    v3_copy(p->load.strain, s->stage + 2);
+    p->load.sheared = s->stage[5];
+    v3_copy(p->load.steady, s->stage + 6);
+    CLX_CHECK(s->stage[9] >= 0.0 && s->stage[9] < 9e15 && s->stage[10] >= 0.0, CLAST_E_FORMAT,
+              "the checkpoint's start is none");
+    p->n_overlap = (int64_t)s->stage[9];
+    p->deepest = s->stage[10];
+done:
+    return status;
+}
+
 clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(s->count[0] >= CLAST_PACK_GENERATE && s->count[0] <= CLAST_PACK_DONE &&
+    CLX_CHECK(s->count[0] >= CLAST_PACK_GENERATE && s->count[0] <= CLAST_PACK_LOAD &&
                   s->count[1] == s->dem.n_grain && s->count[2] >= 0 && s->count[2] <= INT32_MAX &&
                   s->count[8] >= p->input.n_shape && s->count[8] <= INT32_MAX &&
                   s->n_waiting <= INT32_MAX && s->count[6] == s->count[1] + s->n_waiting &&
@@ -160,7 +194,8 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
         CLX_TRY(clast_dem_add_shape(p->dem, &s->shape[i], &id));
     }
     CLX_TRY(clx_dem_restore(p->dem, &s->dem));
-    CLX_TRY(take_series(p, s->series));
+    CLX_TRY(take_rows(&p->series, s->series));
+    CLX_TRY(take_load(p, s));
     CLX_TRY(take_waiting(p, s));
     p->phase = (clast_pack_phase)s->count[0];
     p->n_made = s->count[1];

@@ -3,7 +3,7 @@
 #include "dem/saved.h"
 #include "pack/pack.h"
 
-enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 4 };
+enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 4, CLX_PACK_STAGE = 11 };
 
 typedef struct clx_pack_saved {
     clx_dem_saved dem;
@@ -11,9 +11,14 @@ typedef struct clx_pack_saved {
                                      ///< drawn, waited, shapes in all
     double number[CLX_PACK_NUMBERS]; ///< mass, last height, grain-steps, mass drawn
     int64_t n_waiting;
-    int64_t *waiting;          ///< [n_waiting][2] index and form of grains without a place
-    const clast_table *series; ///< borrowed
-    const clast_shape *shape;  ///< [count[8]] borrowed
+    int64_t *waiting;             ///< [n_waiting][2] index and form of grains without a place
+    double stage[CLX_PACK_STAGE]; ///< of a load: number, first step, strains and shear
+                                  ///< then; steady rates of the servo;
+                                  ///< overlaps of a start, the deepest
+    bool has_stage;               ///< of a cell, or a start
+    const clast_table *series;    ///< borrowed
+    const clast_table *load;      ///< borrowed, or NULL
+    const clast_shape *shape;     ///< [count[8]] borrowed
 } clx_pack_saved;
 
 /// `saved` borrows the series.

@@ -8,6 +8,7 @@
 #include <clast/agglomerate.h>
 #include <clast/aggregate_run.h>
 #include <clast/decompose.h>
+#include <clast/evolve.h>
 #include <clast/pack.h>
 #include <clast/porosity_model.h>
 #include <stdlib.h>
@@ -122,7 +123,8 @@ static const clast_field *field_of(const char *command, const char *key)
         const clast_field *fields;
     } known[] = {{"aggregate", clast_aggregate_fields},   {"pack", clast_pack_fields},
                  {"decompose", clast_decompose_fields},   {"agglomerate", clast_agglomerate_fields},
-                 {"agglomerate", clast_decompose_fields}, {"fit", clast_porosity_fit_fields}};
+                 {"agglomerate", clast_decompose_fields}, {"fit", clast_porosity_fit_fields},
+                 {"evolve", clast_evolve_fields}};
     const clast_field *field = NULL;
     for (size_t k = 0; k < sizeof known / sizeof *known && field == NULL; ++k) {
         if (command != NULL && strcmp(known[k].command, command) == 0) {

@@ -55,17 +55,19 @@ static clast_status put_view(clx_file *file, const clx_run *run, const clast_rep
 {
     clast_status status = CLAST_OK;
     char path[PATH_SIZE];
-    clast_assembly assembly = {0};
+    clast_state state = {0};
     CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
-    CLX_TRY(clast_state_read_assembly(path, &assembly));
+    CLX_TRY(clast_state_read(path, &state));
+    CLX_CHECK(state.assembly != NULL, CLAST_E_FORMAT, "%s: holds no assembly", path);
     (void)clx_file_print(file, "<h3>Assembly <small>state.h5%s</small></h3>\n",
                          count_states(run) > 1 ? ", the first of the folder's states" : "");
-    CLX_TRY(clx_view3d_put(file, &assembly, config->triangles));
+    CLX_TRY(clx_view3d_put(file, state.assembly, clast_state_table(&state, "contacts"),
+                           config->triangles));
 done:
     if (status == CLAST_E_GEOMETRY) {
         clx_fail_prefix("%s", path);
     }
-    clast_assembly_free(&assembly);
+    clast_state_free(&state);
     return status;
 }
 
@@ -235,7 +237,7 @@ static clast_status write_view(const clast_assembly *assembly, const clast_repor
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     clx_page_begin(&file, config->title[0] != '\0' ? config->title : "clast");
-    CLX_TRY(clx_view3d_put(&file, assembly, config->triangles));
+    CLX_TRY(clx_view3d_put(&file, assembly, NULL, config->triangles));
     clx_page_end(&file, true);
     CLX_TRY(clx_file_commit(&file));
 done:

@@ -168,78 +168,110 @@ static void put_spread(clx_file *file, const char *title, const json_t *object)
     (void)clx_file_print(file, "</table></div></div>\n");
 }
 
-static void put_item_head(clx_file *file, const char *place, const json_t *item)
-{
-    const char *key = NULL;
-    const char *name = NULL;
-    json_t *value = NULL;
-    json_t *inner = NULL;
-    (void)clx_file_print(file, "<tr><th class=\"n\">#</th>");
-    json_object_foreach((json_t *)item, key, value)
-    {
-        if (!json_is_object(value)) {
-            put_head(file, key, place, json_is_string(value));
-            continue;
-        }
-        json_object_foreach(value, name, inner)
-        {
-            (void)clx_file_print(file, "<th class=\"n\">");
-            clx_quantity_put_label(file, key, place);
-            (void)clx_file_print(file, ", ");
-            clx_quantity_put_label(file, name, "envelope");
-            (void)clx_file_print(file, "</th>");
-        }
-    }
-    (void)clx_file_print(file, "</tr>\n");
-}
+/// Columns of a list's table: the first item's values, one for each value of an object in it.
+typedef struct {
+    const char *key, *name; ///< name: in the object `key`, else NULL
+    const json_t *value;    ///< the first item's, of `key`
+} item_column;
 
-/// A row with the first item's columns, whatever else this item has.
-static void put_item(clx_file *file, const char *place, const json_t *head, const json_t *item)
+enum { MAX_COLUMNS = 256, COLUMNS_ACROSS = 7 };
+
+static int list_columns(const json_t *head, item_column column[MAX_COLUMNS])
 {
     const char *key = NULL;
     const char *name = NULL;
     json_t *value = NULL;
     json_t *inner = NULL;
+    int n = 0;
     json_object_foreach((json_t *)head, key, value)
     {
-        const json_t *mine = json_object_get(item, key);
-        if (!json_is_object(value)) {
-            clx_value_put_cell(file, key, place, mine);
-            continue;
+        if (!json_is_object(value) && n < MAX_COLUMNS) {
+            column[n++] = (item_column){key, NULL, value};
         }
-        const bool is_own = !is_by_envelope(value);
         json_object_foreach(value, name, inner)
         {
-            clx_value_put_cell(file, is_own ? name : key, place, json_object_get(mine, name));
+            if (n < MAX_COLUMNS) {
+                column[n++] = (item_column){key, name, value};
+            }
         }
     }
+    return n;
+}
+
+static void put_item_head(clx_file *file, const char *place, const item_column *column)
+{
+    if (column->name == NULL) {
+        put_head(file, column->key, place, json_is_string(column->value));
+        return;
+    }
+    (void)clx_file_print(file, "<th class=\"n\">");
+    clx_quantity_put_label(file, column->key, place);
+    (void)clx_file_print(file, ", ");
+    clx_quantity_put_label(file, column->name, "envelope");
+    (void)clx_file_print(file, "</th>");
+}
+
+static void put_item(clx_file *file, const char *place, const item_column *column,
+                     const json_t *item)
+{
+    const json_t *mine = json_object_get(item, column->key);
+    if (column->name == NULL) {
+        clx_value_put_cell(file, column->key, place, mine);
+        return;
+    }
+    const bool is_own = !is_by_envelope(column->value);
+    clx_value_put_cell(file, is_own ? column->name : column->key, place,
+                       json_object_get(mine, column->name));
+}
+
+/// Some columns of the items as a table of their own, so that no reader has to scroll sideways.
+static void put_items(clx_file *file, const char *place, const json_t *list, int32_t rows,
+                      const item_column *column, int n_column)
+{
+    (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table>\n"
+                               "<tr><th class=\"n\">#</th>");
+    for (int k = 0; k < n_column; ++k) {
+        put_item_head(file, place, &column[k]);
+    }
+    (void)clx_file_print(file, "</tr>\n");
+    for (size_t i = 0; i < json_array_size(list) && i < (size_t)rows; ++i) {
+        (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
+        for (int k = 0; k < n_column; ++k) {
+            put_item(file, place, &column[k], json_array_get(list, i));
+        }
+        (void)clx_file_print(file, "</tr>\n");
+    }
+    (void)clx_file_print(file, "</table></div>");
+}
+
+static void put_values(clx_file *file, const char *key, const json_t *list, int32_t rows)
+{
+    (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table>\n");
+    for (size_t i = 0; i < json_array_size(list) && i < (size_t)rows; ++i) {
+        (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
+        clx_value_put_cell(file, key, NULL, json_array_get(list, i));
+        (void)clx_file_print(file, "</tr>\n");
+    }
+    (void)clx_file_print(file, "</table></div>");
 }
 
 static void put_list(clx_file *file, const char *key, const char *place, const json_t *list,
                      int32_t rows)
 {
     const size_t n = json_array_size(list);
-    const json_t *head = json_array_get(list, 0);
+    item_column column[MAX_COLUMNS];
+    const int n_column = list_columns(json_array_get(list, 0), column);
     (void)clx_file_print(file, "<details class=\"card wide\"><summary>");
     clx_quantity_put_label(file, key, NULL);
-    (void)clx_file_print(file,
-                         " <small>%zu</small></summary><div class=\"scroll\" tabindex=\"0\">"
-                         "<table>\n",
-                         n);
-    if (json_is_object(head)) {
-        put_item_head(file, place, head);
+    (void)clx_file_print(file, " <small>%zu</small></summary>", n);
+    for (int k = 0; k < n_column; k += COLUMNS_ACROSS) {
+        const int left = n_column - k;
+        put_items(file, place, list, rows, column + k,
+                  left < COLUMNS_ACROSS ? left : COLUMNS_ACROSS);
     }
-    for (size_t i = 0; i < n && i < (size_t)rows; ++i) {
-        const json_t *item = json_array_get(list, i);
-        (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
-        if (json_is_object(head)) {
-            put_item(file, place, head, item);
-        } else {
-            clx_value_put_cell(file, key, NULL, item);
-        }
-        (void)clx_file_print(file, "</tr>\n");
+    if (n_column == 0) {
+        put_values(file, key, list, rows);
     }
-    (void)clx_file_print(file, "</table></div>");
     if (n > (size_t)rows) {
         (void)clx_file_print(file, "<p class=\"note\">The first %d of %zu.</p>", (int)rows, n);
     }

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "io/json.h"
+#include "math/vec3.h"
 #include "render/legend.h"
 #include "report/page.h"
 #include <clast/mesh_repair.h>
@@ -11,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MIN_TRIANGLES = 20, MAX_LEVEL = 4, MAX_GRAINS = 200000, POSE = 9, COLLAPSE_LIMIT = 200000 };
+enum { MIN_TRIANGLES = 20, MAX_LEVEL = 4, MAX_GRAINS = 200000, POSE = 10, COLLAPSE_LIMIT = 200000 };
 
 typedef struct {
     const clast_assembly *assembly;
@@ -200,7 +201,7 @@ done:
     return status;
 }
 
-/// Place, turn, scale and size (diameter of the sphere of equal volume) of grain i.
+/// Place, turn, scale, size (diameter of the sphere of equal volume) and density of grain i.
 static void store_pose(const view *v, int32_t i, unsigned char *at)
 {
     CLAST_ASSERT(i >= 0 && i < v->assembly->n_grain);
@@ -214,6 +215,7 @@ static void store_pose(const view *v, int32_t i, unsigned char *at)
     }
     store_float(at + 28, a->scale[i]);
     store_float(at + 32, a->scale[i] * cbrt(6.0 * volume / CLAST_PI) / v->length);
+    store_float(at + 36, a->density[i]);
 }
 
 static clast_status put_grains(clx_file *file, const view *v, int32_t shape)
@@ -337,6 +339,140 @@ done:
     return status;
 }
 
+/// Names of the grains, where they are not their places.
+static void put_ids(clx_file *file, const view *v)
+{
+    const int64_t *id = v->assembly->id;
+    bool is_place = true;
+    for (int32_t i = 0; i < v->n_shown; ++i) {
+        is_place = is_place && id[i] == i;
+    }
+    for (int32_t i = 0; !is_place && i < v->n_shown; ++i) {
+        (void)clx_file_print(file, "%s%lld", i == 0 ? ", \"id\": [" : ",", (long long)id[i]);
+    }
+    (void)clx_file_print(file, "%s", is_place ? "" : "]");
+}
+
+/// Contacts with both ends' numbers, as arrays of the page.
+typedef struct {
+    int32_t n;
+    unsigned char *pair, *branch, *force;
+} contacts;
+
+static void contacts_free(contacts *c)
+{
+    clx_free(c->pair);
+    clx_free(c->branch);
+    clx_free(c->force);
+    *c = (contacts){0};
+}
+
+static clast_status contacts_alloc(int64_t n, contacts *c)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&c->pair, n, 8));
+    CLX_TRY(clx_alloc(&c->branch, n, 12));
+    CLX_TRY(clx_alloc(&c->force, n, 4));
+done:
+    return status;
+}
+
+static void add_contact(const view *v, int32_t a, int32_t b, const double branch[3], double force,
+                        contacts *c)
+{
+    store32(c->pair + 8 * (size_t)c->n, (uint32_t)a);
+    store32(c->pair + 8 * (size_t)c->n + 4, (uint32_t)b); // -1, a wall: 0xffffffff
+    for (int k = 0; k < 3; ++k) {
+        store_float(c->branch + 12 * (size_t)c->n + 4 * k, branch[k] / v->length);
+    }
+    store_float(c->force + 4 * (size_t)c->n, force);
+    ++c->n;
+}
+
+/// Columns of clast_dem_contact_table; false where one is not there.
+static bool force_columns(const clast_table *table, const double *column[8])
+{
+    static const char *const name[8] = {"a",          "b",         "branch_x_m", "branch_y_m",
+                                        "branch_z_m", "force_x_N", "force_y_N",  "force_z_N"};
+    for (int k = 0; k < 8; ++k) {
+        column[k] = table != NULL ? clast_table_numbers(table, name[k]) : NULL;
+        if (column[k] == NULL) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_shown(const view *v, double grain)
+{
+    return grain >= 0.0 && grain < v->n_shown;
+}
+
+static clast_status read_forces(const view *v, const clast_table *table,
+                                const double *const column[8], contacts *c)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(contacts_alloc(table->n_row, c));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        const double branch[3] = {column[2][i], column[3][i], column[4][i]};
+        const double force = sqrt(column[5][i] * column[5][i] + column[6][i] * column[6][i] +
+                                  column[7][i] * column[7][i]);
+        const double b = column[1][i];
+        if (is_shown(v, column[0][i]) && (b < 0.0 || is_shown(v, b)) && isfinite(force) &&
+            isfinite(branch[0] + branch[1] + branch[2])) {
+            add_contact(v, (int32_t)column[0][i], b < 0.0 ? -1 : (int32_t)b, branch, force, c);
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status read_touches(const view *v, contacts *c)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *a = v->assembly;
+    CLX_TRY(contacts_alloc(a->n_contact, c));
+    for (int32_t i = 0; i < a->n_contact; ++i) {
+        const int32_t first = a->contact[i][0];
+        const int32_t second = a->contact[i][1];
+        double branch[3];
+        v3_sub(branch, a->position[second], a->position[first]);
+        if (first < v->n_shown && second < v->n_shown) {
+            add_contact(v, first, second, branch, 0.0, c);
+        }
+    }
+done:
+    return status;
+}
+
+/// Forces where they are known, else the pairs that touch, else nothing.
+static clast_status put_contacts(clx_file *file, const view *v, const clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    const double *column[8];
+    contacts c = {0};
+    const bool has_force = force_columns(table, column);
+    if (has_force) {
+        CLX_TRY(read_forces(v, table, column, &c));
+    } else if (v->assembly->contact != NULL) {
+        CLX_TRY(read_touches(v, &c));
+    }
+    if (c.n > 0) {
+        (void)clx_file_print(file, ", \"contact\": {\"pair\": \"");
+        clx_page_base64(file, c.pair, 8 * (size_t)c.n);
+        (void)clx_file_print(file, "\", \"branch\": \"");
+        clx_page_base64(file, c.branch, 12 * (size_t)c.n);
+        (void)clx_file_print(file, "\", \"force\": %s", has_force ? "\"" : "null}");
+    }
+    if (c.n > 0 && has_force) {
+        clx_page_base64(file, c.force, 4 * (size_t)c.n);
+        (void)clx_file_print(file, "\"}");
+    }
+done:
+    contacts_free(&c);
+    return status;
+}
+
 static view begin(const clast_assembly *assembly, int32_t limit)
 {
     double low[3];
@@ -352,7 +488,8 @@ static view begin(const clast_assembly *assembly, int32_t limit)
     return v;
 }
 
-clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int32_t limit)
+clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
+                            const clast_table *forces, int32_t limit)
 {
     clast_status status = CLAST_OK;
     bool is_first = true;
@@ -367,7 +504,11 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int3
     put_text(file, assembly->unit);
     (void)clx_file_print(file, ", \"length\": %.17g, \"n_grain\": %d, \"n_shown\": %d", v.length,
                          (int)assembly->n_grain, (int)v.n_shown);
+    (void)clx_file_print(file, ", \"centre\": [%.17g, %.17g, %.17g]", v.centre[0], v.centre[1],
+                         v.centre[2]);
     CLX_TRY(put_colours(file, &v));
+    put_ids(file, &v);
+    CLX_TRY(put_contacts(file, &v, forces));
     (void)clx_file_print(file, ", \"shapes\": [");
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         if (is_used(&v, s)) {

@@ -10,7 +10,7 @@
 #include <clast/assembly.h>
 #include <string.h>
 
-enum { N_ARRAY = 12 };
+enum { N_ARRAY = 15 };
 
 typedef struct {
     const char *name;
@@ -32,6 +32,15 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     a[n++] = (array){"/pack/anchor", CLX_H5_F64, d->n_known, CLX_SAVED_ANCHOR, d->anchor};
     a[n++] = (array){"/pack/link_id", CLX_H5_I32, d->n_pair, CLX_SAVED_ID, d->id};
     a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_pair, CLX_SAVED_PAIR, d->pair};
+    if (d->cell != NULL) {
+        a[n++] = (array){"/pack/cell", CLX_H5_F64, CLX_SAVED_CELL, 1, d->cell};
+    }
+    if (s->has_stage) {
+        a[n++] = (array){"/pack/stage", CLX_H5_F64, CLX_PACK_STAGE, 1, s->stage};
+    }
+    if (d->energy != NULL) {
+        a[n++] = (array){"/pack/energy", CLX_H5_F64, d->n_energy, 1, d->energy};
+    }
     if (d->limit != NULL) {
         a[n++] = (array){"/pack/limit", CLX_H5_F64, d->n_known, 1, d->limit};
     }
@@ -74,7 +83,7 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
     clast_status status = CLAST_OK;
     clx_pack_saved saved = {0};
     clast_assembly grains = {0};
-    clast_table table[5] = {{0}, {0}, {0}, {0}, {0}};
+    clast_table table[6] = {{0}, {0}, {0}, {0}, {0}, {0}};
     clast_state state = {.assembly = &grains, .n_table = 3, .table = table};
     clx_h5 *made = NULL;
     const clast_bed bed = clast_pack_bed(pack);
@@ -89,6 +98,9 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
         CLX_TRY(clx_bed_surface_tables(bed.surface, &table[3]));
         state.n_table = 5;
     }
+    if (saved.load != NULL) {
+        table[state.n_table++] = *saved.load; // borrowed
+    }
     CLX_TRY(clx_h5_create(&made));
     CLX_TRY(clx_state_put(made, &state));
     CLX_TRY(put_pack(made, &saved));
@@ -98,7 +110,8 @@ done:
     clx_h5_close(made);
     clx_free(state.config);
     clast_table_free(&table[0]);
-    for (int k = 2; k < 5; ++k) {
+    const int n_own = bed.kind == CLAST_BED_MESH ? 5 : 3;
+    for (int k = 2; k < n_own; ++k) {
         clast_table_free(&table[k]);
     }
     clast_assembly_free(&grains);
@@ -190,6 +203,17 @@ static clast_status alloc_arrays(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
     CLX_TRY(clx_alloc(&d->id, d->n_pair * CLX_SAVED_ID, sizeof *d->id));
     CLX_TRY(clx_alloc(&d->pair, d->n_pair * CLX_SAVED_PAIR, sizeof *d->pair));
+    s->has_stage = clx_h5_has(h5, "/pack/stage");
+    if (clx_h5_has(h5, "/pack/cell")) {
+        CLX_TRY(clx_alloc(&d->cell, CLX_SAVED_CELL, sizeof *d->cell));
+    }
+    if (clx_h5_has(h5, "/pack/energy")) {
+        CLX_TRY(clx_h5_shape(h5, "/pack/energy", CLX_H5_F64, 1, shape));
+        CLX_CHECK(shape[0] > 0 && shape[0] < 4096, CLAST_E_FORMAT,
+                  "the checkpoint's energy is none");
+        d->n_energy = shape[0];
+        CLX_TRY(clx_alloc(&d->energy, d->n_energy, sizeof *d->energy));
+    }
     if (clx_h5_has(h5, "/pack/limit")) {
         CLX_TRY(clx_alloc(&d->limit, d->n_known, sizeof *d->limit));
     }
@@ -278,6 +302,7 @@ clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pa
               CLAST_E_FORMAT, "%s lacks its series or shapes", found->path);
     CLX_TRY(check_container(&state, pack));
     saved.series = series;
+    saved.load = clast_state_table(&state, "load");
     saved.shape = state.assembly->shape;
     CLX_TRY(clx_pack_restore(pack, &saved));
 done:

@@ -92,6 +92,63 @@ done:
     return status;
 }
 
+/// Lines of the load's table over time.
+static clast_status draw_lines(const char *path, const clast_table *load, const char *title,
+                               const char *unit, int n, const char *const (*name)[2])
+{
+    clast_status status = CLAST_OK;
+    clast_series line[8];
+    CLAST_ASSERT(n >= 1 && n <= 8);
+    for (int k = 0; k < n; ++k) {
+        line[k] = (clast_series){.kind = CLAST_SERIES_LINE,
+                                 .label = name[k][1],
+                                 .x = clast_table_numbers(load, "time_s"),
+                                 .y = clast_table_numbers(load, name[k][0]),
+                                 .n = load->n_row,
+                                 .colour = k};
+    }
+    const clast_chart chart = {.title = title,
+                               .x = {.label = "time (s)"},
+                               .y = {.label = unit},
+                               .series = line,
+                               .n_series = n};
+    CLX_TRY(clast_chart_write(&chart, path));
+done:
+    return status;
+}
+
+/// load.csv, and what it shows: stresses of a cell, energy by kind where it is booked.
+static clast_status write_load(const char *folder, const clast_pack *pack)
+{
+    static const char *const stress[4][2] = {{"stress_xx_Pa", "xx"},
+                                             {"stress_yy_Pa", "yy"},
+                                             {"stress_zz_Pa", "zz"},
+                                             {"stress_xz_Pa", "xz"}};
+    static const char *const energy[6][2] = {{"energy_put_in_J", "put in"},
+                                             {"energy_translation_J", "kinetic"},
+                                             {"energy_normal_springs_J", "springs"},
+                                             {"lost_damping_grains_J", "damping, grains"},
+                                             {"lost_friction_grains_J", "friction, grains"},
+                                             {"lost_scheme_J", "scheme"}};
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    const clast_table *load = clast_pack_load_table(pack);
+    if (load == NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(write_table(folder, "load.csv", load));
+    if (load->n_row > 1 && clast_table_numbers(load, stress[0][0]) != NULL) {
+        CLX_TRY(clx_pack_path(path, folder, "load.svg"));
+        CLX_TRY(draw_lines(path, load, "Stress, pressure above 0", "stress (Pa)", 4, stress));
+    }
+    if (load->n_row > 1 && clast_table_numbers(load, energy[0][0]) != NULL) {
+        CLX_TRY(clx_pack_path(path, folder, "energy_book.svg"));
+        CLX_TRY(draw_lines(path, load, "Energy by kind", "energy (J)", 6, energy));
+    }
+done:
+    return status;
+}
+
 static clast_status write_achieved(const char *folder, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -190,7 +247,11 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
     CLX_TRY(clx_pack_state_write(path, config, pack));
     CLX_TRY(write_table(folder, "series.csv", clast_pack_series(pack)));
     CLX_TRY(draw_energy(folder, clast_pack_series(pack)));
-    if (result->dem.n_grain > 0) {
+    CLX_TRY(write_load(folder, pack));
+    if (result->dem.n_grain > 0 && physics->dem.domain == CLAST_DEM_CELL) {
+        CLX_TRY(write_achieved(folder, pack));
+        CLX_TRY(write_grains(folder, pack));
+    } else if (result->dem.n_grain > 0) {
         CLX_TRY(write_profile(folder, pack, physics, result));
         CLX_TRY(write_achieved(folder, pack));
         CLX_TRY(write_grains(folder, pack));

@@ -8,7 +8,7 @@ import unittest
 from clitest import CLAST, ROOT, Case, clast
 
 COMMANDS = re.findall(r"^  (\w+(?: \w+)?)  +\S", clast("--help").out, re.M)
-OF_EVERY_COMMAND = {"--output", "--threads", "--max-memory", "--set", "--json", "--quiet", "--help", "--help-all"}
+OF_EVERY_COMMAND = {"--output", "--threads", "--max-memory", "--time-limit", "--set", "--json", "--quiet", "--help", "--help-all"}
 # examples that take more than some seconds with sanitizers
 SLOW = {"clast aggregate examples/27sk21.yaml -o run/", "clast study examples/packing-study.yaml -o study/ -j 2",
         "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/", "clast bench P1 --repeats 1",
@@ -44,7 +44,7 @@ def is_ours(example):
 
 class Help(Case):
     def test_commands_are_listed_in_one_line_each(self):
-        self.assertEqual(len(COMMANDS), 25)
+        self.assertEqual(len(COMMANDS), 26)
         for page in (clast("--help"), clast()):
             lines = (page.out or page.err).splitlines()
             self.assertLess(len(lines), 40)

@@ -122,6 +122,8 @@ class Report(Case):
             ["decompose", os.path.join(DATA, "d2sd/points_b3_n500.csv"), *cube, "--beta-dt", "1e-6", "--sizes", "2"],
             ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1"],
             ["agglomerate", os.path.join(DATA, "d2sd/points_u3_n50.csv"), *cube, "--constant", "0.02", "--duration", "2", "--n-step", "2"],
+            ["evolve", "--domain", "box:0,0,0,1mm,1mm,5mm", "--particles", "300", "--curve", "lognormal:20um,8um,9um,50um", "--kernel", "settling",
+             "--weight", "9", "--duration", "0.5s", "--rows", "5", "--keep", "2", "--out-of-range", "extrapolate"],
             ["aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--size", "30um", "--n-particle", "5",
              "--replicate", "5", "--repeats", "2", "--picture=false", "--envelope", "surface_hull", "--envelope", "sphere_rays"],
         ]

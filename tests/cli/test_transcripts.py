@@ -17,6 +17,7 @@ TRANSCRIPTS = ROOT / "tests/golden/transcripts"
 # What a clock says differs from run to run.
 CLOCKS = [(re.compile(r"^(\s*time\s+)[0-9.e+-]+( m?s)", re.M), r"\1#\2"),
           (re.compile(r"^(took +)[0-9.e+-]+ s, [0-9.e+-]+ (ns a grain-step)", re.M), r"\1# s, # \2"),
+          (re.compile(r"^(took +)[0-9.e+-]+ s$", re.M), r"\1# s"),
           (re.compile(r"(triangles, )[0-9.]+ s$", re.M), r"\1# s"),
           (re.compile(r"^\w[\w ]* \d+(?:/\d+ \(\d+ %\))?, [\d.e+-]+/s(?:, \d+ s left)?\n", re.M), ""),  # a minute went by
           (re.compile(r'("\w*(?:wall|cpu|contact|envelope)_s"|"ns_per_\w+"): *[0-9.e+-]+'), r"\1: #")]

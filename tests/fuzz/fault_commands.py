@@ -26,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MODES = [("once", errno.ENOSPC), ("on", errno.ENOSPC), ("once", errno.EIO), ("once", errno.EROFS), ("short", errno.ENOSPC)]
 BOX = ["--domain", "box:0,0,0,1,1,1"]
 BED = ["--curve", "6 mm", "--mass", "12g", "--width", "30mm", "--height", "0.1m", "--shaking-time", "0.01s"]
+FALL = ["evolve", "--domain", "box:0,0,0,1mm,1mm,5mm", "--particles", "100", "--curve", "20um", "--duration", "0.2s", "--rows", "3", "--keep", "2"]
 GROW = ["aggregate", "--core", "sphere", "--core-size", "200um", "--coat", "sphere", "--size", "60um", "--no-picture"]
 # name, words of the old result, words of the new one, outputs, files that tell the new result (None: all)
 CASES = [
@@ -50,6 +51,7 @@ CASES = [
     ("predict", "predict t.csv -o out --force", "predict t2.csv -o out --force", ["prediction.csv"]),
     ("fit", "fit t.csv -o out --force", "fit t2.csv -o out --force", None),
     ("pack", ["pack", *BED, "-o", "out", "--force"], ["pack", *BED, "--seed", "2", "-o", "out", "--force"], ["state.h5", "grains.csv"]),
+    ("evolve", [*FALL, "-o", "out", "--force"], [*FALL, "--seed", "2", "-o", "out", "--force"], ["deposit.csv", "events.csv"]),
     ("aggregate", [*GROW, "--replicate", "8", "-o", "out", "--force"],
      [*GROW, "--replicate", "12", "--seed", "2", "--repeats", "2", "-o", "out", "--force"], ["history.csv"]),
 ]

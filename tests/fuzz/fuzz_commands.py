@@ -190,6 +190,7 @@ SOLIDS = ["box.stl", "a.stl", "c.ply"]
 POINTS = ["points.csv", "points2.csv"]
 BOX = ["--domain", "box:0,0,0,1,1,1"]
 TINY = ["--curve", "4 mm", "--mass", "2g", "--width", "30mm", "--height", "0.1m", "--max-steps", "30"]
+FEW = ["--particles", "60", "--kernel", "constant", "--constant", "0.1", "--duration", "1s", "--rows", "2", "--curve", "1mm"]
 # command, choices of its inputs (each mutated, or not), options
 COMMANDS = [
     (["mesh", "check"], [SURFACES], []),
@@ -212,6 +213,8 @@ COMMANDS = [
     (["decompose"], [POINTS], [*BOX, "-o", "out"]),
     (["decompose"], [POINTS], ["--domain", "mesh:box.stl"]),
     (["agglomerate"], [POINTS], [*BOX, "--constant", "0.01", "-o", "out"]),
+    (["evolve", *BOX, *FEW, "--shapes"], [SOLIDS], ["-o", "out"]),
+    (["evolve", *BOX, *FEW[2:], "--points"], [["points.csv"]], ["--frames", "1", "-o", "out"]),
     (["grading"], [["curve.csv", "sizes.csv"]], ["--sample", "20"]),
     (["predict"], [["table.csv"]], []),
     (["fit"], [["table.csv"]], ["-o", "model"]),

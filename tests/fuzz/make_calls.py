@@ -23,7 +23,8 @@ OPTIONAL = {
     "clast_mesh_read_welded.weld", "clast_mesh_require_solid.otherwise", "clast_mesh_parse.report", "clast_mesh_write.options",
     "clast_mesh_weld.n_merged", "clast_mesh_repair.config", "clast_mesh_repair.report", "clast_mesh_weld_auto.report",
     "clast_mesh_simplify.report", "clast_assembly_find_contacts_periodic.period", "clast_assembly_overlaps.period",
-    "clast_pack_run.folder", "clast_packing_read.options", "clast_cloud_read.options", "clast_cloud_parse.options",
+    "clast_pack_run.folder", "clast_evolve_run.folder", "clast_packing_read.options", "clast_cloud_read.options",
+    "clast_cloud_parse.options",
     "clast_form_inputs_of.pick", "clast_form_inputs_from_moments.deviation", "clast_porosity_predict_set.bootstrap",
     "clast_report_write.config", "clast_assembly_rigid.added", "clast_run_folder_end.run", "clast_spheres_read.name",
     "clast_spheres_write.unit", "clast_state_write_assembly.config", "clast_state_read_spheres.name",
@@ -41,9 +42,9 @@ CHANGED = {
     "clast_workspace_collide.population", "clast_bed_read.surface", "clast_bed_load.surface"}
 # Not called with filled structs: what they do is outside the process or takes minutes by design. Each is called with NULL.
 PASSING = {"clast_comm_agree", "clast_run_folder_end"}  # give back the status that they are given
-LONG = {"clast_outputs_abandon", "clast_study_run", "clast_pack_run", "clast_pack_resume", "clast_aggregate_run",
-        "clast_aggregate_resume", "clast_aggregate_fit_study", "clast_aggregate_fit_run", "clast_run_folder_begin",
-        "clast_dem_scene_p1", "clast_dem_scene_e1", "clast_dem_scene_s1", "clast_parallel_set_threads", "clast_memory_set_limit"}
+LONG = {"clast_outputs_abandon", "clast_study_run", "clast_pack_run", "clast_pack_resume", "clast_evolve_run",
+        "clast_evolve_resume", "clast_aggregate_run", "clast_aggregate_resume", "clast_aggregate_fit_study",
+        "clast_aggregate_fit_run", "clast_run_folder_begin", "clast_dem_scene_p1", "clast_dem_scene_e1", "clast_dem_scene_s1", "clast_parallel_set_threads", "clast_memory_set_limit"}
 
 
 class Writer:

@@ -67,6 +67,52 @@ static int pieces_come_in_order(const clast_comm *comm)
     return 0;
 }
 
+static int integers_are_added(const clast_comm *comm)
+{
+    enum { MANY = 3000000 }; // more than one piece
+    int64_t *value = calloc(MANY, sizeof *value);
+    CHECK(value != NULL);
+    for (int64_t i = 0; i < MANY; ++i) {
+        value[i] = i * (comm->rank + 1) - (INT64_C(1) << 40);
+    }
+    comm->sum(comm->context, value, MANY);
+    const int64_t n = comm->n_rank;
+    for (int64_t i = 0; i < MANY; ++i) {
+        CHECK(value[i] == i * n * (n + 1) / 2 - n * (INT64_C(1) << 40));
+    }
+    free(value);
+    return 0;
+}
+
+/// Rank k sends 1000 (k + 1) (to + 1) bytes of its letter, none to itself where k is odd.
+static int bytes_are_exchanged(const clast_comm *comm)
+{
+    int64_t n_out[64];
+    int64_t n_in[64];
+    int64_t sum[2] = {0, 0};
+    for (int32_t k = 0; k < comm->n_rank; ++k) {
+        const bool is_none = k == comm->rank && k % 2 == 1;
+        n_out[k] = is_none ? 0 : INT64_C(1000) * (comm->rank + 1) * (k + 1);
+        n_in[k] = is_none ? 0 : INT64_C(1000) * (k + 1) * (comm->rank + 1);
+        sum[0] += n_out[k];
+        sum[1] += n_in[k];
+    }
+    char *out = calloc((size_t)sum[0] + 1, 1);
+    char *in = calloc((size_t)sum[1] + 1, 1);
+    CHECK(out != NULL && in != NULL);
+    memset(out, 'a' + comm->rank, (size_t)sum[0]);
+    comm->exchange(comm->context, out, n_out, in, n_in);
+    const char *at = in;
+    for (int32_t k = 0; k < comm->n_rank; ++k) {
+        for (int64_t i = 0; i < n_in[k]; ++i, ++at) {
+            CHECK(*at == 'a' + k);
+        }
+    }
+    free(out);
+    free(in);
+    return 0;
+}
+
 static int all_agree(const clast_comm *comm)
 {
     const int32_t last = comm->n_rank - 1;
@@ -95,6 +141,8 @@ int main(int argc, char **argv)
     (void)MPI_Comm_size(MPI_COMM_WORLD, &found);
     line = found == comm.n_rank ? messages_keep_their_order(&comm) : __LINE__;
     line = line == 0 ? pieces_come_in_order(&comm) : line;
+    line = line == 0 ? integers_are_added(&comm) : line;
+    line = line == 0 ? bytes_are_exchanged(&comm) : line;
     line = line == 0 ? all_agree(&comm) : line;
     if (line != 0) {
         (void)MPI_Abort(MPI_COMM_WORLD, 1);

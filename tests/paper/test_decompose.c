@@ -24,10 +24,11 @@ static void quartiles_and_bins_match(void **state)
         clx_bins bins = {0};
         double width[3];
         oracle_points(sets[s], &points);
-        CHECK_OK(clx_bins_choose(points.u, points.n, points.d, width, &bins));
+        const clx_part part = clx_part_whole(points.u, points.n, points.d);
+        CHECK_OK(clx_bins_choose(&part, width, &bins));
         for (int32_t j = 0; j < points.d; ++j) {
             double q[3];
-            const clx_column column = {points.u, points.n, points.d, j};
+            const clx_column column = {part.comm, part.u, part.n, part.n_all, part.d, j};
             CHECK_OK(clx_quantiles(&column, p, 3, q));
             for (int k = 0; k < 3; ++k) {
                 char name[64];
@@ -154,8 +155,9 @@ static void thresholds_labels_and_scores_match(void **state)
         clx_levels levels = {0};
         double width[3];
         oracle_points(sets[s], &points);
-        CHECK_OK(clx_bins_choose(points.u, points.n, points.d, width, &bins));
-        CHECK_OK(clx_bins_count(&bins, points.u, points.n, NULL));
+        const clx_part part = clx_part_whole(points.u, points.n, points.d);
+        CHECK_OK(clx_bins_choose(&part, width, &bins));
+        CHECK_OK(clx_bins_count(&bins, &part));
         CHECK_OK(clx_levels_find(bins.count, NULL, bins.n_bin, &levels));
         CHECK_REL(levels.q20, oracle_value(sets[s], "thr.Q20_counts_allbins"), 1e-15);
         CHECK_REL(levels.q60, oracle_value(sets[s], "thr.Q60_counts_nonempty"), 1e-15);

@@ -126,6 +126,48 @@ static void gather(void *context, const void *bytes, int64_t n, const int64_t *c
     }
 }
 
+static void sum(void *context, int64_t *value, int64_t n)
+{
+    const place *p = context;
+    int64_t *total = calloc((size_t)n + 1, sizeof *total);
+    int64_t *other = calloc((size_t)n + 1, sizeof *other);
+    if (total == NULL || other == NULL) {
+        abort();
+    }
+    for (int32_t k = 0; k < p->board->n_rank; ++k) {
+        memcpy(other, value, (size_t)n * sizeof *other);
+        pass(p, k, (const char *)other, (char *)other, n * (int64_t)sizeof *other);
+        for (int64_t i = 0; i < n; ++i) {
+            total[i] += other[i];
+        }
+    }
+    memcpy(value, total, (size_t)n * sizeof *total);
+    free(total);
+    free(other);
+}
+
+static void exchange(void *context, const void *out, const int64_t *n_out, void *in,
+                     const int64_t *n_in)
+{
+    const place *p = context;
+    const int32_t n_rank = p->board->n_rank;
+    char *to = in;
+    for (int32_t k = 0; k < n_rank; ++k) {
+        const char *from = out;
+        for (int32_t peer = 0; peer < n_rank; ++peer) { // what k sends to each, seen by all
+            int64_t n = k == p->rank ? n_out[peer] : 0;
+            pass(p, k, (const char *)&n, (char *)&n, (int64_t)sizeof n);
+            if (k == peer && k == p->rank && n > 0) {
+                memcpy(to, from, (size_t)n);
+            } else if (k != peer) {
+                pass(p, k, from, p->rank == peer ? to : NULL, n);
+            }
+            from += k == p->rank ? n : 0;
+        }
+        to += n_in[k];
+    }
+}
+
 static board *make_board(int32_t n)
 {
     board *b = support_shared_memory(sizeof *b);
@@ -153,6 +195,8 @@ static int live(board *b, int32_t rank, int (*work)(const clast_comm *comm, void
                              .least = least,
                              .broadcast = broadcast,
                              .gather = gather,
+                             .sum = sum,
+                             .exchange = exchange,
                              .context = &here};
     (void)alarm(300); // a rank that waits in vain ends by SIGALRM
     const int line = work(&comm, context);

@@ -36,6 +36,69 @@ static void ranks_agree_on_the_first_failure(void **state)
     }
 }
 
+/// Rank k sends k + 1 times 50,000 bytes to each rank up to it.
+static int exchange_pieces(const clast_comm *comm, void *context)
+{
+    (void)context;
+    enum { PIECE = 50000 };
+    int64_t n_out[8] = {0};
+    int64_t n = 0;
+    clx_gathered in = {0};
+    char *out = NULL;
+    for (int32_t to = 0; to <= comm->rank; ++to) {
+        n_out[to] = (int64_t)PIECE * (comm->rank + 1);
+        n += n_out[to];
+    }
+    RANK_CHECK(clx_alloc(&out, n, 1) == CLAST_OK);
+    memset(out, comm->rank, (size_t)n);
+    RANK_CHECK(clx_comm_exchange(comm, out, n_out, &in) == CLAST_OK);
+    int64_t at = 0;
+    for (int32_t from = comm->rank; from < comm->n_rank; ++from) {
+        for (int64_t i = 0; i < (int64_t)PIECE * (from + 1); ++i, ++at) {
+            RANK_CHECK(in.bytes[at] == (char)from);
+        }
+    }
+    RANK_CHECK(in.n == at);
+    clx_gathered_free(&in);
+    clx_free(out);
+    return 0;
+}
+
+/// Sums, what came before, the least number, and bytes that all give to all.
+static int reduce_numbers(const clast_comm *comm, void *context)
+{
+    (void)context;
+    const int32_t n = comm->n_rank;
+    const int32_t k = comm->rank;
+    int64_t value[3] = {1, k, INT64_C(-5000000000) * k};
+    int64_t before = 0;
+    int64_t total = 0;
+    clx_gathered all = {0};
+    clx_comm_sum(comm, value, 3);
+    RANK_CHECK(value[0] == n && value[1] == n * (n - 1) / 2);
+    RANK_CHECK(value[2] == INT64_C(-5000000000) * (n * (n - 1) / 2));
+    RANK_CHECK(clx_comm_before(comm, 10 + k, &before, &total) == CLAST_OK);
+    RANK_CHECK(before == 10 * k + k * (k - 1) / 2 && total == 10 * n + n * (n - 1) / 2);
+    RANK_CHECK(clx_comm_least(comm, 0.5 - k) == 1.5 - n); // negative numbers too
+    RANK_CHECK(clx_comm_least(comm, -0.0) == 0.0);
+    RANK_CHECK(clx_comm_share(comm, &k, (int64_t)sizeof k, &all) == CLAST_OK);
+    RANK_CHECK(all.n == n * (int64_t)sizeof k);
+    for (int32_t i = 0; i < n; ++i) {
+        RANK_CHECK(memcmp(all.bytes + (size_t)i * sizeof i, &i, sizeof i) == 0);
+    }
+    clx_gathered_free(&all);
+    return 0;
+}
+
+static void ranks_add_and_exchange(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 3; ++i) {
+        support_run_ranks(counts[i], exchange_pieces, NULL);
+        support_run_ranks(counts[i], reduce_numbers, NULL);
+    }
+}
+
 /// Rank k gives k pieces of 100,000 bytes, all of them k.
 static int gather_pieces(const clast_comm *comm, void *context)
 {
@@ -152,6 +215,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranks_agree_on_the_first_failure),
+        cmocka_unit_test(ranks_add_and_exchange),
         cmocka_unit_test(pieces_come_in_the_order_of_ranks),
         cmocka_unit_test(every_open_item_is_done_once),
         cmocka_unit_test(a_stop_reaches_every_rank),

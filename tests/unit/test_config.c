@@ -147,7 +147,8 @@ static void every_field_reads_its_own_unit(void **state)
         clast_aggregate_fields,   clast_report_fields,       clast_render_fields,
         clast_decompose_fields,   clast_fill_fields,         clast_agglomerate_fields,
         clast_pack_fields,        clast_synthesize_fields,   clast_study_fields,
-        clast_mesh_repair_fields, clast_porosity_fit_fields, clast_spectrum_fields};
+        clast_mesh_repair_fields, clast_porosity_fit_fields, clast_spectrum_fields,
+        clast_evolve_fields};
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; ++k) {
         for (const clast_field *f = tables[k]; f->name != NULL; ++f) {
             char text[64];

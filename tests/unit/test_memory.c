@@ -29,6 +29,20 @@ static void beyond_the_limit_nothing_is_taken(void **state)
     CHECK_STATUS(clast_memory_set_limit(-1), CLAST_E_ARGUMENT);
 }
 
+/* 64 GiB were once computed in a size_t, which is 0 in 32 bits: every allocation failed. */
+static void sizes_beyond_a_pointer_are_refused_and_others_are_not(void **state)
+{
+    char *block = NULL;
+    (void)state;
+    const int64_t half = (int64_t)(SIZE_MAX / 2);
+    CHECK_OK(clx_alloc(&block, 1000000, 1));
+    clx_free(block);
+    CHECK_STATUS(clx_alloc(&block, half / 8 + 1, 8), CLAST_E_MEMORY);
+    CHECK_STATUS(clx_alloc(&block, (int64_t)1 << 32, (size_t)1 << 16), CLAST_E_MEMORY);
+    CHECK_STATUS(clx_alloc(&block, INT64_MAX, 1), CLAST_E_MEMORY);
+    assert_null(block);
+}
+
 static void blocks_of_a_pool_count_until_it_is_gone(void **state)
 {
     clx_pool *pool = NULL;
@@ -49,6 +63,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(beyond_the_limit_nothing_is_taken),
+        cmocka_unit_test(sizes_beyond_a_pointer_are_refused_and_others_are_not),
         cmocka_unit_test(blocks_of_a_pool_count_until_it_is_gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,123 @@
+// clast evolve: a cloud of particles of true shapes, from the fluid to the floor.
+#include "command.h"
+#include "resume.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static clast_status resume(const cli_common *common, const clast_evolve_config *config,
+                           const clast_monitor *monitor, clast_evolve_result *result)
+{
+    const clast_status status =
+        cli_resume_check(common, config->resume, clast_evolve_fields, config, sizeof *config, NULL);
+    return status != CLAST_OK ? status : clast_evolve_resume(config->resume, monitor, result);
+}
+
+/// The bodies on the floor, means by mass.
+static void print_deposit(const clast_evolve_result *r)
+{
+    if (r->n_deposit == 0) {
+        (void)printf("%-26s nothing came down\n", "deposit");
+        return;
+    }
+    (void)printf("%-26s %lld bodies, %.6g kg (%.4g %% of the mass)\n", "deposit",
+                 (long long)r->n_deposit, r->mass_deposit, 100.0 * r->mass_deposit / r->mass_start);
+    (void)printf("%-26s diameter %.4g um, porosity %.3f, fall %.4g m/s, %.4g grains\n",
+                 "  means by mass", 1e6 * r->deposit_diameter, r->deposit_porosity,
+                 r->deposit_speed, r->deposit_grains);
+}
+
+static void print_range(const clast_range_use *use)
+{
+    char words[512];
+    if (clast_range_use_words(use, sizeof words, words)[0] != '\0') {
+        (void)printf("%-26s %.3g of %.6g collisions: %s\n", "out of range", use->outside, use->n,
+                     words);
+    }
+}
+
+static void print_text(const clast_evolve_result *r)
+{
+    (void)printf("%-26s %lld of %lld at the start, %lld events\n", "particles in the fluid",
+                 (long long)r->n_particle, (long long)r->n_start, (long long)r->n_event);
+    print_deposit(r);
+    if (r->n_out > 0) {
+        (void)printf("%-26s %lld bodies, %.6g kg by the top\n", "gone", (long long)r->n_out,
+                     r->mass_out);
+    }
+    (void)printf("%-26s %lld grains\n", "largest aggregate", (long long)r->grains_most);
+    if (isfinite(r->fractal_dimension)) {
+        (void)printf("%-26s %.3f +- %.3f (radius of gyration over grains, 10 or more)\n",
+                     "fractal dimension", r->fractal_dimension, r->fractal_error);
+    }
+    (void)printf("%-26s %.2g of the mass, %lld of the number, at the worst row\n", "balance off by",
+                 r->mass_balance, (long long)r->number_balance);
+    (void)printf("%-26s %.6g s in %lld steps; cells cut %lld times\n", "time", r->time,
+                 (long long)r->n_step, (long long)r->n_cut);
+    print_range(&r->range);
+    if (r->n_frame > 0) {
+        (void)printf("%-26s %d (frames.pvd)\n", "frames", r->n_frame);
+    }
+    if (r->n_kept > 0) {
+        (void)printf("%-26s %d in %s/aggregates, for clast pack --shapes\n", "aggregates",
+                     r->n_kept, cli_name(r->folder));
+    }
+    (void)printf("%-26s %.4g s\n", "took", r->wall_s);
+    (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    clast_status status = CLAST_OK;
+    const clast_evolve_config *config = context;
+    clast_evolve_result result = {0};
+    const clast_monitor monitor = cli_monitor(common);
+    char *text = NULL;
+    CLI_TRY(config->resume[0] != '\0'
+                ? resume(common, config, &monitor, &result)
+                : clast_evolve_run(config, common->output, &monitor, &result));
+    if (!common->json) {
+        print_text(&result);
+        goto done;
+    }
+    CLI_TRY(clast_evolve_result_json(&result, true, &text));
+    (void)puts(text);
+done:
+    clast_text_free(text);
+    clast_evolve_result_free(&result);
+    return status;
+}
+
+static const char details[] =
+    "Particles fall by the drag of their own form, drift with a linear wind and diffuse, exactly\n"
+    "for any step away from the borders (in a velocity field on a grid by steps of Runge and\n"
+    "Kutta, a quarter of a cell each). In each step the cloud is cut into cells where it is\n"
+    "even (D2SD; kept while the tests accept them); in a cell pairs meet at the rate of the\n"
+    "kernel and stick by the law of sticking. Each event is one pair: the smaller comes to the\n"
+    "larger and stays where their true surfaces first touch, with the contact of clast aggregate.\n"
+    "Mass, moments, porosity (of the ellipsoid of equal moments), collision radius, fall speed\n"
+    "and diffusivity are those of the new aggregate from then on.\n\n"
+    "Not there: aggregates break, restructure or turn; particles act on the fluid; the field\n"
+    "changes in time; bodies have inertia of their own (kernel ballistic is refused).\n\n"
+    "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
+    "is event k of n particles), deposit.csv, deposit_sizes.csv (for clast pack --curve list:FILE\n"
+    "--size-meaning volume), particles.csv, state.h5 (the aggregate of most grains),\n"
+    "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
+    "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"
+    "report.html, frames for ParaView with --frames, and checkpoints on the way: --resume RUN\n"
+    "goes on from the newest and ends in the same bytes.";
+
+const cli_command cli_evolve = {
+    .name = "evolve",
+    .arguments = "",
+    .summary = "true shapes in a fluid: fall, meet, join by first touch, deposit",
+    .example = {"clast evolve --domain box:0,0,0,1cm,1cm,1cm --particles 200 --curve 20um "
+                "--duration 1s",
+                "clast evolve examples/evolve/flocs.yaml -o flocs/",
+                "clast evolve --resume flocs/"},
+    .details = details,
+    .fields = clast_evolve_fields,
+    .config_size = sizeof(clast_evolve_config),
+    .writes_folder = true,
+    .run = run,
+};

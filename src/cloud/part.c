@@ -1,0 +1,226 @@
+// Points over ranks: sums, small samples, keys in order.
+#include "cloud/part.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "math/sort.h"
+#include <clast/machine.h>
+#include <clast/status.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINTS_A_BLOCK = 16384 };
+
+clx_part clx_part_whole(const double *u, int64_t n, int32_t d)
+{
+    return (clx_part){clast_comm_one(), u, n, n, d};
+}
+
+clx_part clx_part_of(const clast_comm *comm, const double *u, int64_t n, int32_t d)
+{
+    return (clx_part){comm, u, n, clx_comm_total(comm, n), d};
+}
+
+static int by_place(const void *a, const void *b, int32_t d)
+{
+    const double *x = a;
+    const double *y = b;
+    for (int32_t j = 0; j < d; ++j) {
+        if (x[j] != y[j]) {
+            return x[j] < y[j] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int by_place1(const void *a, const void *b)
+{
+    return by_place(a, b, 1);
+}
+
+static int by_place2(const void *a, const void *b)
+{
+    return by_place(a, b, 2);
+}
+
+static int by_place3(const void *a, const void *b)
+{
+    return by_place(a, b, 3);
+}
+
+clast_status clx_part_share(const clx_part *part, double **u)
+{
+    static int (*const order[3])(const void *, const void *) = {by_place1, by_place2, by_place3};
+    clast_status status = CLAST_OK;
+    clx_gathered all = {0};
+    double *made = NULL;
+    const size_t size = (size_t)part->d * sizeof *made;
+    CLX_TRY(clx_comm_share(part->comm, part->u, part->n * (int64_t)size, &all));
+    CLAST_ASSERT(all.n == part->n_all * (int64_t)size);
+    CLX_TRY(
+        clast_comm_agree(part->comm, clx_alloc(&made, part->n_all * part->d, sizeof *made), NULL));
+    if (all.n > 0) {
+        memcpy(made, all.bytes, (size_t)all.n);
+    }
+    qsort(made, (size_t)part->n_all, size, order[part->d - 1]);
+    *u = made;
+    made = NULL;
+done:
+    clx_gathered_free(&all);
+    clx_free(made);
+    return status;
+}
+
+typedef struct {
+    const double *y;
+    int32_t d, n_sum;
+    clx_part_terms terms;
+    const void *context;
+    clx_exact_sum *sum; ///< [workers][n_sum]
+} sum_context;
+
+static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const sum_context *c = context;
+    clx_exact_sum *own = c->sum + (int64_t)worker * c->n_sum;
+    for (int64_t i = begin; i < end; ++i) {
+        c->terms(c->y + i * c->d, own, c->context);
+    }
+}
+
+clast_status clx_part_sum(const clx_part *part, const double *y, clx_part_terms terms,
+                          const void *context, int32_t n_sum, double *value)
+{
+    CLAST_ASSERT(n_sum >= 1 && n_sum <= CLX_PART_MOST_SUMS);
+    clast_status status = CLAST_OK;
+    const int32_t n_worker = clx_parallel_workers();
+    sum_context c = {y, part->d, n_sum, terms, context, NULL};
+    CLX_TRY(clast_comm_agree(part->comm,
+                             clx_alloc(&c.sum, (int64_t)n_worker * n_sum, sizeof *c.sum), NULL));
+    clx_parallel_for(part->n, POINTS_A_BLOCK, sum_block, &c);
+    for (int32_t k = 0; k < n_sum; ++k) {
+        for (int32_t w = 1; w < n_worker; ++w) {
+            clx_exact_merge(&c.sum[k], &c.sum[w * n_sum + k]);
+        }
+    }
+    clx_exact_over(part->comm, c.sum, n_sum);
+    for (int32_t k = 0; k < n_sum; ++k) {
+        value[k] = clx_exact_value(&c.sum[k]);
+    }
+done:
+    clx_free(c.sum);
+    return status;
+}
+
+/// First of the sorted keys that is at least `key`.
+static int64_t first_from(const uint64_t *sorted, int64_t n, uint64_t key)
+{
+    int64_t begin = 0;
+    int64_t end = n;
+    while (begin < end) {
+        const int64_t middle = begin + (end - begin) / 2;
+        if (sorted[middle] < key) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return begin;
+}
+
+enum { DIGIT = 4, VALUES = 1 << DIGIT };
+
+/// Splits the order of all keys evenly: first[k] is the key number n_all k / n_rank. Radix
+/// selection, all ranks' splitters at once, four bits a round.
+static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_t *count)
+{
+    const int32_t n_rank = comm->n_rank;
+    CLAST_ASSERT(count != NULL && r->first != NULL);
+    for (int shift = 64 - DIGIT; shift >= 0; shift -= DIGIT) {
+        for (int32_t k = 1; k < n_rank; ++k) { // keys below each candidate
+            for (uint64_t v = 0; v < VALUES; ++v) {
+                count[(k - 1) * VALUES + (int64_t)v] =
+                    first_from(r->key, r->n, r->first[k] | v << shift);
+            }
+        }
+        clx_comm_sum(comm, count, (int64_t)(n_rank - 1) * VALUES);
+        for (int32_t k = 1; k < n_rank; ++k) {
+            const int64_t rank = r->n_all * k / n_rank; // that many lie below the one looked for
+            uint64_t v = VALUES - 1;
+            while (v > 0 && count[(k - 1) * VALUES + (int64_t)v] > rank) {
+                --v;
+            }
+            r->first[k] |= v << shift;
+        }
+    }
+}
+
+/// Keys to the ranks that own their stretch.
+static clast_status hand_over(const clast_comm *comm, clx_ranked *r)
+{
+    clast_status status = CLAST_OK;
+    int64_t *n_out = NULL;
+    clx_gathered in = {0};
+    const int64_t size = (int64_t)sizeof *r->key;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&n_out, comm->n_rank, sizeof *n_out), NULL));
+    int64_t at = 0;
+    for (int32_t k = 0; k < comm->n_rank; ++k) {
+        const int64_t next =
+            k + 1 < comm->n_rank ? first_from(r->key, r->n, r->first[k + 1]) : r->n;
+        n_out[k] = (next - at) * size;
+        at = next;
+    }
+    CLX_TRY(clx_comm_exchange(comm, r->key, n_out, &in));
+    clx_free(r->key);
+    r->n = in.n / size;
+    r->key = (void *)in.bytes; // from clx_alloc: aligned for any type
+    in = (clx_gathered){0};
+    CLX_TRY(clast_comm_agree(comm, clx_sort_keys(r->key, r->n), NULL));
+done:
+    clx_gathered_free(&in);
+    clx_free(n_out);
+    return status;
+}
+
+clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
+                             clx_ranked *ranked)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_rank = comm->n_rank;
+    int64_t *count = NULL;
+    clx_ranked made = {.key = *key, .n = n};
+    *key = NULL;
+    status = clx_alloc(&made.first, (int64_t)n_rank + 1, sizeof *made.first);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&count, (int64_t)n_rank * VALUES, sizeof *count);
+    }
+    if (status == CLAST_OK) {
+        status = clx_sort_keys(made.key, n);
+    }
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
+    made.n_all = clx_comm_total(comm, n);
+    if (n_rank > 1 && made.n_all > 0) {
+        select_splitters(comm, &made, count);
+        CLX_TRY(hand_over(comm, &made));
+    }
+    made.first[n_rank] = limit;
+    CLX_TRY(clx_comm_before(comm, made.n, &made.before, &made.n_all));
+    *ranked = made;
+    made = (clx_ranked){0};
+done:
+    clx_ranked_free(&made);
+    clx_free(count);
+    return status;
+}
+
+int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key)
+{
+    return first_from(ranked->key, ranked->n, key);
+}
+
+void clx_ranked_free(clx_ranked *ranked)
+{
+    clx_free(ranked->key);
+    clx_free(ranked->first);
+    *ranked = (clx_ranked){0};
+}

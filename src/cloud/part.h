@@ -1,0 +1,55 @@
+#pragma once
+// Points of the unit cube, of which each rank has a part: they stay there. What is needed of all of
+// them is counted, added without rounding, or sorted as keys, so that no result depends on which
+// rank has which point, nor on their order. [docs/theory/cloud-ranks.md]
+#include "base/comm.h"
+#include "math/exact_sum.h"
+
+/// One rank's points. Functions that take a part are called by all ranks; what fails on one fails
+/// on all.
+typedef struct clx_part {
+    const clast_comm *comm; ///< borrowed
+    const double *u;        ///< [n][d], borrowed
+    int64_t n, n_all;       ///< points here, and on all ranks
+    int32_t d;
+} clx_part;
+
+/// The only rank's points.
+clx_part clx_part_whole(const double *u, int64_t n, int32_t d);
+
+/// The points of this rank beside those of the others.
+clx_part clx_part_of(const clast_comm *comm, const double *u, int64_t n, int32_t d);
+
+/// All ranks' points on every rank, sorted by coordinates: for so few that it costs nothing.
+clast_status clx_part_share(const clx_part *part, double **u);
+
+/// Adds the terms of point i [d] to sums of its own.
+typedef void (*clx_part_terms)(const double *point, clx_exact_sum *sum, const void *context);
+
+/// Sums [n_sum] over the points of all ranks: `value` of each, on every rank.
+///
+/// @param y  [part->n][d] what the terms are of: part->u, or something that goes with it
+clast_status clx_part_sum(const clx_part *part, const double *y, clx_part_terms terms,
+                          const void *context, int32_t n_sum, double *value);
+
+enum { CLX_PART_MOST_SUMS = 16 };
+
+/// All ranks' keys in ascending order, a stretch of them on each rank.
+typedef struct clx_ranked {
+    uint64_t *key;   ///< [n] ascending
+    int64_t n;       ///< here
+    int64_t before;  ///< on the ranks before
+    int64_t n_all;   ///< on all of them
+    uint64_t *first; ///< [n_rank + 1] rank k has the keys first[k] .. first[k + 1] - 1; first[0]
+                     ///< is 0, the last the limit. A rank k > 0 whose stretch of keys is not
+                     ///< empty begins with a key that is there
+} clx_ranked;
+
+/// Sorts keys below `limit` over the ranks; equal ones end on one rank.
+///
+/// @param key  [n] from clx_alloc; *key is taken over (NULL afterwards), also on failure
+clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
+                             clx_ranked *ranked);
+/// First of this rank's keys that is at least `key`: its place.
+int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key);
+void clx_ranked_free(clx_ranked *ranked);

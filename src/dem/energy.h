@@ -1,0 +1,57 @@
+#pragma once
+// The energy book of a simulation: the work that each force does in each step, by kind.
+#include "dem/dem.h"
+
+/// Running sums [J]. Work of springs and pulls is that on the grains.
+typedef enum {
+    CLX_WORK_MADE,    ///< energy of grains when they are added
+    CLX_WORK_GRAVITY, ///< of weight less buoyancy
+    CLX_WORK_SHAKING,
+    CLX_WORK_CELL, ///< of the periodic cell that moves
+    CLX_WORK_NORMAL,
+    CLX_WORK_TANGENTIAL,
+    CLX_WORK_PULL,
+    CLX_LOST_DAMPING, ///< in dashpots, between grains; at walls
+    CLX_LOST_DAMPING_WALL,
+    CLX_LOST_FRICTION, ///< by contacts that slide
+    CLX_LOST_FRICTION_WALL,
+    CLX_LOST_SLIDING, ///< of that, what dashpots took
+    CLX_LOST_ROLLING,
+    CLX_LOST_ROLLING_WALL,
+    CLX_LOST_FLUID,
+    CLX_LOST_CALM,
+    CLX_MADE_BY_TURNING, ///< of bodies that are no spheres, in finite steps
+    CLX_N_WORK
+} clx_work;
+
+/// A grain within a step: forces are known, nothing has moved.
+typedef struct clx_energy_grain {
+    double velocity[3], omega[3]; ///< means of before and after the step's forces
+    double kinetic[2];            ///< after them: translation, rotation [J]
+    double turn[3][3];
+} clx_energy_grain;
+
+typedef struct clx_energy {
+    double sum[CLX_N_WORK];
+    clx_energy_grain *grain;    ///< [n_grain]
+    double (*slide)[3];         ///< [pairs of the inner list] before the step's contacts
+    double (*part)[CLX_N_WORK]; ///< [blocks] sums of a pass
+    int64_t grain_capacity, slide_capacity, part_capacity;
+} clx_energy;
+
+/// Energies that the simulation holds now, springs at the middle of the step as velocities are.
+typedef struct clx_energy_held {
+    double translation, rotation;
+    double normal, tangential;
+} clx_energy_held;
+
+void clx_energy_destroy(clx_energy *energy); ///< NULL is allowed
+clx_energy_held clx_energy_held_now(const clast_dem *dem);
+
+/// Energy of the grains from `first` on, which have just been added.
+void clx_energy_added(clast_dem *dem, int32_t first);
+
+/// Before the step's contacts; when their forces are known (inner.force); when grains have moved.
+clast_status clx_energy_before(clast_dem *dem);
+void clx_energy_forces(clast_dem *dem);
+void clx_energy_after(clast_dem *dem);

@@ -1,0 +1,15 @@
+#pragma once
+// Checks of an evolution's configuration that no single range can see.
+#include "base/status.h"
+#include <clast/agglomerate.h>
+#include <clast/evolve.h>
+
+/// @return CLAST_E_CONFIG with the option, its value and what to do
+clast_status clx_evolve_config_check(const clast_evolve_config *config,
+                                     const clast_evolve_input *input);
+
+/// Kernel's mask and medium in full, from the configuration's words.
+clast_status clx_evolve_collide(const clast_evolve_config *config, clast_collide_config *collide);
+
+/// The fluid's velocity at z = 0 [m/s].
+clast_status clx_evolve_wind_read(const clast_evolve_config *config, double wind[3]);

@@ -1,0 +1,140 @@
+// A velocity field from points: their distinct coordinates are the grid's planes.
+#include "evolve/flow.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <stdlib.h>
+
+static const double EVEN = 1e-6; ///< of a cell: planes that lie so near their place are even
+
+void clx_flow_free(clx_flow *flow)
+{
+    clx_free(flow->u);
+    *flow = (clx_flow){0};
+}
+
+static int rising(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// First plane, distance and number of the planes of one axis.
+static clast_status find_planes(const clast_cloud *cloud, int axis, clx_flow *flow)
+{
+    clast_status status = CLAST_OK;
+    double *x = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_alloc(&x, cloud->n, sizeof *x));
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        x[i] = cloud->x[3 * i + axis];
+    }
+    qsort(x, (size_t)cloud->n, sizeof *x, rising);
+    const double slack = EVEN * (x[cloud->n - 1] - x[0]) / (double)cloud->n;
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        if (n == 0 || x[i] > x[n - 1] + slack) {
+            x[n++] = x[i];
+        }
+    }
+    flow->low[axis] = x[0];
+    flow->n[axis] = (int32_t)n;
+    flow->step[axis] = n > 1 ? (x[n - 1] - x[0]) / (double)(n - 1) : 1.0;
+    for (int64_t i = 0; i < n; ++i) {
+        const double off = x[i] - (x[0] + flow->step[axis] * (double)i);
+        CLX_CHECK(fabs(off) <= EVEN * (double)n * flow->step[axis], CLAST_E_FORMAT,
+                  "its planes along %c are not even: plane %lld of %lld is off by %.3g m",
+                  "xyz"[axis], (long long)i + 1, (long long)n, off);
+    }
+done:
+    clx_free(x);
+    return status;
+}
+
+static int64_t node_of(const clx_flow *flow, const double x[3])
+{
+    int64_t at = 0;
+    for (int k = 2; k >= 0; --k) {
+        const double place = floor((x[k] - flow->low[k]) / flow->step[k] + 0.5);
+        at = at * flow->n[k] + (int64_t)fmin(fmax(place, 0.0), flow->n[k] - 1);
+    }
+    return at;
+}
+
+/// Velocities to their nodes, each once.
+static clast_status fill(const clast_cloud *cloud, clx_flow *flow)
+{
+    clast_status status = CLAST_OK;
+    bool *has = NULL;
+    CLX_TRY(clx_alloc(&flow->u, cloud->n, sizeof *flow->u));
+    CLX_TRY(clx_alloc(&has, cloud->n, sizeof *has));
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        const int64_t node = node_of(flow, &cloud->x[3 * i]);
+        CLX_CHECK(!has[node], CLAST_E_FORMAT, "row %lld is at a node that an earlier row has",
+                  (long long)i + 1);
+        has[node] = true;
+        for (int k = 0; k < 3; ++k) {
+            const double u = cloud->velocity[3 * i + k];
+            CLX_CHECK(isfinite(u), CLAST_E_FORMAT, "row %lld has no finite velocity",
+                      (long long)i + 1);
+            flow->u[node][k] = u;
+            if (flow->n[k] > 1) {
+                flow->fastest = fmax(flow->fastest, fabs(u) / flow->step[k]);
+            }
+        }
+    }
+done:
+    clx_free(has);
+    return status;
+}
+
+clast_status clx_flow_make(const clast_cloud *cloud, clx_flow *flow)
+{
+    CLAST_ASSERT(cloud != NULL && flow->u == NULL);
+    clast_status status = CLAST_OK;
+    clx_flow made = {0};
+    CLX_CHECK(cloud->dimension == 3 && cloud->n > 0 && cloud->n <= INT32_MAX &&
+                  cloud->velocity != NULL,
+              CLAST_E_FORMAT, "it needs rows of x, y, z and three velocities");
+    for (int k = 0; k < 3; ++k) {
+        CLX_TRY(find_planes(cloud, k, &made));
+    }
+    CLX_CHECK((double)made.n[0] * made.n[1] * made.n[2] == (double)cloud->n, CLAST_E_FORMAT,
+              "%lld rows are no grid of %d x %d x %d planes", (long long)cloud->n, made.n[0],
+              made.n[1], made.n[2]);
+    CLX_TRY(fill(cloud, &made));
+    *flow = made;
+    made = (clx_flow){0};
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("field");
+    }
+    clx_flow_free(&made);
+    return status;
+}
+
+void clx_flow_add(const clx_flow *flow, const double x[3], double velocity[3])
+{
+    CLAST_ASSERT(flow->u != NULL);
+    int64_t cell[3];
+    double part[3];
+    for (int k = 0; k < 3; ++k) {
+        const double most = flow->n[k] - 1;
+        const double place = fmin(fmax((x[k] - flow->low[k]) / flow->step[k], 0.0), most);
+        cell[k] = (int64_t)fmin(floor(place), fmax(most - 1.0, 0.0));
+        part[k] = place - (double)cell[k];
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        double weight = 1.0;
+        int64_t node = 0;
+        for (int k = 2; k >= 0; --k) {
+            const int up = corner >> k & 1;
+            weight *= up != 0 ? part[k] : 1.0 - part[k];
+            const int64_t at = cell[k] + up;
+            node = node * flow->n[k] + (at < flow->n[k] ? at : flow->n[k] - 1);
+        }
+        for (int k = 0; k < 3; ++k) {
+            velocity[k] += weight * flow->u[node][k];
+        }
+    }
+}

@@ -1,0 +1,125 @@
+// Who meets in a cell where bodies are evenly spread.
+//
+// In a sub-step the n bodies are dealt into n / 2 pairs at random; each pair stands for
+// (n (n - 1) / 2) / (n / 2) of all, so that it joins with the chance
+//
+//     1 - exp(-x),   x = W alpha beta (n (n - 1) / 2) / (n / 2) dt / V        [Shima2009 sec. 4.1]
+//
+// which is O(n) a sub-step for any kernel. The sub-step is such that no pair of the bodies that are
+// extreme in radius and speed has x above step_error. [docs/theory/evolve.md section 3]
+#include "evolve/state.h"
+
+#include "cloud/kernel_range.h"
+#include <math.h>
+
+static clast_collider collider_of(const clx_evolve_body *body)
+{
+    return (clast_collider){.monomers = body->n,
+                            .radius = body->radius,
+                            .mass = body->mass,
+                            .settling_speed = body->speed};
+}
+
+/// Volume swept per time that ends in a joint.
+static double sticking_rate(const clast_evolve *e, int32_t i, int32_t j)
+{
+    const clast_collide_config *c = &e->collide;
+    const clast_collider a = collider_of(&e->body[i]);
+    const clast_collider b = collider_of(&e->body[j]);
+    const double beta = c->alpha * clast_kernel_value(c->kernel, &c->medium, &a, &b);
+    return c->sticking.law == CLAST_STICKING_CONSTANT || !(beta > 0.0)
+               ? beta
+               : beta * clx_sticking_of(c, &c->medium, &a, &b);
+}
+
+/// Greatest rate among the bodies that are extreme in radius and in speed.
+static double greatest_rate(const clast_evolve *e, const int32_t *member, int64_t n)
+{
+    enum { N_EXTREME = 5 };
+    int32_t extreme[N_EXTREME] = {member[0], member[0], member[0], member[0], member[0]};
+    double most = 0.0;
+    for (int64_t m = 1; m < n; ++m) {
+        const clx_evolve_body *b = &e->body[member[m]];
+        extreme[0] = b->radius > e->body[extreme[0]].radius ? member[m] : extreme[0];
+        extreme[1] = b->radius < e->body[extreme[1]].radius ? member[m] : extreme[1];
+        extreme[2] = b->speed > e->body[extreme[2]].speed ? member[m] : extreme[2];
+        extreme[3] = b->speed < e->body[extreme[3]].speed ? member[m] : extreme[3];
+        extreme[4] = b->n > e->body[extreme[4]].n ? member[m] : extreme[4];
+    }
+    for (int a = 0; a < N_EXTREME; ++a) {
+        for (int b = a; b < N_EXTREME; ++b) {
+            most = fmax(most, sticking_rate(e, extreme[a], extreme[b]));
+        }
+    }
+    return most;
+}
+
+static void shuffle(int32_t *member, int64_t n, clx_rng *rng)
+{
+    for (int64_t i = n - 1; i > 0; --i) {
+        const int64_t k = clx_rng_below(rng, i + 1);
+        const int32_t held = member[i];
+        member[i] = member[k];
+        member[k] = held;
+    }
+}
+
+static void hold_to_ranges(clast_evolve *e, int32_t i, int32_t j)
+{
+    if (e->ranges != 0) {
+        const clast_collider pair[2] = {collider_of(&e->body[i]), collider_of(&e->body[j])};
+        clx_range_add(e->ranges, &e->collide, &e->collide.medium, pair, 1.0, &e->range);
+    }
+}
+
+/// One deal of pairs; `scale` times the rate of a pair is its x. Members that merged are dropped.
+static clast_status deal(clast_evolve *e, int32_t *member, int64_t *n, double scale, double time,
+                         clx_rng *rng)
+{
+    clast_status status = CLAST_OK;
+    int64_t left = 0;
+    shuffle(member, *n, rng);
+    for (int64_t m = 0; m + 1 < *n; m += 2) {
+        const double x = scale * sticking_rate(e, member[m], member[m + 1]);
+        if (clx_rng_uniform(rng) < -expm1(-x)) {
+            hold_to_ranges(e, member[m], member[m + 1]);
+            CLX_TRY(clx_evolve_join(e, member[m], member[m + 1], time, rng));
+        }
+    }
+    for (int64_t m = 0; m < *n; ++m) {
+        if (e->body[member[m]].state == CLX_BODY_IN_FLUID) {
+            member[left++] = member[m];
+        }
+    }
+    *n = left;
+done:
+    return status;
+}
+
+clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double volume, double dt,
+                             clx_rng *rng)
+{
+    enum { MOST_SUB_STEPS = 1000000 };
+    CLAST_ASSERT(volume > 0.0 && dt >= 0.0);
+    clast_status status = CLAST_OK;
+    double passed = 0.0;
+    for (int64_t k = 0; passed < dt && n > 1; ++k) {
+        const int64_t dealt = n / 2;
+        const double pairs = 0.5 * (double)n * (double)(n - 1) / (double)dealt;
+        const double each = e->config->weight * pairs / volume;
+        const double most = each * greatest_rate(e, member, n);
+        const double left = dt - passed;
+        CLX_CHECK(k < MOST_SUB_STEPS && isfinite(most), CLAST_E_CONVERGE,
+                  "a cell of %lld particles in %.3g m^3 collides %.3g times a second each: over %d "
+                  "sub-steps; take a shorter time_step",
+                  (long long)n, volume, most, MOST_SUB_STEPS);
+        const double parts = fmax(1.0, ceil(left * most / e->config->step_error));
+        const double sub = left / parts;
+        passed = parts > 1.0 ? passed + sub : dt;
+        if (most > 0.0) {
+            CLX_TRY(deal(e, member, &n, each * sub, e->time + passed, rng));
+        }
+    }
+done:
+    return status;
+}

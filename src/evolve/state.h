@@ -1,0 +1,153 @@
+#pragma once
+// The inside of an evolution, from the bottom up: rows (rows.c), a user's field (flow.c), bodies
+// and what follows from their grains (body.c), two that become one (join.c), who meets (meet.c),
+// motion (move.c), cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept
+// (saved.c). Calls go down only.
+#include "aggregate/kit.h"
+#include "evolve/flow.h"
+#include "evolve/rows.h"
+#include "math/rng.h"
+#include <clast/evolve.h>
+#include <clast/workspace.h>
+#include <math.h>
+
+/// A kind of particle as it is at scale 1, from a group of the kit.
+typedef struct clx_evolve_kind {
+    double second[6]; ///< integral of x x^T over the mass, by the mass: xx, yy, zz, yz, xz, xy
+    double form[3];   ///< L, I, S of a single shape; 0 of a group
+    double volume, mass, reach;
+} clx_evolve_kind;
+
+/// A particle of the start, for ever: what it is, and where it sits in the body it is part of.
+typedef struct clx_evolve_grain {
+    int32_t kind; ///< group 1 + kind of the kit
+    int32_t next; ///< grain of the same body, -1 ends it
+    double scale;
+    double position[3];    ///< relative to the body's centre of mass
+    double orientation[4]; ///< unit quaternion
+} clx_evolve_grain;
+
+/// A sum with the rounding that it lost.                                            [Neumaier1974]
+typedef struct clx_sum {
+    double sum, lost;
+} clx_sum;
+
+static inline void clx_sum_add(clx_sum *s, double value)
+{
+    const double t = s->sum + value;
+    s->lost += fabs(s->sum) >= fabs(value) ? (s->sum - t) + value : (value - t) + s->sum;
+    s->sum = t;
+}
+
+static inline double clx_sum_of(const clx_sum *s)
+{
+    return s->sum + s->lost;
+}
+
+typedef enum {
+    CLX_BODY_IN_FLUID,
+    CLX_BODY_ON_FLOOR,
+    CLX_BODY_OUT,   ///< left by the top
+    CLX_BODY_MERGED ///< part of another
+} clx_body_state;
+
+/// A particle or aggregate.
+typedef struct clx_evolve_body {
+    int32_t first, last, n; ///< its grains
+    int32_t state;          ///< clx_body_state
+    int64_t node;           ///< of the tree of events
+    double x[3];            ///< centre of mass; where it came to the floor or left
+    double time;            ///< when it came to be in this state
+    double mass, volume;    ///< of one real particle, solid
+    double second[6];       ///< as of a kind, in the frame of its grains
+    double reach;           ///< greatest distance of its surface from the centre of mass
+    double envelope;    ///< volume of the solid ellipsoid of equal moments, not below the solid's
+    double gyration;    ///< radius of
+    double radius;      ///< that kernels see
+    double speed;       ///< of falling
+    double diffusivity; ///< Brownian and turbulent
+} clx_evolve_body;
+
+/// Two bodies that became one: a node of the tree.
+typedef struct clx_evolve_event {
+    double time;
+    int64_t node[2];    ///< of the larger and of the smaller
+    int32_t body;       ///< that lives on
+    int32_t n;          ///< grains then
+    int32_t contact[2]; ///< grains that touch, of the larger and of the smaller; -1 of drops
+    double point[3];    ///< where, in the frame of the first of them
+    double x[3];        ///< centre of mass then
+    double mass, gyration, envelope, speed;
+} clx_evolve_event;
+
+struct clast_evolve {
+    const clast_evolve_config *config; ///< borrowed
+    const clast_evolve_input *input;   ///< borrowed
+    clast_collide_config collide;      ///< kernel's mask and medium in full
+    uint32_t ranges;                   ///< rows of the table of ranges that collisions are held to
+    double wind[3];                    ///< at z = 0
+    clx_flow flow;                     ///< of the user, on a grid
+    int32_t meeting;                   ///< AUTO already resolved
+    clx_kit kit;
+    clx_evolve_kind *kind; ///< [n_kind]
+    int32_t n_kind;
+
+    int32_t n_start;
+    clx_evolve_grain *grain; ///< [n_start]
+    clx_evolve_body *body;   ///< [n_start] the larger of a pair lives on in its place
+    int64_t n_event, event_room;
+    clx_evolve_event *event; ///< [n_event]
+
+    clast_workspace *workspace;
+    clast_decompose_config decompose; ///< of the cells
+    bool has_decompose;
+    int32_t n_live;
+    int32_t *live;   ///< [n_live] bodies in the fluid, rising
+    double (*at)[3]; ///< [n_live] where
+    int32_t *order;  ///< [n_start] scratch: bodies by cell
+    int64_t *start;  ///< [cells + 1] scratch
+    int64_t start_room;
+    int32_t n_cell; ///< last
+
+    double time;
+    uint64_t step;
+    int32_t row; ///< rows written after the first
+    double rate; ///< collisions a particle and time in the last step; 0: not known
+    int64_t n_cut, n_test;
+    double mass_start; ///< of all real particles
+    double mass_error; ///< greatest, relative
+    int64_t number_error;
+    clast_range_use range;
+    clx_rows balance, spectrum;
+};
+
+/// body.c: kinds of the kit; what follows from a body's mass, volume, moments and reach.
+clast_status clx_evolve_kinds(clast_evolve *e);
+void clx_evolve_update(const clast_evolve *e, clx_evolve_body *body);
+
+/// A particle of the start as a body of its own.
+void clx_evolve_single(const clast_evolve *e, int32_t i, clx_evolve_body *body);
+
+/// Lists the bodies in the fluid, and where they are.
+void clx_evolve_list(clast_evolve *e);
+
+/// Velocity of the fluid at a height.
+void clx_evolve_wind(const clast_evolve *e, double z, double velocity[3]);
+
+/// join.c: lets two bodies in the fluid become one; `i` or `j`, the larger, lives on.
+clast_status clx_evolve_join(clast_evolve *e, int32_t i, int32_t j, double time, clx_rng *rng);
+
+/// meet.c: lets the bodies of a cell meet for a time dt.
+clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double volume, double dt,
+                             clx_rng *rng);
+
+/// move.c: every body in the fluid for a time dt, onto the floor too.
+void clx_evolve_move(clast_evolve *e, double dt);
+
+/// series.c: one row of the balance, and of the spectrum's classes, as things are.
+clast_status clx_evolve_write_row(clast_evolve *e);
+clast_status clx_evolve_series_begin(clast_evolve *e);
+
+/// D of ln R_g = ln(N) / D + c over the aggregates of 10 grains or more that events have made, N by
+/// mass; its error from their scatter. NAN with fewer than 30.
+void clx_evolve_fractal(const clast_evolve *e, double *dimension, double *error);

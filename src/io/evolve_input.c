@@ -1,0 +1,210 @@
+// Loads what an evolution's configuration names: shapes, sizes, space, positions.
+#include <clast/evolve.h>
+
+#include "base/alloc.h"
+#include "base/path.h"
+#include "io/config_files.h"
+#include "io/shape_word.h"
+#include <clast/aggregate_run.h>
+#include <stdio.h>
+#include <string.h>
+
+void clast_evolve_unload(clast_evolve_source *source)
+{
+    if (source == NULL) {
+        return;
+    }
+    for (int32_t i = 0; i < source->n_shape; ++i) {
+        clast_assembly_free(&source->shape[i]);
+    }
+    clx_free(source->shape);
+    clast_grading_destroy(source->grading);
+    clast_domain_free(&source->domain);
+    clast_domain_free(&source->release);
+    clast_cloud_free(&source->points);
+    clast_cloud_free(&source->field);
+    *source = (clast_evolve_source){0};
+}
+
+static clast_status load_shapes(const clast_evolve_config *c, clast_evolve_source *made)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_config as = {0}; // how clast aggregate reads its shapes
+    bool has_fields = false;
+    CLX_CHECK(c->shapes.n > 0, CLAST_E_CONFIG, "a cloud needs a shape (shapes)");
+    CLX_CHECK(c->density.n == 1 || c->density.n == c->shapes.n, CLAST_E_CONFIG,
+              "density: %d of %d shapes; give one for all, or one each", c->density.n, c->shapes.n);
+    CLX_TRY(clast_fields_default(clast_aggregate_fields, &as));
+    has_fields = true;
+    CLX_TRY(
+        clast_field_set(clast_fields_find(clast_aggregate_fields, "unit"), &as, c->unit, false));
+    clast_field_clear(clast_fields_find(clast_aggregate_fields, "envelope"), &as);
+    CLX_TRY(clx_alloc(&made->shape, c->shapes.n, sizeof *made->shape));
+    for (int32_t i = 0; i < c->shapes.n; ++i) {
+        CLX_TRY(clx_load_named("shapes", &as, c->shapes.item[i], "",
+                               c->density.item[c->density.n > 1 ? i : 0], &made->shape[i]));
+        ++made->n_shape;
+    }
+done:
+    if (has_fields) {
+        clast_fields_free(clast_aggregate_fields, &as);
+    }
+    return status;
+}
+
+static clast_status load_domain(const char *option, const char *text, clast_domain *domain)
+{
+    const clast_status status = clast_domain_read(text, NULL, domain);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", option);
+    }
+    return status;
+}
+
+/// Rows of x, y, z with what else the columns name; `option` stands before messages.
+static clast_status load_cloud(const char *option, const char *path, clast_cloud_columns *columns,
+                               clast_cloud *cloud)
+{
+    static char axis[3][2] = {"x", "y", "z"};
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    char *item[3] = {axis[0], axis[1], axis[2]};
+    columns->columns = (clast_text_list){.n = 3, .item = item};
+    CLX_TRY(clast_cloud_read(path, NULL, &table));
+    CLX_TRY(clast_cloud_from_table(&table, columns, cloud));
+    CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT, "%s has %d coordinates; x, y, z are needed",
+              path, cloud->dimension);
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", option);
+    }
+    columns->columns = (clast_text_list){0};
+    clast_table_free(&table);
+    return status;
+}
+
+static clast_status load_clouds(const clast_evolve_config *c, clast_evolve_source *made)
+{
+    clast_status status = CLAST_OK;
+    char *velocity = c->field_columns;
+    clast_cloud_columns points = {.diameter_column = c->diameter_column};
+    clast_cloud_columns field = {.velocity_columns = {.n = 1, .item = &velocity}};
+    if (c->points[0] != '\0') {
+        CLX_TRY(load_cloud("points", c->points, &points, &made->points));
+    }
+    if (c->field[0] != '\0') {
+        CLX_TRY(load_cloud("field", c->field, &field, &made->field));
+    }
+done:
+    return status;
+}
+
+static clast_status load_sizes(const clast_evolve_config *c, clast_evolve_source *made)
+{
+    clast_status status = CLAST_OK;
+    clast_curve curve = {0};
+    CLX_TRY(
+        clast_grading_load(c->curve, CLAST_SPREAD_STEP, CLAST_COUNT_MEAN, &curve, &made->grading));
+done:
+    clast_curve_free(&curve);
+    return status;
+}
+
+clast_status clast_evolve_load(const clast_evolve_config *config, clast_evolve_source *source)
+{
+    CLX_ARGUMENTS(config, source);
+    CLX_GUARD(clast_fields_check(clast_evolve_fields, config));
+    clast_status status = CLAST_OK;
+    clast_evolve_source made = {0};
+    const bool has_points = config->points[0] != '\0';
+    const bool has_field = config->field[0] != '\0';
+    const bool has_release = config->release[0] != '\0';
+    CLX_CHECK(config->domain[0] != '\0', CLAST_E_CONFIG,
+              "domain: give the space that they are in, as box:0,0,0,1cm,1cm,1cm");
+    CLX_CHECK(!has_points || !has_release, CLAST_E_CONFIG,
+              "release: the points say where particles start; leave it out");
+    CLX_CHECK(has_points || config->diameter_column[0] == '\0', CLAST_E_CONFIG,
+              "diameter_column: there is no file of points");
+    CLX_TRY(load_shapes(config, &made));
+    CLX_TRY(load_domain("domain", config->domain, &made.domain));
+    if (has_release) {
+        CLX_TRY(load_domain("release", config->release, &made.release));
+        CLX_CHECK(made.release.dimension == 3, CLAST_E_CONFIG, "release: %s has %d dimensions",
+                  config->release, made.release.dimension);
+    }
+    CLX_TRY(load_clouds(config, &made));
+    CLX_TRY(load_sizes(config, &made));
+    *source = made;
+    made = (clast_evolve_source){0};
+    source->input = (clast_evolve_input){.n_shape = source->n_shape,
+                                         .shape = source->shape,
+                                         .grading = source->grading,
+                                         .domain = &source->domain,
+                                         .release = has_release ? &source->release : NULL,
+                                         .points = has_points ? &source->points : NULL,
+                                         .field = has_field ? &source->field : NULL};
+done:
+    clast_evolve_unload(&made);
+    return status;
+}
+
+static bool is_shape_file(const char *text)
+{
+    return strcmp(text, "sphere") != 0 && !clx_is_ellipsoid_word(text);
+}
+
+/// What stands behind a prefix, or NULL.
+static const char *behind(const char *text, const char *prefix)
+{
+    const size_t n = strlen(prefix);
+    return strncmp(text, prefix, n) == 0 ? text + n : NULL;
+}
+
+/// The file of sizes within the option curve, or NULL.
+static const char *curve_file(const char *text)
+{
+    const char *list = behind(text, "list:");
+    const char *masses = behind(text, "masses:");
+    if (list != NULL || masses != NULL) {
+        return list != NULL ? list : masses;
+    }
+    return clx_path_is(text, "csv") || clx_path_is(text, "txt") || clx_path_is(text, "tsv") ? text
+                                                                                            : NULL;
+}
+
+const char *clx_evolve_file(const clast_evolve_config *config, int32_t i, const char **role)
+{
+    if (clast_fields_check(clast_evolve_fields, config) != CLAST_OK || role == NULL) {
+        return NULL;
+    }
+    *role = "shapes";
+    for (int32_t k = 0; k < config->shapes.n; ++k) {
+        if (is_shape_file(config->shapes.item[k]) && i-- == 0) {
+            return config->shapes.item[k];
+        }
+    }
+    const struct {
+        const char *role, *file;
+    } other[] = {{"curve", curve_file(config->curve)},
+                 {"points", config->points[0] != '\0' ? config->points : NULL},
+                 {"field", config->field[0] != '\0' ? config->field : NULL},
+                 {"domain", behind(config->domain, "mesh:")},
+                 {"release", behind(config->release, "mesh:")}};
+    for (size_t k = 0; k < sizeof other / sizeof *other; ++k) {
+        if (other[k].file != NULL && i-- == 0) {
+            *role = other[k].role;
+            return other[k].file;
+        }
+    }
+    return NULL;
+}
+
+int32_t clx_evolve_n_file(const clast_evolve_config *config)
+{
+    int32_t n = 0;
+    const char *role = NULL;
+    while (clx_evolve_file(config, n, &role) != NULL) {
+        ++n;
+    }
+    return n;
+}

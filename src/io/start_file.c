@@ -1,0 +1,207 @@
+// A bed to begin with: a run's state, or spheres of another program.
+#include "io/start_file.h"
+
+#include "base/alloc.h"
+#include "base/path.h"
+#include <clast/assembly.h>
+#include <clast/field.h>
+#include <clast/state.h>
+#include <clast/status.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool is_folder(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+/// Lengths to metres.
+static void scale_all(clast_assembly *a, double factor)
+{
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        a->scale[i] *= factor;
+        for (int k = 0; k < 3; ++k) {
+            a->position[i][k] *= factor;
+        }
+    }
+}
+
+static clast_status to_metres(const clast_pack_config *c, clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    const bool is_model = a->unit[0] == '\0' || strcmp(a->unit, "model") == 0;
+    double factor = 1.0;
+    CLX_CHECK(!is_model || c->start_unit[0] != '\0', CLAST_E_CONFIG,
+              "the unit of its lengths is not known; give it (start_unit: mm)");
+    CLX_CHECK(is_model || c->start_unit[0] == '\0' || strcmp(c->start_unit, a->unit) == 0,
+              CLAST_E_CONFIG, "its lengths are in %s, not in %s (start_unit)", a->unit,
+              c->start_unit);
+    CLX_TRY(clast_unit_factor(is_model ? c->start_unit : a->unit, "m", &factor));
+    scale_all(a, factor);
+done:
+    return status;
+}
+
+static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(c->start_columns[0] == '\0' && c->start_diameter == 0.0, CLAST_E_CONFIG,
+              "start_columns and start_diameter are for packings of spheres from other programs");
+    CLX_CHECK(c->density.n == 1 && c->density.item[0] == 2650.0, CLAST_E_CONFIG,
+              "density is the state's own; leave it out");
+    CLX_TRY(clast_state_read_assembly(c->start, a));
+done:
+    return status;
+}
+
+static clast_status read_spheres(const clast_pack_config *c, clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    const clast_packing_options o = {.columns = c->start_columns, .diameter = c->start_diameter};
+    CLX_CHECK(c->density.n == 1 && c->density.item[0] > 0.0, CLAST_E_CONFIG,
+              "spheres of another program have one density, above 0 (density)");
+    CLX_TRY(clast_packing_read(c->start, &o, a));
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        a->density[i] = c->density.item[0];
+    }
+done:
+    return status;
+}
+
+clast_status clx_start_poses(const clast_pack_config *config, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    if (!clx_path_is(config->start, "csv")) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_table_read_csv(config->start, NULL, &made, NULL));
+    if (clast_table_numbers(&made, "qw") != NULL && clast_table_numbers(&made, "scale") != NULL) {
+        *table = made;
+        made = (clast_table){0};
+    }
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_table_free(&made);
+    return status;
+}
+
+/// The three columns x, y, z, whose names may end in a unit; and that unit, or "model".
+static clast_status find_places(const clast_table *t, const double *x[3], char unit[16])
+{
+    clast_status status = CLAST_OK;
+    static const char *const name[3] = {"x", "y", "z"};
+    for (int k = 0; k < 3; ++k) {
+        x[k] = NULL;
+        for (int32_t c = 0; c < t->n_column; ++c) {
+            const char *at = t->column[c].name;
+            const char *end = at[0] != '\0' && at[1] == '_' ? at + 2 : "model";
+            if (at[0] == name[k][0] && (at[1] == '\0' || at[1] == '_') && strlen(end) < 16 &&
+                t->column[c].number != NULL && x[k] == NULL) {
+                CLX_CHECK(k == 0 || strcmp(unit, end) == 0, CLAST_E_FORMAT,
+                          "columns x, y and z are in different units");
+                (void)snprintf(unit, 16, "%s", end);
+                x[k] = t->column[c].number;
+            }
+        }
+        CLX_CHECK(x[k] != NULL, CLAST_E_FORMAT, "there is no column %s", name[k]);
+    }
+done:
+    return status;
+}
+
+static const char *const *text_column(const clast_table *t, const char *name)
+{
+    for (int32_t c = 0; c < t->n_column; ++c) {
+        if (strcmp(t->column[c].name, name) == 0 && t->column[c].text != NULL) {
+            return (const char *const *)t->column[c].text;
+        }
+    }
+    return NULL;
+}
+
+static clast_status add_row(const clast_table *t, int64_t i, const char *const *name,
+                            const double *const x[3], clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    static const char *const part[4] = {"qw", "qx", "qy", "qz"};
+    CLAST_ASSERT(x[0] != NULL && x[1] != NULL && x[2] != NULL);
+    const double *density = clast_table_numbers(t, "density_kg/m^3");
+    const double place[3] = {x[0][i], x[1][i], x[2][i]};
+    double q[4];
+    int32_t shape = 0;
+    while (shape < a->n_shape && strcmp(a->shape[shape].name, name[i]) != 0) {
+        ++shape;
+    }
+    CLX_CHECK(shape < a->n_shape, CLAST_E_FORMAT,
+              "row %lld: shape '%s' is none of shapes, whose names are their numbers and files "
+              "(1-sphere)",
+              (long long)i + 1, name[i]);
+    for (int k = 0; k < 4; ++k) {
+        const double *column = clast_table_numbers(t, part[k]);
+        CLX_CHECK(column != NULL, CLAST_E_FORMAT, "there is no column %s", part[k]);
+        q[k] = column[i];
+    }
+    CLX_CHECK(density != NULL, CLAST_E_FORMAT, "there is no column density_kg/m^3");
+    status = clast_assembly_add_grain(a, shape, place, q, clast_table_numbers(t, "scale")[i],
+                                      density[i]);
+    if (status == CLAST_E_USAGE) {
+        clx_fail_prefix("row %lld", (long long)i + 1);
+        status = CLAST_E_FORMAT;
+    }
+done:
+    return status;
+}
+
+clast_status clx_start_of_poses(const clast_pack_config *config, const clast_table *table,
+                                int32_t n_shape, const clast_shape *shape, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly made = {0};
+    const double *x[3];
+    const char *const *name = text_column(table, "shape");
+    CLX_CHECK(name != NULL, CLAST_E_FORMAT, "there is no column shape");
+    CLX_CHECK(config->density.n == 1 && config->density.item[0] == 2650.0, CLAST_E_CONFIG,
+              "density is the table's own; leave it out");
+    CLX_TRY(find_places(table, x, made.unit));
+    for (int32_t i = 0; i < n_shape; ++i) {
+        CLX_TRY(clast_assembly_add_shape(&made, &shape[i], NULL));
+    }
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        CLX_TRY(add_row(table, i, name, x, &made));
+    }
+    CLX_CHECK(made.n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
+    CLX_TRY(to_metres(config, &made));
+    *assembly = made;
+    made = (clast_assembly){0};
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_assembly_free(&made);
+    return status;
+}
+
+clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly made = {0};
+    const bool is_state = clx_path_is(config->start, "h5");
+    CLX_CHECK(!is_folder(config->start), CLAST_E_CONFIG, "%s is a folder; give the state.h5 in it",
+              config->start);
+    CLX_TRY(is_state ? read_state(config, &made) : read_spheres(config, &made));
+    CLX_CHECK(made.n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
+    CLX_TRY(to_metres(config, &made));
+    *assembly = made;
+    made = (clast_assembly){0};
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_assembly_free(&made);
+    return status;
+}

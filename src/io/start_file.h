@@ -1,0 +1,16 @@
+#pragma once
+// The bed that a packing begins with, in place of grains that are made.
+#include <clast/pack.h>
+
+/// The table of config->start where it is a row a grain with shape, pose and scale, as
+/// clast_assembly_write makes it
+/// (.csv); else it stays empty.
+clast_status clx_start_poses(const clast_pack_config *config, clast_table *table);
+
+/// Such rows in metres, of these shapes, which they name.
+clast_status clx_start_of_poses(const clast_pack_config *config, const clast_table *table,
+                                int32_t n_shape, const clast_shape *shape,
+                                clast_assembly *assembly);
+
+/// config->start in metres: the state.h5 of a run, else a packing of spheres.
+clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly);

@@ -1,0 +1,215 @@
+// A bed under load: stages of a periodic cell whose sides follow a rate or a stress.
+//
+// The servo looks every 25 steps. A side's strain rate is
+//
+//     e' = e + integral of e / (20 tau),  e = (p - sigma) / (C tau),  |e|, |e'| <= load_rate
+//
+// with sigma its stress (contacts and motion), C the modulus of all normal springs at even strain,
+// which no bed exceeds, and tau = 250 steps: the stress comes near its aim p by 1/e in tau, or
+// later. [docs/theory/load.md "Servo"]
+#include "pack/load.h"
+
+#include "base/alloc.h"
+#include "dem/cell.h"
+#include "dem/dem.h"
+#include "dem/load.h"
+#include <math.h>
+#include <string.h>
+
+/// Share of a look's rate that the servo keeps: Delta / (20 tau).
+static const double SLOWLY = (double)CLX_SERVO_STEPS / (20.0 * CLX_SERVO_TIME);
+
+/// Share of the speed at which a run explodes that the cell's motion may have.
+static const double FASTEST = 0.5;
+
+/// Speed that the stage gives grains at the cell's sides, at most.
+static double fastest_of(const clast_pack_config *c, const clx_stage *s)
+{
+    const clast_dem_config *d = &c->dem;
+    const double side[3] = {d->width, d->depth > 0.0 ? d->depth : d->width, d->height};
+    double square = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double rate = s->kind[k] == CLX_DRIVE_NONE   ? 0.0
+                            : s->kind[k] == CLX_DRIVE_RATE ? s->aim[k]
+                                                           : c->load_rate;
+        square += rate * side[k] * rate * side[k];
+    }
+    return sqrt(square) + fabs(s->shear) * side[2];
+}
+
+clast_status clx_pack_load_check(const clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    const clast_pack_config *c = &p->config;
+    const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
+    CLX_CHECK(is_cell || c->stages.n == 0, CLAST_E_CONFIG,
+              "stages load a bed in domain cell alone, whose sides move");
+    CLX_CHECK(!is_cell || c->stages.n > 0, CLAST_E_CONFIG,
+              "domain cell without stages: its grains would float for ever; give one "
+              "(isotropic 10kPa)");
+    double low = 0.0;
+    double high = 0.0;
+    clast_grading_range(p->input.grading, &low, &high);
+    for (int32_t i = 0; i < c->stages.n; ++i) {
+        clx_stage s;
+        CLX_TRY(clx_stage_read(c, i, &s));
+        const double speed = fastest_of(c, &s);
+        double light = 0.0;
+        double heavy = 0.0;
+        clx_pack_densities(p, &light, &heavy);
+        const double r = 0.5 * low;
+        const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
+        const double limit = FASTEST * clx_law_speed(&p->dem->law, mass, r, r);
+        CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
+                  "stage %d, '%s': the cell's sides would move at %g m/s, faster than half of what "
+                  "contacts of the smallest grains stop (%g m/s); take lower rates (load_rate), a "
+                  "smaller cell, or stiffer contacts",
+                  i + 1, c->stages.item[i], speed, limit);
+    }
+done:
+    return status;
+}
+
+static clast_status begin_stage(clast_pack *p, int32_t stage)
+{
+    clast_dem_cell cell;
+    clast_dem_read_cell(p->dem, &cell);
+    p->load.stage = stage;
+    p->load.begun = clast_dem_n_step(p->dem);
+    v3_copy(p->load.strain, cell.strain);
+    p->load.sheared = cell.shear_strain;
+    v3_set(p->load.steady, 0.0, 0.0, 0.0);
+    return CLAST_OK;
+}
+
+clast_status clx_pack_load_begin(clast_pack *p)
+{
+    return begin_stage(p, 0);
+}
+
+/// Strain since the stage began: the greatest of the sides that move at a rate, or of all.
+static double strain_of(const clast_pack *p, const clx_stage *s, const clast_dem_cell *cell)
+{
+    double most = fabs(cell->shear_strain - p->load.sheared);
+    bool has_rate = s->shear != 0.0;
+    for (int k = 0; k < 3; ++k) {
+        has_rate = has_rate || s->kind[k] == CLX_DRIVE_RATE;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (!has_rate || s->kind[k] == CLX_DRIVE_RATE) {
+            most = fmax(most, fabs(cell->strain[k] - p->load.strain[k]));
+        }
+    }
+    return most;
+}
+
+/// Whether every side that has a stress to reach is within the tolerance of it.
+static bool is_reached(const clast_pack *p, const clx_stage *s, const clast_dem_load *load)
+{
+    for (int k = 0; k < 3; ++k) {
+        const double now = load->stress[k] + load->kinetic_stress[k];
+        if (s->kind[k] == CLX_DRIVE_STRESS &&
+            !(fabs(now - s->aim[k]) <= p->config.load_tolerance * fabs(s->aim[k]))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Greatest stress of sides that move at a rate, or the mean; shear stress where it shears.
+static double stress_of(const clx_stage *s, const clast_dem_load *load)
+{
+    double most = fabs(s->shear != 0.0 ? load->stress[4] + load->kinetic_stress[4] : 0.0);
+    for (int k = 0; k < 3; ++k) {
+        if (s->kind[k] == CLX_DRIVE_RATE || s->kind[k] == CLX_DRIVE_STRESS) {
+            most = fmax(most, load->stress[k] + load->kinetic_stress[k]);
+        }
+    }
+    return most;
+}
+
+static bool is_over(const clast_pack *p, const clx_stage *s, const clast_dem_load *load,
+                    const clast_dem_cell *cell)
+{
+    const double time =
+        (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
+    switch (s->end) {
+    case CLX_END_TIME:
+        return time >= s->until * (1.0 - 1e-12);
+    case CLX_END_STRAIN:
+        return strain_of(p, s, cell) >= s->until;
+    case CLX_END_STRESS:
+        return s->until > 0.0 ? stress_of(s, load) >= s->until : is_reached(p, s, load);
+    default:
+        return is_reached(p, s, load) && load->n_contact > 0 &&
+               load->unbalanced < p->config.load_rest;
+    }
+}
+
+static clast_status check_time(const clast_pack *p, const clx_stage *s, const clast_dem_load *load)
+{
+    clast_status status = CLAST_OK;
+    const double time =
+        (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
+    const double *c = load->stress;
+    const double *k = load->kinetic_stress;
+    CLX_CHECK(s->end == CLX_END_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
+              "stage %d, '%s', has not come to its end in %g s (max_load_time): stresses of x, y "
+              "and z are %.4g, %.4g and %.4g Pa, force on a grain over that of a contact %.2g "
+              "(load_rest %g)",
+              p->load.stage + 1, p->config.stages.item[p->load.stage], time, c[0] + k[0],
+              c[1] + k[1], c[2] + k[2], load->unbalanced, p->config.load_rest);
+done:
+    return status;
+}
+
+/// Rates of the sides until the next look.
+static clast_status drive(clast_pack *p, const clx_stage *s, const clast_dem_load *load,
+                          const clast_dem_cell *cell)
+{
+    double rate[3];
+    const double most = p->config.load_rate;
+    const double time = CLX_SERVO_TIME * p->config.dem.time_step;
+    for (int k = 0; k < 3; ++k) {
+        double strain = s->kind[k] == CLX_DRIVE_RATE ? s->aim[k] : 0.0;
+        if (s->kind[k] == CLX_DRIVE_STRESS) {
+            const double off = s->aim[k] - (load->stress[k] + load->kinetic_stress[k]);
+            const double stiff = load->modulus[k] * time;
+            const bool is_near = fabs(off) < most * stiff;
+            const double wanted = is_near ? off / stiff : copysign(most, off);
+            const double steady = p->load.steady[k] + SLOWLY * wanted;
+            p->load.steady[k] = is_near ? fmin(fmax(steady, -most), most) : 0.0;
+            strain = fmin(fmax(wanted + p->load.steady[k], -most), most);
+        }
+        rate[k] = -strain * cell->side[k];
+    }
+    return clast_dem_set_cell_rate(p->dem, rate, s->shear * cell->side[2]);
+}
+
+clast_status clx_pack_load_look(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    clast_dem_load load;
+    clast_dem_cell cell;
+    clx_stage s;
+    if ((clast_dem_n_step(p->dem) - p->phase_step) % CLX_SERVO_STEPS != 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_dem_stress(p->dem, &load));
+    clast_dem_read_cell(p->dem, &cell);
+    CLX_TRY(clx_stage_read(&p->config, p->load.stage, &s));
+    if (is_over(p, &s, &load, &cell)) {
+        CLX_TRY(clx_pack_load_row(p));
+        if (p->load.stage + 1 == p->config.stages.n) {
+            p->converged = true;
+            p->load.is_over = true;
+            return CLAST_OK;
+        }
+        CLX_TRY(begin_stage(p, p->load.stage + 1));
+        CLX_TRY(clx_stage_read(&p->config, p->load.stage, &s));
+    }
+    CLX_TRY(check_time(p, &s, &load));
+    CLX_TRY(drive(p, &s, &load, &cell));
+done:
+    return status;
+}

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""clast evolve: a cloud from the fluid to the floor, its files, stopped and resumed, any threads, bad input."""
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import Case, ROOT, clast
+
+ASH = ["evolve", "--domain", "box:0,0,0,1mm,1mm,10mm", "--particles", "3000", "--curve", "lognormal:20um,10um,5um,60um",
+       "--duration", "1s", "--rows", "20", "--shapes", "ellipsoid:1,0.8,0.5", "--shapes", "sphere", "--eddy-diffusivity", "1e-8",
+       "--out-of-range", "extrapolate", "--seed", "3", "--quiet"]
+TABLES = ["balance.csv", "spectrum.csv", "events.csv", "deposit.csv", "particles.csv"]
+SAME = TABLES + ["summary.json", "state.h5", "evolution.svg"]
+
+
+def rows(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return [{k: float(v) if v else math.nan for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+class Evolve(Case):
+    def run_ash(self, *extra):
+        result = clast(*ASH, *extra)
+        self.assertEqual(result.code, 0, result.err)
+        return result
+
+    def test_books_balance_in_every_row(self):
+        run = self.folder / "run"
+        out = self.run_ash("-j", 2, "--json", "-o", run).json
+        for key in ("n_start", "n_particle", "n_event", "n_deposit", "n_step", "mass_balance", "state_hash", "deposit", "wall_s"):
+            self.assertIn(key, out)
+        self.assertGreater(out["n_event"], 50)
+        balance = rows(run / "balance.csv")
+        self.assertLessEqual(len(balance), 21)
+        for row in balance:
+            self.assertEqual(row["number_balance"], 0)
+            self.assertLess(abs(row["mass_balance"]), 1e-12)
+            self.assertEqual(row["n_particle"] + row["n_event"] + row["n_deposit"] + row["n_out"], 3000)
+            self.assertAlmostEqual((row["mass_kg"] + row["deposit_kg"]) / out["mass_start"], 1.0, 12)
+        deposit = rows(run / "deposit.csv")
+        self.assertEqual(len(deposit), out["n_deposit"])
+        self.assertEqual(sorted(row["time_s"] for row in deposit), [row["time_s"] for row in deposit])
+        self.assertTrue(all(row["z_m"] == 0.0 and 0.0 <= row["porosity"] < 1.0 for row in deposit))
+        self.assertEqual(sum(row["grains"] for row in deposit) + sum(row["grains"] for row in rows(run / "particles.csv")), 3000)
+        for name in SAME + ["manifest.json", "report.html", "spectrum.svg", "deposit.svg"]:
+            self.assertTrue((run / name).exists(), name)
+        self.assertEqual(list(run.glob("checkpoint-*")), [])
+
+    def test_threads_change_no_byte(self):
+        one, four = self.folder / "one", self.folder / "four"
+        self.run_ash("-j", 1, "-o", one)
+        self.run_ash("-j", 4, "-o", four)
+        for name in SAME:
+            self.assertEqual((one / name).read_bytes(), (four / name).read_bytes(), name)
+
+    def test_stopped_and_killed_runs_end_in_the_same_bytes(self):
+        whole = self.folder / "whole"
+        self.run_ash("--checkpoint-time", "0s", "-o", whole)
+        for number in (signal.SIGINT, signal.SIGKILL):
+            run = self.folder / f"cut-{int(number)}"
+            process = subprocess.Popen([os.environ["CLAST"], *ASH, "--checkpoint-time", "0s", "-o", str(run)], cwd=ROOT,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+                time.sleep(0.005)
+            process.send_signal(number)
+            process.wait()
+            self.assertNotEqual(process.returncode, 0, "it ended before it was stopped")
+            told = clast("porosity", run)
+            self.assertEqual(told.code, 3)
+            self.assertIn(f"clast evolve --resume {run}", told.err)
+            resumed = clast("evolve", "--resume", run, "--quiet")
+            self.assertEqual(resumed.code, 0, resumed.err)
+            for name in SAME:
+                self.assertEqual((run / name).read_bytes(), (whole / name).read_bytes(), name)
+
+    def test_a_bed_of_these_very_aggregates(self):
+        run, bed = self.folder / "run", self.folder / "bed"
+        self.run_ash("--keep", 3, "-o", run)
+        kept = sorted((run / "aggregates").glob("node-*.h5"))
+        self.assertEqual(len(kept), 3)
+        shapes = [word for path in kept for word in ("--shapes", path)]
+        packed = clast("pack", *shapes, "--density", 0, "--curve", "4mm", "--mass", "2g", "--width", "16mm", "--height", "50mm",
+                       "--shaking-time", 0, "--quiet", "-o", bed, "--json")
+        self.assertEqual(packed.code, 0, packed.err)
+        measured = clast("porosity", bed, "--cut", 0.9, "--trim", "2mm", "--json")
+        self.assertEqual(measured.code, 0, measured.err)
+        self.assertTrue(0.3 < measured.json["bulk"] < 0.95, measured.json["bulk"])
+        sizes = clast("grading", f"list:{run / 'deposit_sizes.csv'}", "--json")
+        self.assertEqual(sizes.code, 0, sizes.err)
+        largest = clast("export", run, "-o", self.folder / "largest.vtu", "--json")  # state.h5: the aggregate of most grains
+        self.assertEqual(largest.code, 0, largest.err)
+
+    def test_frames_and_points(self):
+        run = self.folder / "run"
+        points = self.folder / "points.csv"
+        points.write_text("x,y,z,d\n" + "".join(f"{0.1 * k + 0.05},0.5,0.5,{1e-5 * (k + 1)}\n" for k in range(10)))
+        done = clast("evolve", "--domain", "box:0,0,0,1,1,1", "--points", points, "--diameter-column", "d", "--duration", "1s",
+                     "--rows", 4, "--frames", 2, "--quiet", "-o", run, "--json")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(done.json["n_start"], 10)
+        self.assertEqual(done.json["n_frame"], 3)
+        self.assertEqual((run / "frames.pvd").read_text().count("<DataSet"), 3)
+        masses = sorted(row["mass_kg"] for name in ("particles.csv", "deposit.csv") for row in rows(run / name))
+        self.assertAlmostEqual(masses[9] / masses[0], 1000.0, 9)
+
+    def test_examples_are_whole(self):
+        for path in sorted((ROOT / "examples/evolve").glob("*.yaml")):
+            out = clast("evolve", path, "--json", "--quiet", cwd=ROOT).json
+            self.assertEqual(out["number_balance"], 0, path.name)
+            self.assertLess(out["mass_balance"], 1e-12)
+            self.assertGreater(out["deposit"]["mass"], 0.95 * out["mass_start"])  # it ends on the floor
+            self.assertGreater(out["grains_most"], 50)
+
+    def test_bad_input_is_one_line(self):
+        box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s"]
+        self.assert_fails(2, *box, says=("particles",))
+        self.assert_fails(2, "evolve", "--particles", 5, "--duration", "1s", says=("domain", "box:"))
+        self.assert_fails(2, *box, "--particles", 5, "--gravity", 0, "--no-brownian", says=("floor", "nothing reaches it"))
+        self.assert_fails(2, *box, "--particles", 5, "--kernel", "shear_turbulent", says=("dissipation",))
+        self.assert_fails(2, *box, "--particles", 5, "--kernel", "ballistic", says=("velocities",))
+        self.assert_fails(2, *box, "--particles", 5, "--wind", "1,2", says=("wind", "x,y,z"))
+        self.assert_fails(2, *box, "--particles", 5, "--density", 1, "--density", 2, says=("density", "1 shapes"))
+        self.assert_fails(2, *box, "--particles", 5, "--frames", 1, says=("frames", "-o"))
+        self.assert_fails(2, *box, "--particles", 5, "--diameter-column", "d", says=("diameter_column",))
+        self.assert_fails(3, *box, "--particles", 5, "--shapes", "nowhere.stl", says=("shapes", "nowhere.stl"))
+        outside = self.folder / "outside.csv"
+        outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")
+        self.assert_fails(3, *box, "--points", outside, says=("points", "row 2"))
+        uneven = self.folder / "uneven.csv"
+        uneven.write_text("x,y,z,u,v,w\n" + "".join(f"{x},0,0,1,0,0\n" for x in (0, 1, 3)))
+        self.assert_fails(3, *box, "--particles", 5, "--field", uneven, says=("field", "not even", "plane 2 of 3"))
+        self.assert_fails(3, *box, "--particles", 5, "--field", outside, says=("field", "u"))
+        self.assert_fails(2, "evolve", "--domain", "sphere:1", "--particles", 5, "--duration", "1s", says=("only a box",))
+        self.assert_fails(3, "evolve", "--resume", self.folder, says=("no checkpoint",))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""clast pack, domain cell: beds under load, their table, going on after a kill, bad input."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import Case, ROOT, clast
+
+CELL = ["pack", "--curve", "4mm", "--mass", "5g", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--floor=no",
+        "--gravity", "0", "--fluid-density", "0", "--load-rate", "4/s", "--seed", "3", "--quiet", "-j", "1"]
+
+
+def rows(path):
+    with open(path, encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+class Load(Case):
+    def test_bed_is_pressed_and_its_energy_found(self):
+        run = self.folder / "run"
+        result = clast(*CELL, "--stages", "isotropic 20kPa until rest", "--energy", "--json", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        out = json.loads(result.out)
+        self.assertEqual(out["phase"], "done")
+        for axis in ("xx", "yy", "zz"):
+            self.assertLess(abs(out["cell"]["stress"][axis] / 20e3 - 1), 0.01)
+        self.assertLess(out["cell"]["unbalanced"], 1e-3)
+        self.assertLess(out["porosity_bulk"], 0.46)
+        self.assertLess(abs(out["energy"]["rest"]), 1e-10 * out["energy"]["put_in"])
+        table = rows(run / "load.csv")
+        self.assertGreater(len(table), 5)
+        last = table[-1]
+        self.assertAlmostEqual(last["porosity"], out["porosity_bulk"], 12)
+        self.assertAlmostEqual(last["fabric_xx"] + last["fabric_yy"] + last["fabric_zz"], 1, 12)
+        for row in table:  # at every moment, not at the end alone
+            self.assertLess(abs(row["energy_rest_J"]), 1e-10 * row["energy_put_in_J"])
+        for name in ("load.svg", "energy_book.svg", "state.h5", "grains.csv"):
+            self.assertTrue((run / name).exists(), name)
+        stress = clast("porosity", run, "--json")
+        self.assertEqual(stress.code, 0, stress.err)
+
+    def test_poured_beds_have_the_book_and_their_old_bits(self):
+        poured = ["pack", "--curve", "6mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",
+                  "--quiet", "-j", "1", "--json"]
+        plain = clast(*poured)
+        booked = clast(*poured, "--energy", "-o", self.folder / "run")
+        self.assertEqual(plain.json["state_hash"], booked.json["state_hash"])
+        self.assertNotIn("energy", plain.json)
+        energy = booked.json["energy"]
+        self.assertLess(abs(energy["rest"]), 1e-10 * energy["put_in"])
+        self.assertGreater(energy["damping"], 0)
+        self.assertGreater(energy["friction"], 0)
+
+    def test_a_killed_load_goes_on_in_the_same_bytes(self):
+        stages = ["--stages", "isotropic 5kPa until rest", "--stages", "shear 2/s 5kPa until strain 0.3", "--energy",
+                  "--shapes", "ellipsoid:1.3,1,0.8", "--width", "26mm", "--height", "26mm",
+                  "--checkpoint-time", "0.05s"]
+        whole = self.folder / "whole"
+        cut = self.folder / "cut"
+        made = clast(*CELL, *stages, "-o", whole)
+        self.assertEqual(made.code, 0, made.err)
+        process = subprocess.Popen([os.environ["CLAST"], *CELL, *stages, "-o", str(cut)], cwd=ROOT, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        while not list(cut.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        resumed = clast("pack", "--resume", cut, "--quiet", "-j", "1")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        for name in ("state.h5", "load.csv", "series.csv", "summary.json"):
+            self.assertEqual((whole / name).read_bytes(), (cut / name).read_bytes(), name)
+
+    def test_beds_from_elsewhere_carry_what_they_carried(self):
+        """A loaded bed goes out as state, dump and text, and comes back with its contacts and its stress."""
+        run = self.folder / "run"
+        made = clast(*CELL, "--friction", "0", "--stages", "isotropic 20kPa until rest", "--load-rest", "0.01", "--json", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        cell = made.json["cell"]
+        hold = ["pack", "--domain", "cell", "--floor=no", "--gravity", "0", "--fluid-density", "0", "--friction", "0", "--quiet",
+                "--width", f"{cell['width']!r}m", "--depth", f"{cell['depth']!r}m", "--height", f"{cell['height']!r}m", "--stages",
+                "hold until time 0.1ms", "--max-steps", "1", "--json"]
+        dump = self.folder / "bed.dump"
+        self.assertEqual(clast("export", run, "-o", dump).code, 0)
+        text = self.folder / "bed.txt"  # as YADE writes spheres
+        with open(run / "grains.csv", encoding="utf-8") as file:
+            text.write_text("".join(f"{r['x_m']} {r['y_m']} {r['z_m']} 0.002\n" for r in csv.DictReader(file)), encoding="utf-8")
+        for start in ([run / "state.h5"], [dump, "--start-unit", "m"], [text, "--start-unit", "m", "--start-columns", "x,y,z,r"]):
+            back = clast(*hold, "--start", *start)
+            self.assertEqual(back.code, 0, back.err)
+            self.assertEqual(back.json["n_contact"], made.json["n_contact"])
+            self.assertEqual(back.json["n_grain"], made.json["n_grain"])
+            self.assertAlmostEqual(back.json["porosity_bulk"], made.json["porosity_bulk"], 12)
+            self.assertEqual(back.json["n_overlap_start"], made.json["n_contact"])
+            self.assertLess(abs(back.json["cell"]["pressure"] / cell["pressure"] - 1), 0.02)
+        whole = self.folder / "again"
+        self.assertEqual(clast(*hold, "--max-steps", "10", "--start", run / "state.h5", "-o", whole).code, 0)
+        resumed = clast("pack", "--resume", whole, "--quiet", "--json")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        straight = clast(*hold[:-3], "--start", run / "state.h5", "--json")
+        self.assertEqual(resumed.json["state_hash"], straight.json["state_hash"])
+        self.assert_fails(2, *hold, "--start", dump, says=("start", "start_unit"))
+        self.assert_fails(2, *hold, "--start", run, says=("is a folder",))
+        self.assert_fails(2, *hold, "--start", run / "state.h5", "--mass", "1g", says=("start brings the grains",))
+        text.write_text("0 0 0.005 0.002\n0 0 0.0055 0.002\n", encoding="utf-8")
+        self.assert_fails(3, *hold, "--start", text, "--start-unit", "m", "--start-columns", "x,y,z,r",
+                          says=("grains 0 and 1 begin inside of each other",))
+
+    def test_own_tables_of_shapes_and_poses_come_back(self):
+        """What clast export writes of any bodies is a start: the same places and turns."""
+        shapes = ["--shapes", "ellipsoid:1.3,1,0.8", "--shapes", "data/standin63/grain00.ply"]
+        lone = ["--domain", "cell", "--width", "40mm", "--height", "40mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
+                "--stages", "hold until time 1s", "--max-steps", "1", "--quiet"]
+        first = self.folder / "first"
+        again = self.folder / "again"
+        table = self.folder / "bed.csv"
+        made = clast("pack", "--curve", "4mm", "--mass", "2g", "--initial-speed", "0", *shapes, *lone, "-o", first)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertEqual(clast("export", first, "-o", table).code, 0)
+        back = clast("pack", "--start", table, *shapes, *lone, "-o", again)
+        self.assertEqual(back.code, 0, back.err)
+        with open(first / "grains.csv", encoding="utf-8") as a, open(again / "grains.csv", encoding="utf-8") as b:
+            for old, new in zip(csv.DictReader(a), csv.DictReader(b), strict=True):
+                self.assertEqual(old["shape"], new["shape"])
+                for key in old.keys() - {"shape"}:
+                    self.assertAlmostEqual(float(old[key]), float(new[key]), 14, key)
+        self.assert_fails(3, "pack", "--start", table, *shapes[:2], *lone, says=("row", "none of shapes"))
+
+    def test_bad_loads_are_said(self):
+        self.assert_fails(2, *CELL, says=("without stages",))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10", says=("stage 1", "no pressure"))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--floor", says=("no floor",))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--gravity", "9.81", says=("fall for ever",))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--mass", "13g", says=("larger cell",))
+        self.assert_fails(2, *CELL, "--stages", "z=1e6/s until strain 0.1", says=("faster than half", "load_rate"))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--shaking-time", "2s", says=("leave out", "shaking_time"))
+        self.assert_fails(5, *CELL, "--stages", "z=10kPa", "--max-load-time", "1ms", says=("stage 1", "not come to its end"))
+        self.assert_fails(2, "pack", "--curve", "4mm", "--mass", "2g", "--width", "30mm", "--height", "0.1m", "--stages",
+                          "isotropic 10kPa", says=("domain cell alone",))
+
+
+if __name__ == "__main__":
+    unittest.main()

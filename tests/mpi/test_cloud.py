@@ -1,0 +1,155 @@
+"""MPI: one cloud over ranks is the same bytes as `clast decompose`, however its points are dealt; faults end on all ranks."""
+import json
+import os
+import pathlib
+import random
+import unittest
+
+from clitest import Case, clast
+from test_command import own_lines, ranks
+
+BOX = ("--domain", "box:0,0,0,1,1,1")
+
+
+def cloud(n, seed):
+    """Half of n points in a blob, with repeated places, and points that share a coordinate."""
+    draw = random.Random(seed)
+    points = []
+    while len(points) < n:
+        blob = [draw.gauss(0.4, 0.06) for _ in range(3)]
+        points.append(blob if len(points) % 2 and all(0 <= x <= 1 for x in blob) else [draw.random() for _ in range(3)])
+    return points + points[:n // 50] + [[0.5, y, z] for _, y, z in points[:n // 20]]
+
+
+def rows(points):
+    return "".join("%r,%r,%r\n" % tuple(p) for p in points)
+
+
+def found(out):
+    """The summary without the time that it took."""
+    made = json.loads(out)
+    made.pop("wall_s")
+    return json.dumps(made)
+
+
+class Cloud(Case):
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def both(self, n, path, *arguments, code=0):
+        alone = clast("decompose", path, *arguments, "--json")
+        self.assertEqual(alone.code, code, alone.err)
+        got, out, err = ranks(n, "decompose", path, *arguments, "--json")
+        self.assertEqual(got, code, err)
+        self.assertEqual(found(out), found(alone.out))
+        return found(out)
+
+    def test_any_ranks_and_any_order_are_the_same_bytes(self):
+        points = cloud(3000, 1)
+        dealt = {"as drawn": points, "along x": sorted(points), "shuffled": random.Random(2).sample(points, len(points)),
+                 "from the other end": points[::-1]}
+        summaries = set()
+        for n, order in zip((1, 2, 3, 4), dealt):
+            path = self.write(f"{n}.csv", "x,y,z\n" + rows(dealt[order]))
+            summaries.add(self.both(n, path, *BOX))
+        self.assertEqual(len(summaries), 1)
+
+    def test_settings_are_the_same_bytes(self):
+        path = self.write("points.csv", "x,y,z\n" + rows(cloud(2000, 3)))
+        for n, arguments in ((3, ("--beta-dt", "1e-6")), (2, ("--no-extrapolate", "--estimator", "cells")), (4, ("--pairs",)),
+                             (2, ("--paper", "--mesh", "tree")), (3, ("--tests", "star,pearson", "--votes", "1", "--statistic", "T"))):
+            self.both(n, path, *BOX, *arguments)
+        for n, arguments in ((3, ("--mesh", "boxes")), (2, ("--mesh", "components", "--lower", "joint", "--max-pass", "3")),
+                             (4, ("--variant", "fast", "--mesh", "bins", "--paper"))):
+            self.both(n, path, *BOX, *arguments)
+        self.both(3, path, *BOX, "--test-only", code=1)
+        self.both(2, path, "--domain", "sphere:0.5,0.5,0.5,0.6", "--outside", "drop")
+
+    def test_many_points_take_the_ways_of_many(self):
+        points = cloud(60000, 4)  # binned sums, a grid of splines, chosen neighbours
+        path = self.write("many.csv", "x,y,z\n" + rows(points))
+        self.both(4, path, *BOX)
+        flat = self.write("flat.csv", "x,y\n" + "".join("%r,%r\n" % tuple(p[:2]) for p in points))
+        self.both(2, flat, "--domain", "box:0,0,1,1")
+        line = self.write("line.csv", "x\n" + "".join("%r\n" % p[0] for p in points[:30000]))
+        self.both(3, line, "--domain", "box:0,1")
+
+    def test_files_are_the_same_bytes(self):
+        path = self.write("points.csv", "x,y,z\n" + rows(cloud(1500, 5)) + "2.0,0.5,0.5\n")
+        more = (*BOX, "--outside", "drop", "-q")
+        alone = clast("decompose", path, *more, "-o", self.folder / "alone")
+        self.assertEqual(alone.code, 0, alone.err)
+        for n in (2, 4):
+            code, out, err = ranks(n, "decompose", path, *more, "-o", self.folder / str(n))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(out, alone.out)
+            for name in ("cells.csv", "point_cells.csv", "cells.vtu", "summary.json"):
+                self.assertTrue((self.folder / str(n) / name).read_bytes() == (self.folder / "alone" / name).read_bytes(), name)
+            self.assertFalse((self.folder / str(n) / "points.vtp").exists())
+
+    def test_any_text_of_numbers_is_shared_out(self):
+        points = rows(cloud(700, 6))
+        names = ("--columns", "column_1,column_2,column_3")
+        self.both(3, self.write("bare.csv", points), *names, *BOX)
+        lines = points.splitlines()
+        self.both(2, self.write("remarks.csv", "# a remark\n\n" + "x,y,z\n" + "\n# one more\n\n".join(lines)), *BOX)
+        self.both(4, self.write("windows.csv", "\ufeffx;y;z\r\n" + "\r\n".join(l.replace(",", ";") for l in lines)), *BOX)
+        self.both(3, self.write("blanks.txt", " x   y z\n" + "\n".join(l.replace(",", "  ") for l in lines)), *BOX)
+        self.both(3, self.write("units.csv", "x_mm,y_mm,z_mm\n" + points), "--columns", "x_mm,y_mm,z_mm",
+                  "--domain", "box:0,0,0,1mm,1mm,1mm")
+
+    @unittest.skipIf(os.environ.get("CLAST_HAVE_HDF5") == "0", "built without HDF5")
+    def test_rows_of_hdf5_are_shared_out(self):
+        try:
+            import h5py
+            import numpy
+        except ImportError:
+            self.skipTest("no h5py")
+        points = numpy.array(cloud(900, 7))
+        path = self.folder / "points.h5"
+        with h5py.File(path, "w") as file:
+            file["all"] = points
+            for k, name in enumerate("xyz"):
+                file[f"each/{name}"] = points[:, k]
+        self.both(3, path, "--dataset", "all", *BOX)
+        self.both(2, path, "--dataset", "each", *BOX)
+
+    def test_ranks_without_points_and_few_points(self):
+        for n in (1, 2, 3, 6):
+            path = self.write(f"few{n}.csv", "x,y,z\n" + rows([[0.1 * k, 0.2, 0.9 - 0.1 * k] for k in range(n)]))
+            self.both(4, path, *BOX)
+        self.both(4, self.write("one place.csv", "x,y,z\n" + "0.5,0.5,0.5\n" * 40), *BOX)
+
+    def test_faults_end_on_all_ranks_with_one_line(self):
+        lines = rows(cloud(4000, 8)).splitlines()
+        def bad(name, line, text):
+            return self.write(name, "x,y,z\n" + "\n".join(lines[:line - 2] + [text] + lines[line - 1:]) + "\n")
+        good = self.write("good.csv", "x,y,z\n" + "\n".join(lines) + "\n")
+        for path, more, code, says in (
+                (bad("word.csv", 3000, "0.1,zwei,0.3"), (), 3, "word.csv:3000: 'zwei' in column 'y'"),
+                (bad("early.csv", 30, "0.1,zwei,0.3"), (), 3, "row 29 holds 'zwei'"),
+                (bad("ragged.csv", 3001, "0.1,0.3"), (), 3, "ragged.csv:3001: 2 cells"),
+                (bad("missing.csv", 3002, "0.1,,0.3"), (), 3, "point 3001 has a coordinate that is not finite"),
+                (bad("quoted.csv", 3003, '"0.1",0.2,0.3'), (), 3, "quoted.csv:3003"),
+                (bad("outside.csv", 3004, "0.1,0.2,7"), (), 3, "1 of 4280 points lie outside"),
+                (self.write("empty.csv", "x,y,z\n"), (), 3, "holds no points"),
+                (self.write("nothing.csv", ""), (), 3, "holds no table"),
+                (self.folder / "absent.csv", (), 3, "No such file"),
+                (good, ("--columns", "x,y,w"), 3, "no column of numbers named 'w'"),
+                (pathlib.Path("data/scarlet/stl/27sk21_shape_fine.stl"), (), 3, "27sk21"),
+                (good, ("--mesh", "boxes", "--ghost-samples", "3"), 2, "--ghost-samples"),
+                (good, ("--weight-column", "x"), 2, "weights"),
+                (good, ("--variable-column", "x"), 2, "variable"),
+                (good, ("--crossfit",), 2, "cross-fitting"),
+                (good, ("--sizes", "3", "-o", self.folder / "s"), 2, "without mpirun")):
+            got, out, err = ranks(3, "decompose", path, *BOX, *more)
+            self.assertEqual(got, code, err)
+            self.assertEqual(out, "")
+            self.assertEqual(len(own_lines(err)), 1, err)
+            self.assertIn(says, own_lines(err)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

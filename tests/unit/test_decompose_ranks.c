@@ -1,0 +1,239 @@
+// Unit: one cloud over ranks is the same bytes as on one, however the points are dealt and ordered.
+#include "ranks.h"
+#include "support.h"
+
+#include "math/rng.h"
+#include <clast/decompose.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MANY = 24000, N_DEAL = 5 }; // more than what is summed pair by pair
+
+/// How points are dealt: in turn, in stretches, all to the last rank, by place, backwards in turn.
+static int32_t dealt_to(int deal, int64_t i, const double *x, int32_t n_rank)
+{
+    switch (deal) {
+    case 0:
+    case 4:
+        return (int32_t)(i % n_rank);
+    case 1:
+        return (int32_t)(i * n_rank / MANY);
+    case 2:
+        return n_rank - 1;
+    default:
+        return (int32_t)(x[2] * n_rank < n_rank ? x[2] * n_rank : n_rank - 1);
+    }
+}
+
+/// Half of the points in a blob; some repeat a place, some share a coordinate.
+static void place(int64_t i, int32_t d, double *x)
+{
+    const int64_t own = i % 50 == 7 && i > 0 ? i - 1 : i;
+    clx_rng rng = clx_rng_at(11, CLX_STREAM_TEST, (uint64_t)own);
+    for (int32_t j = 0; j < d; ++j) {
+        x[j] = clx_rng_uniform(&rng);
+        if (own % 2 == 0) {
+            x[j] = 0.3 + 0.1 * (x[j] + clx_rng_uniform(&rng) + clx_rng_uniform(&rng));
+        }
+    }
+    x[0] = own % 20 == 3 ? 0.5 : x[0];
+}
+
+typedef struct {
+    int32_t d;
+    int deal;
+    clast_decompose_config config;
+    const clast_cloud *whole;
+    const clast_decomposition *expected;
+} job;
+
+/// This rank's points and their numbers in the whole.
+static clast_cloud deal_points(const job *j, const clast_comm *comm, int64_t *number)
+{
+    clast_cloud part = {.dimension = j->d};
+    part.x = malloc(MANY * 3 * sizeof *part.x);
+    for (int64_t k = 0; k < MANY; ++k) {
+        const int64_t i = j->deal == 4 ? MANY - 1 - k : k;
+        const double *x = j->whole->x + i * j->d;
+        if (dealt_to(j->deal, i, x, comm->n_rank) == comm->rank) {
+            memcpy(part.x + part.n * j->d, x, (size_t)j->d * sizeof *x);
+            number[part.n++] = i;
+        }
+    }
+    return part;
+}
+
+static bool are_same(const void *a, const void *b, int64_t n, size_t size)
+{
+    return (a == NULL) == (b == NULL) && (a == NULL || memcmp(a, b, (size_t)n * size) == 0);
+}
+
+static int compare_cells(const clast_cells *a, const clast_cells *b)
+{
+    RANK_CHECK(a->n == b->n);
+    RANK_CHECK(are_same(a->low, b->low, a->n, sizeof *a->low));
+    RANK_CHECK(are_same(a->high, b->high, a->n, sizeof *a->high));
+    RANK_CHECK(are_same(a->volume, b->volume, a->n, sizeof *a->volume));
+    RANK_CHECK(are_same(a->count, b->count, a->n, sizeof *a->count));
+    RANK_CHECK(are_same(a->weight, b->weight, a->n, sizeof *a->weight));
+    RANK_CHECK(are_same(a->events, b->events, a->n, sizeof *a->events));
+    RANK_CHECK(are_same(a->key, b->key, a->n, sizeof *a->key));
+    RANK_CHECK(are_same(a->group, b->group, a->n, sizeof *a->group));
+    return 0;
+}
+
+static int compare_numbers(const clast_decomposition *a, const clast_decomposition *b)
+{
+    RANK_CHECK(a->n == b->n && a->n_outside == b->n_outside && a->n_test == b->n_test);
+    RANK_CHECK(a->stop == b->stop && a->resolved == b->resolved && a->estimator == b->estimator);
+    RANK_CHECK(a->before.n_test == b->before.n_test && a->before.n_reject == b->before.n_reject);
+    for (int32_t k = 0; k < a->before.n_test; ++k) {
+        RANK_CHECK(a->before.vote[k].statistic == b->before.vote[k].statistic);
+        RANK_CHECK(a->before.vote[k].p == b->before.vote[k].p);
+    }
+    const double x[] = {a->before.score, a->before.ideal, a->events,       a->events_low,
+                        a->events_high,  a->cells_bias,   a->points_needed};
+    const double y[] = {b->before.score, b->before.ideal, b->events,       b->events_low,
+                        b->events_high,  b->cells_bias,   b->points_needed};
+    return memcmp(x, y, sizeof x) == 0 ? 0 : __LINE__;
+}
+
+static int decompose_part(const clast_comm *comm, void *context)
+{
+    const job *j = context;
+    clast_domain domain = {0};
+    clast_decomposition found = {0};
+    int64_t *number = malloc(MANY * sizeof *number);
+    clast_cloud part = deal_points(j, comm, number);
+    RANK_CHECK(clast_domain_parse(j->config.domain, &domain) == CLAST_OK);
+    RANK_CHECK(clast_decompose_ranks(comm, &domain, &part, &j->config, &found) == CLAST_OK);
+    RANK_CHECK(found.n_here == part.n);
+    int line = compare_numbers(&found, j->expected);
+    line = line != 0 ? line : compare_cells(&found.cells, &j->expected->cells);
+    RANK_CHECK(line == 0);
+    for (int64_t i = 0; i < part.n; ++i) {
+        RANK_CHECK(found.cells.of_point[i] == j->expected->cells.of_point[number[i]]);
+    }
+    clast_decomposition_free(&found);
+    free(part.x);
+    free(number);
+    return 0;
+}
+
+static void compare(const char *domain, int32_t d)
+{
+    clast_cloud whole = {0};
+    clast_domain space = {0};
+    clast_decomposition expected = {0};
+    job j = {.d = d, .whole = &whole, .expected = &expected};
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &j.config));
+    free(j.config.domain);
+    j.config.domain = strdup(domain);
+    j.config.estimator = CLAST_ESTIMATOR_CELLS;
+    CHECK_OK(clast_cloud_alloc(MANY, d, &whole));
+    for (int64_t i = 0; i < MANY; ++i) {
+        place(i, d, whole.x + i * d);
+    }
+    CHECK_OK(clast_domain_parse(domain, &space));
+    CHECK_OK(clast_decompose_in(&space, &whole, &j.config, &expected));
+    assert_true(expected.cells.n > 100);
+    for (j.deal = 0; j.deal < N_DEAL; ++j.deal) {
+        support_run_ranks(2 + j.deal % 3, decompose_part, &j);
+    }
+    clast_decomposition_free(&expected);
+    clast_cloud_free(&whole);
+    clast_fields_free(clast_decompose_fields, &j.config);
+}
+
+static void a_cube_is_the_same_bytes(void **state)
+{
+    (void)state;
+    compare("box:0,0,0,1,1,1", 3);
+}
+
+static void a_square_is_the_same_bytes(void **state)
+{
+    (void)state;
+    compare("box:0,0,1,1", 2);
+}
+
+/// What one rank fails with is what all say.
+static int fail_together(const clast_comm *comm, void *context)
+{
+    clast_decompose_config *config = context;
+    clast_domain domain = {0};
+    clast_decomposition found = {0};
+    double x[3] = {0.5, 0.5, 0.5};
+    double weight = 2.0;
+    clast_cloud part = {.n = comm->rank, .dimension = 3, .x = x}; // 0, 1: rank 0 has none
+    RANK_CHECK(clast_domain_parse("box:0,0,0,1,1,1", &domain) == CLAST_OK);
+    RANK_CHECK(clast_decompose_ranks(comm, &domain, &part, config, &found) == CLAST_OK);
+    RANK_CHECK(found.n == 1 && found.cells.n == 1 && found.stop == CLAST_STOP_UNTESTED);
+    clast_decomposition_free(&found);
+    x[1] = comm->rank == 1 ? (double)NAN : 0.5;
+    RANK_CHECK(clast_decompose_ranks(comm, &domain, &part, config, &found) == CLAST_E_FORMAT);
+    RANK_CHECK(
+        strcmp(clast_error_detail(), "rank 1: point 1 has a coordinate that is not finite") == 0);
+    x[1] = 0.5;
+    part.weight = comm->rank == 1 ? &weight : NULL;
+    RANK_CHECK(clast_decompose_ranks(comm, &domain, &part, config, &found) == CLAST_E_CONFIG);
+    RANK_CHECK(strstr(clast_error_detail(), "weights") != NULL);
+    part.weight = NULL;
+    clast_comm poor = *comm;
+    poor.sum = NULL;
+    RANK_CHECK(clast_decompose_ranks(&poor, &domain, &part, config, &found) == CLAST_E_ARGUMENT);
+    return 0;
+}
+
+static void what_fails_on_one_rank_fails_on_all(void **state)
+{
+    (void)state;
+    clast_decompose_config config;
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &config));
+    support_run_ranks(2, fail_together, &config);
+    clast_fields_free(clast_decompose_fields, &config);
+}
+
+/// Each rank has every n-th of 600 points, 100 of which repeat the place of another.
+static int count_together(const clast_comm *comm, void *context)
+{
+    (void)context;
+    double x[600];
+    clast_cloud part = {.dimension = 1, .x = x};
+    int64_t n_repeated = 0;
+    clast_spacing alone = {0};
+    clast_spacing together = {0};
+    double all[600];
+    for (int64_t i = 0; i < 600; ++i) {
+        clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)(i % 500));
+        all[i] = clx_rng_uniform(&rng);
+        if (i % comm->n_rank == comm->rank) {
+            x[part.n++] = all[i];
+        }
+    }
+    RANK_CHECK(clast_cloud_repeated_ranks(&part, comm, &n_repeated) == CLAST_OK);
+    RANK_CHECK(n_repeated == 100);
+    RANK_CHECK(clast_spacing_test(all, 600, 1, &alone) == CLAST_OK);
+    RANK_CHECK(clast_spacing_ranks(comm, x, part.n, 1, &together) == CLAST_OK);
+    RANK_CHECK(alone.ratio == together.ratio && alone.p == together.p && alone.z == together.z);
+    return 0;
+}
+
+static void neighbours_and_copies_are_found_over_ranks(void **state)
+{
+    (void)state;
+    for (int32_t n = 1; n <= 4; ++n) {
+        support_run_ranks(n, count_together, NULL);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cube_is_the_same_bytes),
+        cmocka_unit_test(a_square_is_the_same_bytes),
+        cmocka_unit_test(what_fails_on_one_rank_fails_on_all),
+        cmocka_unit_test(neighbours_and_copies_are_found_over_ranks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

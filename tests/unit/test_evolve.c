@@ -1,0 +1,510 @@
+/* Unit: a cloud of true shapes beside what is known of it: Stokes' column, the constant kernel,
+ * moments of pairs, balances, going on. */
+#include "support.h"
+
+#include <clast/assembly.h>
+#include <clast/evolve.h>
+#include <clast/form.h>
+#include <clast/shape.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a test changes of the defaults: "key=value" texts, NULL ends them. */
+typedef struct {
+    clast_evolve_config config;
+    clast_evolve_source source;
+    clast_evolve *evolve;
+} cloud;
+
+static void set(clast_evolve_config *config, const char *option)
+{
+    char key[64];
+    const char *equal = strchr(option, '=');
+    assert_non_null(equal);
+    (void)snprintf(key, sizeof key, "%.*s", (int)(equal - option), option);
+    const clast_field *field = clast_fields_find(clast_evolve_fields, key);
+    assert_non_null(field);
+    CHECK_OK(clast_field_set(field, config, equal + 1, false));
+}
+
+static void open_cloud(cloud *c, const char *const *option)
+{
+    *c = (cloud){0};
+    CHECK_OK(clast_fields_default(clast_evolve_fields, &c->config));
+    for (; *option != NULL; ++option) {
+        set(&c->config, *option);
+    }
+    CHECK_OK(clast_evolve_load(&c->config, &c->source));
+}
+
+static void begin(cloud *c, const char *const *option)
+{
+    open_cloud(c, option);
+    CHECK_OK(clast_evolve_create(&c->config, &c->source.input, &c->evolve));
+}
+
+static void end(cloud *c)
+{
+    clast_evolve_destroy(c->evolve);
+    clast_evolve_unload(&c->source);
+    clast_fields_free(clast_evolve_fields, &c->config);
+}
+
+static clast_evolve_result follow(cloud *c)
+{
+    clast_evolve_result result;
+    while (!clast_evolve_is_over(c->evolve)) {
+        CHECK_OK(clast_evolve_advance(c->evolve));
+    }
+    CHECK_OK(clast_evolve_measure(c->evolve, &result));
+    return result;
+}
+
+/* Equal spheres that do not spread fall at w = (rho - rho_f) g d^2 / (18 mu) and come down at
+ * t = z / w, whatever the steps. */
+static void column_is_stokes(void **state)
+{
+    (void)state;
+    static const char *const option[] = {
+        "domain=box:0,0,0,1,1,10", "particles=500",  "curve=20um",
+        "kernel=settling",         "fall=stokes",    "brownian=no",
+        "duration=1000s",          "rows=7",         "gravity=9.81m/s^2",
+        "step_error=0.3",          "wind=0.001,0,0", NULL};
+    cloud c;
+    clast_table deposit = {0};
+    clast_table start = {0};
+    begin(&c, option);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &start));
+    const clast_evolve_result r = follow(&c);
+    assert_int_equal(r.n_deposit, 500);
+    CHECK_REL(clast_evolve_time(c.evolve), r.time, 0.0);
+    assert_true(clast_evolve_n_row(c.evolve) <= 7);
+    assert_int_equal(r.n_event, 0);
+    assert_int_equal(r.number_balance, 0);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
+    const double w = (2500.0 - 1.225) * 9.81 * 20e-6 * 20e-6 / (18.0 * 1.7894e-5);
+    const double *node = clast_table_numbers(&deposit, "node");
+    for (int64_t i = 0; i < deposit.n_row; ++i) {
+        const int64_t k = (int64_t)node[i];
+        const double fallen = clast_table_numbers(&start, "z_m")[k] / w;
+        const double along = clast_table_numbers(&start, "x_m")[k] + 0.001 * fallen;
+        CHECK_REL(clast_table_numbers(&deposit, "time_s")[i], fallen, 1e-9);
+        CHECK_ABS(clast_table_numbers(&deposit, "x_m")[i], along - floor(along), 1e-9);
+        CHECK_REL(clast_table_numbers(&deposit, "speed_m/s")[i], w, 1e-12);
+    }
+    clast_table_free(&deposit);
+    clast_table_free(&start);
+    end(&c);
+}
+
+/* Constant kernel, drops: N = N0 / (1 + K N0 t / (2 V)) [Smoluchowski1916]; the standard deviation
+ * of N at a fifth is about sqrt(N / 3). */
+static void constant_kernel_is_exact(void **state)
+{
+    (void)state;
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=20000",
+                                         "curve=1mm",
+                                         "kernel=constant",
+                                         "constant=4e-4",
+                                         "structure=no",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "even=whole",
+                                         "duration=1s",
+                                         "rows=4",
+                                         NULL};
+    cloud c;
+    clast_table balance = {0};
+    begin(&c, option);
+    const clast_evolve_result r = follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_BALANCE, &balance));
+    for (int64_t i = 0; i < balance.n_row; ++i) {
+        const double t = clast_table_numbers(&balance, "time_s")[i];
+        const double exact = 20000.0 / (1.0 + 4.0 * t);
+        CHECK_ABS(clast_table_numbers(&balance, "n_particle")[i], exact, 5.0 * sqrt(exact / 3.0));
+        CHECK_ABS(clast_table_numbers(&balance, "mass_balance")[i], 0.0, 1e-12);
+        CHECK_ABS(clast_table_numbers(&balance, "number_balance")[i], 0.0, 0.0);
+    }
+    assert_int_equal(r.n_particle + r.n_event, 20000);
+    clast_table_free(&balance);
+    end(&c);
+}
+
+/* Additive kernel b (i + j), drops: N = N0 exp(-b N0 t / V) [Golovin1963]. */
+static void additive_kernel_is_exact(void **state)
+{
+    (void)state;
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=20000",
+                                         "curve=1mm",
+                                         "kernel=additive",
+                                         "additive=5e-5",
+                                         "structure=no",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=4",
+                                         "step_error=0.02",
+                                         NULL};
+    cloud c;
+    clast_table balance = {0};
+    begin(&c, option);
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_BALANCE, &balance));
+    for (int64_t i = 0; i < balance.n_row; ++i) {
+        const double exact = 20000.0 * exp(-clast_table_numbers(&balance, "time_s")[i]);
+        CHECK_ABS(clast_table_numbers(&balance, "n_particle")[i], exact, 5.0 * sqrt(exact / 3.0));
+    }
+    clast_table_free(&balance);
+    end(&c);
+}
+
+/* The kept moments of an aggregate are those of its grains, its grains touch and do not overlap. */
+static void check_aggregate(const clast_evolve *e, int64_t node, double gyration)
+{
+    clast_assembly a = {0};
+    clast_overlaps overlaps;
+    double centre[3];
+    CHECK_OK(clast_evolve_aggregate(e, node, &a));
+    CHECK_REL(clast_assembly_radius_of_gyration(&a), gyration, 1e-9);
+    clast_assembly_centre(&a, centre);
+    CHECK_ABS(hypot(hypot(centre[0], centre[1]), centre[2]), 0.0, 1e-9 * gyration);
+    assert_int_equal(a.n_contact, a.n_grain - 1);
+    CHECK_OK(clast_assembly_overlaps(&a, NULL, &overlaps));
+    assert_true(overlaps.share < 1e-6);
+    const int32_t n = a.n_contact;
+    double extent = 0.0;
+    double low[3];
+    double high[3];
+    clast_assembly_bounds(&a, low, high);
+    for (int k = 0; k < 3; ++k) {
+        extent = fmax(extent, high[k] - low[k]);
+    }
+    CHECK_OK(clast_assembly_find_contacts(&a, 1e-6 * extent));
+    assert_true(a.n_contact >= n);
+    clast_assembly_free(&a);
+}
+
+/* The largest comes first; all grains are somewhere. */
+static void check_all(const clast_evolve *e, const clast_table *particles)
+{
+    clast_assembly all = {0};
+    clast_assembly most = {0};
+    int64_t node[2] = {-1, -1};
+    int32_t n = 2;
+    double greatest = 0.0;
+    for (int64_t i = 0; i < particles->n_row; ++i) {
+        greatest = fmax(greatest, clast_table_numbers(particles, "grains")[i]);
+    }
+    CHECK_OK(clast_evolve_largest(e, &n, node));
+    assert_int_equal(n, 2);
+    CHECK_OK(clast_evolve_aggregate(e, node[0], &most));
+    CHECK_ABS(most.n_grain, greatest, 0.0);
+    CHECK_OK(clast_evolve_assembly(e, &all));
+    assert_int_equal(all.n_grain, 400);
+    clast_assembly_free(&all);
+    clast_assembly_free(&most);
+}
+
+static void aggregates_are_of_true_surfaces(void **state)
+{
+    (void)state;
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=400",
+                                         "curve=lognormal:1mm,0.3mm",
+                                         "kernel=constant",
+                                         "constant=0.1",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=2",
+                                         NULL};
+    cloud c;
+    clast_table particles = {0};
+    open_cloud(&c, option);
+    end(&c);
+    CHECK_OK(clast_fields_default(clast_evolve_fields, &c.config));
+    for (const char *const *o = option; *o != NULL; ++o) {
+        set(&c.config, *o);
+    }
+    const clast_field *shapes = clast_fields_find(clast_evolve_fields, "shapes");
+    CHECK_OK(clast_field_set(shapes, &c.config, "ellipsoid:1,0.7,0.4", false));
+    CHECK_OK(clast_field_set(shapes, &c.config, "sphere", true));
+    CHECK_OK(clast_field_set(shapes, &c.config, support_data("standin63/grain00.ply"), true));
+    CHECK_OK(clast_evolve_load(&c.config, &c.source));
+    CHECK_OK(clast_evolve_create(&c.config, &c.source.input, &c.evolve));
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &particles));
+    int checked = 0;
+    for (int64_t i = 0; i < particles.n_row; ++i) {
+        if (clast_table_numbers(&particles, "grains")[i] > 1.0) {
+            check_aggregate(c.evolve, (int64_t)clast_table_numbers(&particles, "node")[i],
+                            clast_table_numbers(&particles, "radius_of_gyration_m")[i]);
+            ++checked;
+        }
+    }
+    assert_true(checked >= 10);
+    check_all(c.evolve, &particles);
+    clast_table_free(&particles);
+    end(&c);
+}
+
+static const char *const ASH[] = {"domain=box:0,0,0,1mm,1mm,10mm",
+                                  "particles=2000",
+                                  "curve=lognormal:20um,10um,5um,60um",
+                                  "kernel=brownian+settling",
+                                  "duration=1s",
+                                  "rows=10",
+                                  "eddy_diffusivity=1e-8",
+                                  "wind_shear=1",
+                                  "out_of_range=extrapolate",
+                                  NULL};
+
+/* A run that goes on from any leg ends in the same bits. */
+static void goes_on_to_the_same_bits(void **state)
+{
+    (void)state;
+    cloud c;
+    cloud again;
+    clast_table saved[CLAST_N_EVOLVE_SAVED] = {{0}};
+    clast_evolve_result other;
+    begin(&c, ASH);
+    for (int leg = 0; leg < 3; ++leg) {
+        CHECK_OK(clast_evolve_advance(c.evolve));
+    }
+    CHECK_OK(clast_evolve_save(c.evolve, saved));
+    const clast_evolve_result r = follow(&c);
+    assert_true(r.n_event > 50 && r.n_deposit > 0);
+    CHECK_ABS(r.mass_balance, 0.0, 1e-12);
+    begin(&again, ASH);
+    CHECK_OK(clast_evolve_restore(saved, again.evolve));
+    other = follow(&again);
+    assert_true(other.hash == r.hash);
+    assert_int_equal(other.n_event, r.n_event);
+    assert_int_equal(other.n_cut, r.n_cut);
+    for (int k = 0; k < CLAST_N_EVOLVE_SAVED; ++k) {
+        clast_table_free(&saved[k]);
+    }
+    end(&c);
+    end(&again);
+}
+
+/* Each event makes one of two that were there: the tree is one of pairs. */
+static void events_are_a_tree(void **state)
+{
+    (void)state;
+    cloud c;
+    clast_table events = {0};
+    begin(&c, ASH);
+    const clast_evolve_result r = follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_EVENTS, &events));
+    bool *is_used = calloc((size_t)(r.n_start + r.n_event), sizeof *is_used);
+    double *grains = calloc((size_t)(r.n_start + r.n_event), sizeof *grains);
+    assert_non_null(is_used);
+    assert_non_null(grains);
+    for (int64_t i = 0; i < r.n_start; ++i) {
+        grains[i] = 1.0;
+    }
+    for (int64_t k = 0; k < events.n_row; ++k) {
+        const int64_t a = (int64_t)clast_table_numbers(&events, "node_a")[k];
+        const int64_t b = (int64_t)clast_table_numbers(&events, "node_b")[k];
+        assert_true(a < r.n_start + k && b < r.n_start + k && a != b);
+        assert_false(is_used[a] || is_used[b]);
+        is_used[a] = is_used[b] = true;
+        grains[r.n_start + k] = grains[a] + grains[b];
+        CHECK_ABS(clast_table_numbers(&events, "grains")[k], grains[r.n_start + k], 0.0);
+    }
+    free(is_used);
+    free(grains);
+    clast_table_free(&events);
+    end(&c);
+}
+
+/* A diffusing cloud over a floor that takes all: of n at height h, erfc(h / sqrt(4 D t)) are down
+ * [Carslaw1959]. */
+static void floor_takes_what_diffuses(void **state)
+{
+    (void)state;
+    static const char *const option[] = {"domain=box:0,0,0,1,1,100",
+                                         "release=box:0,0,0.999999,1,1,1.000001",
+                                         "particles=20000",
+                                         "curve=1um",
+                                         "kernel=constant",
+                                         "constant=0",
+                                         "alpha=0",
+                                         "gravity=0",
+                                         "brownian=no",
+                                         "eddy_diffusivity=0.01",
+                                         "even=whole",
+                                         "duration=30s",
+                                         "rows=3",
+                                         "time_step=3s",
+                                         NULL};
+    cloud c;
+    begin(&c, option);
+    const clast_evolve_result r = follow(&c);
+    const double share = erfc(1.0 / sqrt(4.0 * 0.01 * 30.0));
+    CHECK_ABS((double)r.n_deposit / 20000.0, share, 4.0 * sqrt(share * (1.0 - share) / 20000.0));
+    end(&c);
+}
+
+/* Velocities of a turn about z with one turn in 10 s, on a grid in any order. */
+static const char *turning_field(int faulty)
+{
+    const char *path = support_scratch_file("turn.csv");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    const double omega = 2.0 * CLAST_PI / 10.0;
+    (void)fprintf(file, "x,y,z,u,v,w\n");
+    for (int i = 24 - faulty; i >= 0; --i) {
+        const double x = 0.5 * (i % 5) - 1.0;
+        const double y = 0.5 * (i / 5) - 1.0; // NOLINT(bugprone-integer-division): a row
+        (void)fprintf(file, "%.17g,%.17g,0,%.17g,%.17g,0\n", x, y, -omega * y, omega * x);
+    }
+    (void)fclose(file);
+    return path;
+}
+
+/* In a field that turns, bodies are back after a turn, whatever the step. */
+static void a_field_turns_the_cloud(void **state)
+{
+    (void)state;
+    char field[4096];
+    (void)snprintf(field, sizeof field, "field=%s", turning_field(0));
+    const char *const option[] = {"domain=box:-1,-1,0,1,1,1",
+                                  "release=cylinder:0,0,0,0,0,1,0.9,1",
+                                  "particles=50",
+                                  "curve=1um",
+                                  "kernel=constant",
+                                  "constant=0",
+                                  "gravity=0",
+                                  "brownian=no",
+                                  "sides=reflect",
+                                  "floor=reflect",
+                                  "duration=10s",
+                                  "rows=2",
+                                  field,
+                                  NULL};
+    cloud c;
+    clast_table before = {0};
+    clast_table after = {0};
+    begin(&c, option);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &before));
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &after));
+    assert_int_equal(after.n_row, 50);
+    for (int64_t i = 0; i < after.n_row; ++i) {
+        for (int k = 2; k < 5; ++k) { /* x, y, z */
+            CHECK_ABS(after.column[k].number[i], before.column[k].number[i], 1e-5);
+        }
+    }
+    clast_table_free(&before);
+    clast_table_free(&after);
+    end(&c);
+    (void)turning_field(1); /* a node is missing */
+    open_cloud(&c, option);
+    CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), CLAST_E_FORMAT);
+    end(&c);
+}
+
+/* A small cloud from its options to an aggregate, or why not; nothing is left. */
+static clast_status make_small(void *context)
+{
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=6",
+                                         "curve=1mm",
+                                         "kernel=constant",
+                                         "constant=5",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=1",
+                                         NULL};
+    const clast_evolve_source *source = context;
+    clast_evolve_config config = {0};
+    clast_evolve *evolve = NULL;
+    clast_assembly assembly = {0};
+    clast_table saved[CLAST_N_EVOLVE_SAVED] = {{0}};
+    int64_t node = -1;
+    int32_t n = 1;
+    clast_status status = clast_fields_default(clast_evolve_fields, &config);
+    for (int k = 0; status == CLAST_OK && option[k] != NULL; ++k) {
+        char key[64];
+        const char *equal = strchr(option[k], '=');
+        (void)snprintf(key, sizeof key, "%.*s", (int)(equal - option[k]), option[k]);
+        status =
+            clast_field_set(clast_fields_find(clast_evolve_fields, key), &config, equal + 1, false);
+    }
+    status = status == CLAST_OK ? clast_evolve_create(&config, &source->input, &evolve) : status;
+    while (status == CLAST_OK && !clast_evolve_is_over(evolve)) {
+        status = clast_evolve_advance(evolve);
+    }
+    status = status == CLAST_OK ? clast_evolve_largest(evolve, &n, &node) : status;
+    status = status == CLAST_OK ? clast_evolve_aggregate(evolve, node, &assembly) : status;
+    status = status == CLAST_OK ? clast_evolve_save(evolve, saved) : status;
+    for (int k = 0; k < CLAST_N_EVOLVE_SAVED; ++k) {
+        clast_table_free(&saved[k]);
+    }
+    clast_assembly_free(&assembly);
+    clast_evolve_destroy(evolve);
+    clast_fields_free(clast_evolve_fields, &config);
+    return status;
+}
+
+static void each_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    cloud c;
+    open_cloud(&c, (const char *const[]){"domain=box:0,0,0,1,1,1", "curve=1mm", NULL});
+    support_refuse_each_allocation(make_small, &c.source);
+    end(&c);
+}
+
+static void refuses(const char *const *option, clast_status expected)
+{
+    cloud c;
+    open_cloud(&c, option);
+    CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), expected);
+    assert_null(c.evolve);
+    end(&c);
+}
+
+static void bad_configurations_are_refused(void **state)
+{
+    (void)state;
+#define BOX "domain=box:0,0,0,1,1,1", "particles=10", "duration=1s"
+    refuses((const char *const[]){BOX, "gravity=0", "brownian=no", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=ballistic", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=shear_turbulent", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "weight=1.5", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "floor=periodic", "open_top=yes", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){"domain=box:0,0,1,1", "particles=9", "duration=1s", NULL},
+            CLAST_E_CONFIG);
+    refuses((const char *const[]){"domain=sphere:1", "particles=9", "duration=1s", NULL},
+            CLAST_E_CONFIG);
+    refuses((const char *const[]){"domain=box:0,0,0,1,1,1", "particles=9", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "release=box:2,2,2,3,3,3", NULL}, CLAST_E_CONFIG);
+#undef BOX
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(column_is_stokes),
+                                       cmocka_unit_test(constant_kernel_is_exact),
+                                       cmocka_unit_test(additive_kernel_is_exact),
+                                       cmocka_unit_test(aggregates_are_of_true_surfaces),
+                                       cmocka_unit_test(goes_on_to_the_same_bits),
+                                       cmocka_unit_test(events_are_a_tree),
+                                       cmocka_unit_test(floor_takes_what_diffuses),
+                                       cmocka_unit_test(a_field_turns_the_cloud),
+                                       cmocka_unit_test(each_refused_allocation_is_told),
+                                       cmocka_unit_test(bad_configurations_are_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,95 @@
+/* Unit: sums without rounding, against closed forms and against any order of the same terms. */
+#include "ranks.h"
+#include "support.h"
+
+#include "math/exact_sum.h"
+#include "math/rng.h"
+#include <float.h>
+#include <math.h>
+
+static double sum_of(const double *term, int n)
+{
+    clx_exact_sum s = {{0}, 0};
+    for (int i = 0; i < n; ++i) {
+        clx_exact_add(&s, term[i]);
+    }
+    return clx_exact_value(&s);
+}
+
+/* What plain addition loses: 1 between +-1e300, the least number beside the largest. */
+static void nothing_is_lost(void **state)
+{
+    (void)state;
+    const double cancel[] = {1e300, 1.0, -1e300, 0x1p-1074, -0x1p-1074};
+    const double least[] = {DBL_MAX, 0x1p-1074, -DBL_MAX};
+    const double third[] = {0.1, 0.2, -0.3};
+    assert_true(sum_of(cancel, 5) == 1.0);
+    assert_true(sum_of(least, 3) == 0x1p-1074);
+    assert_true(sum_of(third, 3) == 0x1p-55); // by the three numbers' own bits; plainly 2^-54
+    assert_true(sum_of(NULL, 0) == 0.0);
+    const double far[] = {DBL_MAX, DBL_MAX};
+    assert_true(isinf(sum_of(far, 2)));
+}
+
+/* Ties go to the even number, and any bit below decides. */
+static void the_value_is_rounded_once(void **state)
+{
+    (void)state;
+    const double tie[] = {1.0, 0x1p-53};
+    const double above[] = {1.0, 0x1p-53, 0x1p-1000};
+    const double odd[] = {1.0, 0x1p-52, 0x1p-53};
+    const double below[] = {-1.0, -0x1p-53, 0x1p-900};
+    assert_true(sum_of(tie, 2) == 1.0);
+    assert_true(sum_of(above, 3) == 1.0 + 0x1p-52);
+    assert_true(sum_of(odd, 3) == 1.0 + 0x1p-51);
+    assert_true(sum_of(below, 3) == -1.0);
+    for (int e = -1070; e <= 1020; ++e) { // every shift within a digit
+        const double x[] = {ldexp(1.0, e), ldexp(3.0, e), -ldexp(1.0, e + 1)};
+        assert_true(sum_of(x, 3) == ldexp(1.0, e + 1));
+    }
+}
+
+static double term_of(uint64_t i)
+{
+    clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, i);
+    const double u = clx_rng_uniform(&rng) - 0.5;
+    return u * pow(10.0, 40.0 * clx_rng_uniform(&rng) - 20.0);
+}
+
+enum { MANY = 20000 };
+
+/// Each rank adds every n-th term, from the last on.
+static int add_own(const clast_comm *comm, void *context)
+{
+    clx_exact_sum s[2] = {{{0}, 0}, {{0}, 0}};
+    for (int64_t i = MANY - 1 - comm->rank; i >= 0; i -= comm->n_rank) {
+        clx_exact_add(&s[i % 2], term_of((uint64_t)i));
+    }
+    clx_exact_over(comm, s, 2);
+    clx_exact_merge(&s[0], &s[1]);
+    RANK_CHECK(clx_exact_value(&s[0]) == *(const double *)context);
+    return 0;
+}
+
+static void any_order_on_any_ranks_is_the_same_sum(void **state)
+{
+    (void)state;
+    clx_exact_sum s = {{0}, 0};
+    for (uint64_t i = 0; i < MANY; ++i) {
+        clx_exact_add(&s, term_of(i));
+    }
+    double value = clx_exact_value(&s);
+    for (int32_t n = 1; n <= 4; ++n) {
+        support_run_ranks(n, add_own, &value);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_lost),
+        cmocka_unit_test(the_value_is_rounded_once),
+        cmocka_unit_test(any_order_on_any_ranks_is_the_same_sum),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,169 @@
+"""clast-live.html in headless Chromium, from disk: the golden scenes in its worker are those of the native command, and the room Split is used
+as a person would use it."""
+import base64
+import hashlib
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import jobs
+
+sys.path.insert(0, str(jobs.ROOT / "tools"))
+import check_site  # noqa: E402
+
+PAGE = jobs.PACKAGE.parent / "clast-live.html"
+RUN = """(async () => {
+  const run = ({words, files}) => new Promise((done) => {
+    const id = `job${Math.random()}`;
+    const hear = ({data}) => { if (data.id === id) { worker.removeEventListener('message', hear); done(data); } };
+    worker.addEventListener('message', hear);
+    worker.postMessage({id, words, files: Object.fromEntries(Object.entries(files).map(([n, t]) => [n, bytesOf(t)]))});
+  });
+  const hex = async (bytes) => [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].map((b) => b.toString(16).padStart(2, '0')).join('');
+  const {result, fault} = await run(JOB);
+  if (fault) throw new Error(fault);
+  for (const name of Object.keys(result.files)) result.files[name] = await hex(result.files[name]);
+  return JSON.stringify(result);
+})()"""
+
+
+class Live(unittest.TestCase):
+    maxDiff = 4000
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = check_site.Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+
+    def setUp(self):
+        self.open()
+
+    def tearDown(self):
+        self.assertEqual(list(check_site.told(self.browser.events)), [])
+
+    def open(self, fragment=""):
+        self.browser.open("about:blank")
+        self.assertIsNone(self.browser.open(PAGE.as_uri() + fragment))
+        self.until("document.getElementById('state').textContent === 'ready'", 60)
+
+    def until(self, condition, seconds):
+        end = time.monotonic() + seconds
+        while not self.browser.value(condition):
+            self.assertLess(time.monotonic(), end, f"{condition}: {self.browser.value('document.body.innerText')[:600]}")
+            time.sleep(0.02)
+
+    def text(self, name):
+        return self.browser.value(f"document.getElementById('{name}').textContent")
+
+    def click(self, selector):
+        self.browser.value(f"document.querySelector({json.dumps(selector)}).click()")
+
+    def split(self):
+        self.click("#run")
+        self.until("document.getElementById('state').textContent.startsWith('done') || document.getElementById('error').textContent !== ''", 60)
+
+    def drop(self, name, content):
+        word = base64.b64encode(content).decode()
+        self.browser.value(f"take(new File([bytesOf('{word}')], {json.dumps(name)}))")
+
+    def test_scenes_are_equal_in_the_worker(self):
+        for name, (words, files) in jobs.JOBS.items():
+            with self.subTest(name):
+                job = json.dumps({"words": words, "files": {n: base64.b64encode(p.read_bytes()).decode() for n, p in files.items()}})
+                here, there = jobs.plain(jobs.native(words, files)), jobs.plain(json.loads(self.browser.value(RUN.replace("JOB", job))))
+                for one in (here, there):
+                    one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(".svg")}
+                self.assertEqual(here, there)
+
+    def test_a_cloud_is_split_and_the_command_repeats_it(self):
+        self.click("[data-make=cluster]")
+        self.split()
+        self.assertEqual(self.text("error"), "")
+        self.assertIn("rejects", self.text("tests"))
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "cluster.csv").write_text(self.browser.value("state.text"))
+            words = self.text("command").split()
+            self.assertEqual(words[0], "clast")
+            subprocess.run([jobs.CLAST, *words[1:]], cwd=folder, check=True, capture_output=True, env=jobs.PLAIN)
+            self.assertEqual(hashlib.sha256((folder / "cells/cells.csv").read_bytes()).hexdigest(), self.text("hash"))
+        self.browser.value("pick(0)")
+        self.assertIn("cell 0 of", self.text("picked"))
+
+    def test_the_picture_shows_cells(self):
+        self.click("[data-make=cluster]")
+        count = "new Set(new Uint32Array($('picture').getContext('2d').getImageData(0, 0, SIZE, SIZE).data.buffer)).size"
+        before = self.browser.value(count)
+        self.split()
+        self.assertGreater(self.browser.value(count), before + 5)
+
+    def test_refusals_are_the_commands_own_line(self):
+        self.click("[data-make=even]")
+        self.browser.value("document.getElementById('domain').value = 'box:0,0,0.5,1'")
+        self.split()
+        self.assertRegex(self.text("error"), "^clast decompose: .*points lie outside")
+        self.browser.value("document.getElementById('domain').value = 'box:0,0,1,1'; document.getElementById('more').value = '--levle 2'")
+        self.split()
+        self.assertIn("did you mean --level", self.text("error"))
+
+    def test_damaged_files_and_hostile_names_are_lines(self):
+        for name, content in (("a.csv", b""), ("b.csv", b"\0\xff\xfe" * 400), ("c.csv", b"x,y\n1,nan\n"), ("<img src=x onerror=alert(1)>.csv", b"x,y\n1,1\n2\n"),
+                              ("../../etc/passwd.csv", b"x,y\n1,2,\"\n"), ("--force.csv", b"x,y\n0.1,0.1\nq,2\n"), ("d.vtu", b"<VTKFile>")):
+            with self.subTest(name):
+                self.drop(name, content)
+                self.until(f"state.text !== null && document.getElementById('given').textContent.length > 0 && state.name === {json.dumps(self.kept(name))}", 10)
+                self.split()
+                self.assertRegex(self.text("error"), "^clast decompose: ")
+        self.assertEqual(self.browser.value("document.images.length"), 0)
+
+    @staticmethod
+    def kept(name):
+        return name.lstrip("-/\\").replace("/", "_")
+
+    def test_cancel_ends_within_a_tenth_of_a_second(self):
+        self.drop("big.csv", b"x,y,z\n" + b"\n".join(b"%.6f,%.6f,%.6f" % ((k * 0.754877) % 1, (k * 0.569840) % 1, (k * 0.324717) % 1) for k in range(300000)))
+        self.until("state.name === 'big.csv'", 20)
+        self.click("#run")
+        time.sleep(0.3)
+        self.assertEqual(self.text("state"), "computing")
+        took = self.browser.value("(() => { const t = performance.now(); cancel(); return performance.now() - t; })()")
+        self.assertLess(took, 100)
+        self.until("document.getElementById('state').textContent === 'ready'", 30)
+        self.click("[data-make=even]")
+        self.split()
+        self.assertEqual(self.text("error"), "")
+
+    def test_painting_and_undo(self):
+        self.click("#paint")
+        self.browser.value("state.strokes.push([]); for (let k = 0; k < 40; k += 1) spray({clientX: $('picture').getBoundingClientRect().left + 100 + 4 * k, clientY: $('picture').getBoundingClientRect().top + 150})")
+        self.assertRegex(self.text("given"), r"^painted.csv: \d+ points in 2 dimensions")
+        self.split()
+        self.assertEqual(self.text("error"), "")
+        self.click("#undo")
+        self.assertEqual(self.text("given"), "no points yet")
+
+    def test_an_address_holds_points_and_options(self):
+        self.click("[data-make=gradient]")
+        self.browser.value("document.getElementById('mesh').value = 'boxes'")
+        word, text = self.browser.value("shared()"), self.browser.value("state.text")
+        self.open(f"#split={word}")
+        self.assertEqual(self.browser.value("state.text"), text)
+        self.split()
+        self.assertIn("--mesh=boxes", self.text("command"))
+        self.open("#split=AAAA")
+        self.assertIn("damaged", self.text("error"))
+
+
+if __name__ == "__main__":
+    lacking = jobs.lacking("chromium")
+    if lacking:
+        print(f"SKIPPED LOUDLY: {lacking}")
+        raise SystemExit(0)
+    unittest.main()

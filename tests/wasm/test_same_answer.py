@@ -1,0 +1,34 @@
+"""clast.wasm gives what the native command gives: every number of --json to the last bit, tables to the byte, refusals to the letter."""
+import json
+import pathlib
+import subprocess
+import unittest
+
+import jobs
+
+CHARTS = (".svg",)  # text in the built-in strokes of cairo
+
+
+class SameAnswer(unittest.TestCase):
+    maxDiff = 4000
+
+    def test_every_scene_is_equal_under_node(self):
+        given = [{"words": words, "files": {name: str(path) for name, path in files.items()}} for words, files in jobs.JOBS.values()]
+        script = pathlib.Path(__file__).with_name("run.mjs")
+        done = subprocess.run(["node", script, jobs.PACKAGE], input=json.dumps(given), capture_output=True, text=True, check=False, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for (name, (words, files)), result in zip(jobs.JOBS.items(), json.loads(done.stdout)):
+            with self.subTest(name):
+                here, there = jobs.plain(jobs.native(words, files)), jobs.plain(result)
+                self.assertEqual(sorted(here["files"]), sorted(there["files"]))
+                for one in (here, there):
+                    one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(CHARTS)}
+                self.assertEqual(here, there)
+
+
+if __name__ == "__main__":
+    lacking = jobs.lacking("node")
+    if lacking:
+        print(f"SKIPPED LOUDLY: {lacking}")
+        raise SystemExit(0)
+    unittest.main()

@@ -1,0 +1,306 @@
+#!/usr/bin/env python3
+"""The report's 3-D view used as a person would, in headless Chromium: tools/check_view.py [--clast FILE] [--pictures FOLDER]
+
+Two small beds are poured and reported on one page. Looked at: a cut through a ball is a disc of the radius that geometry gives, in the
+ball's colour; the grain under a point is the nearest one that the cut left, its numbers are those of grains.csv; bars of contacts are
+as many as summary.json says, each grain's too; a PNG has the size that was asked for and shows what the stage shows; linked cameras
+agree; every key does its thing; memory after six second views is what it was; a page without WebGL keeps its words; no message on the
+console, nothing fetched, no serious finding of axe-core (where it is at hand).
+"""
+import argparse
+import base64
+import csv
+import json
+import math
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+from browser import AXE, NO_WEBGL, WEBGL, Browser, axe_source, told
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BEDS = {"ellipsoids": ["--shapes", "ellipsoid:1,0.7,0.5"], "spheres": ["--shapes", "sphere"]}
+VIEW = "clastViews.open[0]"
+AXE_RUN = """axe.run(document).then(r => r.violations.filter(v => ["serious", "critical"].includes(v.impact))
+    .map(v => `${v.id}: ${v.nodes[0].html.slice(0, 160)}`))"""
+
+
+class Page:
+    def __init__(self, browser):
+        self.browser, self.faults = browser, []
+
+    def ask(self, expression):
+        return self.browser.value(expression)
+
+    def settle(self):
+        """Two frames later."""
+        self.ask("new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))")
+
+    def press(self, key, shift=False):
+        self.ask(f"{VIEW}.stage.dispatchEvent(new KeyboardEvent('keydown', {{key: {json.dumps(key)}, shiftKey: {json.dumps(shift)}, bubbles: true}}))")
+        self.settle()
+
+    def hold(self, said, what):
+        if not said:
+            self.faults.append(what)
+
+    def equal(self, got, wanted, what):
+        self.hold(got == wanted, f"{what}: {got}, not {wanted}")
+
+    def close_to(self, got, wanted, tolerance, what):
+        self.hold(abs(got - wanted) <= tolerance * abs(wanted), f"{what}: {got:.6g}, not {wanted:.6g} within {tolerance:.1%}")
+
+    def picture(self, width=1200):
+        """PNG of the view as rows of (r, g, b)."""
+        text = self.ask(f"clastViews.drawPicture({VIEW}, {width}).toDataURL('image/png')")
+        return read_png(base64.b64decode(text.split(",")[1]))
+
+
+def unfilter(kind, line, above, step):
+    out = bytearray(line)
+    for i in range(len(out)):
+        left = out[i - step] if i >= step else 0
+        up = above[i]
+        corner = above[i - step] if i >= step else 0
+        if kind == 1:
+            out[i] = (out[i] + left) & 255
+        elif kind == 2:
+            out[i] = (out[i] + up) & 255
+        elif kind == 3:
+            out[i] = (out[i] + (left + up) // 2) & 255
+        elif kind == 4:
+            guess = left + up - corner
+            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
+            out[i] = (out[i] + near[2]) & 255
+    return out
+
+
+def read_png(data):
+    """Width, height, rows of an 8-bit RGBA picture."""
+    width, height = struct.unpack(">II", data[16:24])
+    packed, at = b"", 8
+    while at < len(data):
+        n, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + n] if kind == b"IDAT" else b""
+        at += 12 + n
+    raw, step = zlib.decompress(packed), 4
+    above, rows = bytearray(step * width), []
+    for y in range(height):
+        begin = y * (step * width + 1)
+        above = unfilter(raw[begin], raw[begin + 1:begin + 1 + step * width], above, step)
+        rows.append(above)
+    return width, height, rows
+
+
+def pixel(rows, x, y):
+    return tuple(rows[y][4 * x:4 * x + 3])
+
+
+def pour(clast, folder):
+    for name, arguments in BEDS.items():
+        subprocess.run([clast, "pack", "--curve", "U1", *arguments, "--mass", "30g", "--width", "40mm", "--shaking-time", "0.05s", "-o", folder / name, "-q"],
+                       check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([clast, "report", folder / "ellipsoids", folder / "spheres", "-o", folder / "page.html"], check=True, stdout=subprocess.DEVNULL)
+
+
+def check_pick(page, folder):
+    """The grain in the middle of the picture, its numbers, and what lies behind it after a cut."""
+    rows = list(csv.DictReader(open(folder / "ellipsoids/grains.csv")))
+    middle = f"{VIEW}.stage.clientWidth / 2, {VIEW}.stage.clientHeight / 2"
+    page.ask(f"{VIEW}.frame()")
+    before = page.ask(f"clastViews.grainAt({VIEW}, {middle})")
+    page.hold(before >= 0, "no grain in the middle of the picture")
+    page.ask(f"clastViews.pick({VIEW}, {before}); {VIEW}.paint()")
+    facts = dict(page.ask(f"[...{VIEW}.facts.querySelectorAll('tr')].map(r => [...r.children].map(c => c.textContent))"))
+    row = rows[before]
+    page.equal(facts["grain"], str(before), "name of the picked grain")
+    page.equal(facts["shape"], row["shape"], "shape of the picked grain")
+    page.equal(facts["density"], "2650 kg/m\u00b3", "density of the picked grain")
+    place = [float(x) for x in facts["centroid x, y, z"].replace(" mm", "").split(", ")]
+    for k, axis in enumerate("xyz"):
+        page.hold(abs(place[k] * 1e-3 - float(row[f"{axis}_m"])) < 6e-6, f"{axis} of the picked grain: {place[k]} mm, not {row[f'{axis}_m']} m")
+    page.press("Escape")
+    page.hold(page.ask(f"{VIEW}.facts.hidden && {VIEW}.picked === -1"), "Escape does not let the grain go")
+    page.press("v")
+    after = page.ask(f"clastViews.grainAt({VIEW}, {middle})")
+    page.hold(after != before and page.ask(f"{VIEW}.cut.axis") == "view", f"behind the cut lies grain {after} as before")
+    page.press("v")
+
+
+def check_contacts(page, folder):
+    summary = json.loads((folder / "ellipsoids/summary.json").read_text())
+    count = page.ask(f"[...{VIEW}.data.contacts.count]")
+    pairs = page.ask(f"{VIEW}.data.contacts.n")
+    walls = page.ask(f"[...{VIEW}.data.contacts.pair].filter(g => g === 0xffffffff).length")
+    page.equal(sum(count), 2 * pairs - walls, "ends of contacts")
+    page.equal([pairs - walls, walls], [summary["n_contact"], summary["n_wall_contact"]], "contacts between grains, with walls")
+    page.press("f")
+    page.equal(page.ask(f"[{VIEW}.chains.visible, {VIEW}.chains.count, {VIEW}.meshes[0].visible]"), [True, pairs, False], "bars of contacts")
+    page.hold("N" in page.ask(f"{VIEW}.legend.textContent"), "the bar of forces has no unit")
+    page.press("f")
+    page.equal(page.ask(f"[{VIEW}.chains.visible, {VIEW}.meshes[0].visible]"), [False, True], "F a second time")
+
+
+def check_cut(page):
+    """A ball cut through at distance d from its middle is a disc of radius sqrt(R^2 - d^2)."""
+    page.ask("""(() => { const v = clastViews.open[0]; window.kept = v.meshes.map(m => m.count);
+        v.meshes.forEach((m, k) => { m.count = k === 0 ? 1 : 0; }); })()""")
+    ball = page.ask("""(() => { const v = clastViews.open[0], p = v.meshes[0].userData.pose; const at = v.meshes[0].position.clone().set(p[0], p[1], p[2]);
+        v.controls.target.copy(at); v.camera.position.copy(at).addScaledVector(at.clone().set(0.3, -0.9, 0.3).normalize(), 8 * p[8]); v.controls.update();
+        return [p[0], p[1], p[2], p[8] / 2]; })()""")
+    page.press("v")
+    radius = page.ask(f"{VIEW}.radius")
+    seen = page.ask(f"(() => {{ const n = {VIEW}.cut.normal; return {ball[0]} * n.x + {ball[1]} * n.y + {ball[2]} * n.z; }})()")
+    depth = 0.5 * ball[3]
+    page.ask(f"{VIEW}.parts.place.step = 'any'; {VIEW}.parts.place.value = {((seen + depth) / (radius * 1.001) + 1) / 2}; {VIEW}.parts.place.dispatchEvent(new Event('input'))")
+    page.settle()
+    width, height, rows = page.picture(800)
+    flat = pixel(rows, width // 2, height // 2)
+    across = sum(1 for x in range(width) if max(abs(a - b) for a, b in zip(pixel(rows, x, height // 2), flat)) <= 2)
+    distance = 8 * 2 * ball[3]
+    per_pixel = 2 * (distance - depth) * math.tan(math.radians(16)) / height
+    page.close_to(across * per_pixel / 2, math.sqrt(ball[3] ** 2 - depth ** 2), 0.02, "radius of a ball's cut")
+    page.press("v")
+    page.ask(f"{VIEW}.meshes.forEach((m, k) => {{ m.count = kept[k]; }}); {VIEW}.frame()")
+
+
+def check_keys(page):
+    place = lambda: page.ask(f"{VIEW}.camera.position.toArray()")
+    for key, shift in (("ArrowLeft", False), ("ArrowUp", False), ("ArrowLeft", True), ("+", False), ("-", False)):
+        before = place()
+        page.press(key, shift)
+        page.hold(place() != before, f"key {key} does nothing")
+    page.ask(f"{VIEW}.frame()")
+    framed = place()
+    page.press("ArrowRight")
+    page.press("0")
+    page.equal(place(), framed, "key 0")
+    colours = set()
+    for _ in range(4):
+        page.press("c")
+        colours.add(page.ask(f"{VIEW}.by"))
+    page.equal(sorted(colours), ["coordination", "order", "shape", "size"], "colours by C")
+    for axis in "xyz":
+        page.press(axis)
+        page.equal(page.ask(f"{VIEW}.cut.axis"), axis, f"key {axis}")
+        page.press(axis)
+    page.equal(page.ask(f"{VIEW}.cut.axis"), "none", "key z a second time")
+
+
+def check_growth(page):
+    n = page.ask(f"{VIEW}.data.n_grain")
+    page.ask(f"{VIEW}.parts.grow.value = 7; {VIEW}.parts.grow.dispatchEvent(new Event('input'))")
+    page.equal(page.ask(f"{VIEW}.meshes.reduce((s, m) => s + m.count, 0)"), 7, "grains shown by the slider")
+    page.hold(page.ask(f"{VIEW}.note.textContent").startswith("7 of "), "the note says how many are shown")
+    page.ask(f"{VIEW}.parts.grow.value = {n}; {VIEW}.parts.grow.dispatchEvent(new Event('input'))")
+
+
+def check_beside(page, pictures):
+    choose = lambda value: page.ask(f"""(() => {{ const s = {VIEW}.box.querySelector('select[aria-label=Beside]'); s.value = {json.dumps(value)};
+        s.dispatchEvent(new Event('change')); }})()""")
+    n = page.ask("clastViews.open.length")
+    choose("0")
+    page.settle()
+    page.equal(page.ask("clastViews.open.length"), n + 1, "views with a second run beside")
+    page.press("ArrowLeft")
+    ratio = page.ask("""(() => { const [a, b] = [clastViews.open[0], clastViews.open[0].second];
+        return Math.abs(a.camera.position.distanceTo(b.camera.position.clone().multiplyScalar(a.radius / b.radius)) / a.camera.position.length()); })()""")
+    page.hold(ratio < 1e-6, f"linked cameras differ by {ratio:.2g}")
+    if pictures:
+        page.browser.picture(pictures / "beside.png")
+    choose("")
+    heap = []
+    for _ in range(6):
+        choose("0")
+        page.settle()
+        choose("")
+        page.settle()
+        page.browser.call("HeapProfiler.collectGarbage")
+        heap.append(page.ask("performance.memory.usedJSHeapSize"))
+    page.equal(page.ask("clastViews.open.length"), n, "views after six second ones")
+    page.hold(heap[-1] < 1.1 * heap[1] + 2e6, f"memory grows: {heap[1] / 1e6:.1f} to {heap[-1] / 1e6:.1f} MB")
+
+
+def check_picture(page, pictures):
+    for width in (300, 2500):
+        wide, high, _ = page.picture(width) if width < 1000 else (*page.ask(f"(() => {{ const c = clastViews.drawPicture({VIEW}, {width}); return [c.width, c.height]; }})()"), 0)
+        page.equal(wide, width, "width of the picture")
+        page.close_to(high / wide, page.ask(f"{VIEW}.stage.clientHeight / {VIEW}.stage.clientWidth"), 0.01, "shape of the picture")
+    if pictures:
+        page.browser.picture(pictures / "view.png")
+
+
+def check_axe(page, axe):
+    if axe:
+        page.ask(axe + "\n0")
+        for found in page.ask(AXE_RUN):
+            page.faults.append(f"axe: {found}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--clast", default=ROOT / "build/release/clast")
+    parser.add_argument("--pictures", type=pathlib.Path)
+    asked = parser.parse_args()
+    if not shutil.which("chromium"):
+        print("view: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
+        return 0
+    began, axe, faults = time.monotonic(), axe_source(), []
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        pour(asked.clast, folder)
+        address = (folder / "page.html").as_uri()
+        browser = Browser(WEBGL)
+        page = Page(browser)
+        browser.call("HeapProfiler.enable")
+        browser.screen(1200, 900, False)
+        browser.open(address)
+        page.ask("document.querySelector('.view').scrollIntoView()")
+        while page.ask("clastViews.open.length") == 0:
+            page.settle()
+        check_pick(page, folder)
+        check_contacts(page, folder)
+        check_keys(page)
+        check_growth(page)
+        check_picture(page, asked.pictures)
+        check_beside(page, asked.pictures)
+        check_axe(page, axe)
+        faults += page.faults + list(told(browser.events))
+        browser.open(address)
+        page = Page(browser)
+        check_ball(page)
+        faults += page.faults
+        browser.close()
+        faults += check_without(address)
+    for fault in faults:
+        print(f"view: {fault}")
+    print(f"view: used in {time.monotonic() - began:.0f} s ({AXE if axe else 'no axe-core here'}), {len(faults)} faults")
+    return 1 if faults else 0
+
+
+def check_ball(page):
+    """The spheres' view, first on its page."""
+    page.ask("document.querySelectorAll('.view')[1].scrollIntoView()")
+    while page.ask("clastViews.open.findIndex(v => v.data.shapes[0].smooth && v.name === 'spheres')") < 0:
+        page.settle()
+    page.ask("clastViews.open.unshift(...clastViews.open.splice(clastViews.open.findIndex(v => v.name === 'spheres'), 1))")
+    check_cut(page)
+
+
+def check_without(address):
+    """The same page in a browser without WebGL."""
+    browser = Browser(NO_WEBGL)
+    browser.open(address)
+    page = Page(browser)
+    page.hold("needs a browser with WebGL" in page.ask("document.querySelector('.view').innerText"), "without WebGL the page does not say what is missing")
+    page.hold(page.ask("document.querySelectorAll('table').length") > 3, "without WebGL the tables are gone")
+    browser.close()
+    return page.faults
+
+
+sys.exit(main())

@@ -1,0 +1,56 @@
+"""clast-live.html, one file that opens from disk: make_live.py BUILD writes BUILD/clast-live.html from web/live, the report's style and BUILD/npm.
+
+The script that runs is named by its digest in the page's policy, the worker is made of the module's text in the page, and clast.wasm
+stands in it compressed; nothing is fetched."""
+import base64
+import gzip
+import hashlib
+import html
+import json
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LIMIT = 3_000_000
+ICON = "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E%3Ccircle cx='6' cy='9' r='5' fill='%230072b2'/%3E%3Ccircle cx='12' cy='4' r='3' fill='%23e69f00'/%3E%3C/svg%3E"
+
+
+def inside(text):
+    """A script's text as an element of the page may hold it."""
+    if "</script" in text.lower() or "<!--" in text:
+        sys.exit("make_live: a script holds the end of its own element")
+    return text
+
+
+def page(build):
+    web = ROOT / "web"
+    script = "\n" + inside((web / "live/live.js").read_text())
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    policy = (f"default-src 'none'; script-src 'sha256-{digest}' blob: 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; "
+              "img-src data: blob:; connect-src blob:; base-uri 'none'; form-action 'none'")
+    program = base64.b64encode(gzip.compress((build / "npm/clast.wasm").read_bytes(), 9, mtime=0)).decode()
+    version = json.loads((build / "npm/package.json").read_text())["version"]
+    style = (web / "page.css").read_text() + (web / "live/live.css").read_text()
+    body = (web / "live/page.html").read_text().replace("{version}", html.escape(version))
+    notice = (build / "npm/NOTICE.txt").read_text()
+    return "\n".join([
+        '<!doctype html>', '<html lang="en">', '<head>', '<meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">', '<meta name="color-scheme" content="light dark">',
+        '<title>clast live: split a cloud</title>', f'<link rel="icon" href="{ICON}">', f"<style>\n{style}</style>", '</head>', '<body>', body,
+        f'<footer><details><summary>Licences</summary><pre>{html.escape((ROOT / "LICENSE").read_text() + chr(10) + notice)}</pre></details></footer>',
+        f'<script type="text/plain" id="clast-module">{inside((build / "npm/clast.mjs").read_text())}</script>',
+        f'<script type="text/plain" id="clast-wasm">{program}</script>', f"<script>{script}</script>", '</body>', '</html>', ''])
+
+
+def main():
+    build = pathlib.Path(sys.argv[1])
+    made = page(build).encode()
+    (build / "clast-live.html").write_bytes(made)
+    print(f"{build / 'clast-live.html'}: {len(made) / 1e3:.0f} kB")
+    if len(made) > LIMIT:
+        sys.exit(f"make_live: the page has {len(made)} bytes, more than {LIMIT}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,515 @@
+// The page's side: the form, the picture and the tables; clast itself runs in a worker made of this page's own text.
+const $ = (id) => document.getElementById(id);
+const SIZE = 640; // of the picture, in its own pixels
+const EDGE = 14;
+const MOST_SHARED = 60000; // letters of an address that browsers keep
+const COLOURS = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'];
+const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#999999'];
+
+const state = {
+  name: null, text: null, columns: [], bounds: null, // the table and what the picture shows of it
+  strokes: [], painting: false, result: null, picked: -1, run: 0,
+};
+let worker = null;
+let program = null;
+
+function bytesOf(base64) {
+  return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+}
+
+async function unzipped(bytes) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+}
+
+function say(text) { $('state').textContent = text; }
+function fail(text) { $('error').textContent = text; }
+
+function newWorker() {
+  const text = `${$('clast-module').textContent}\nconst made = {};\nonmessage = async ({ data }) => {
+  if (data.program) { made.clast = new Clast(data.program); postMessage({ ready: true }); return; }
+  try { postMessage({ id: data.id, result: await made.clast.run(data.words, { files: data.files }) }); }
+  catch (fault) { postMessage({ id: data.id, fault: String(fault) }); }\n};`;
+  const address = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
+  worker = new Worker(address, { type: 'module' });
+  worker.onmessage = ({ data }) => {
+    if (data.ready) { say('ready'); setReady(); } else if (data.id === state.run) finish(data);
+  };
+  worker.onerror = (event) => fail(`the worker ended: ${event.message}`);
+  worker.postMessage({ program });
+}
+
+function setReady() {
+  $('run').disabled = !state.text || !program;
+  $('cancel').disabled = true;
+}
+
+// Points.
+
+/// The numbers of the first columns x, y, z of a table with commas, tabs or blanks, for the picture; clast reads the text itself.
+function glance(text) {
+  const lines = text.split(/\r?\n/).filter((line) => line.trim() && !/^\s*#/.test(line));
+  const cut = (line) => line.trim().split(/[,;\t ]+/);
+  let names = cut(lines[0] ?? '');
+  let first = 1;
+  if (names.every((name) => name !== '' && Number.isFinite(Number(name)))) { names = names.map((_, k) => `column_${k + 1}`); first = 0; }
+  const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split('_')[0] === axis)).filter((k) => k >= 0);
+  const from = wanted.length > 1 ? wanted : names.slice(0, 3).map((_, k) => k);
+  const columns = from.map(() => new Float64Array(lines.length - first));
+  for (let i = first; i < lines.length; i += 1) {
+    const cells = cut(lines[i]);
+    from.forEach((k, axis) => { columns[axis][i - first] = Number(cells[k]); });
+  }
+  return columns.length >= 2 && columns[0].length > 0 && columns.every((c) => c.every(Number.isFinite)) ? columns : [];
+}
+
+/// A box around the points, its corners rounded outwards to two digits of its size.
+function boxAround(columns) {
+  const low = [];
+  const high = [];
+  for (const column of columns) {
+    const least = column.reduce((a, b) => Math.min(a, b), Infinity);
+    const most = column.reduce((a, b) => Math.max(a, b), -Infinity);
+    const unit = 10 ** (Math.floor(Math.log10(most - least || Math.abs(most) || 1)) - 1);
+    const digits = Math.max(0, -Math.round(Math.log10(unit)));
+    low.push(Number((Math.floor(least / unit) * unit).toFixed(digits)));
+    high.push(Number((Math.ceil(most / unit) * unit).toFixed(digits)));
+  }
+  return { low, high };
+}
+
+function setPoints(name, text, domain) {
+  state.name = name;
+  state.text = text;
+  state.columns = typeof text === 'string' ? glance(text) : [];
+  state.result = null;
+  state.picked = -1;
+  $('result').hidden = true;
+  fail('');
+  const d = state.columns.length;
+  const n = d > 0 ? state.columns[0].length : 0;
+  $('given').textContent = n > 0 ? `${name}: ${n} points in ${d} dimensions` : `${name}: no columns to draw before it is split`;
+  if (n > 0) {
+    const box = boxAround(state.columns);
+    $('domain').value = domain ?? `box:${[...box.low, ...box.high].join(',')}`;
+  }
+  const names = 'xyz';
+  const pairs = d > 2 ? [[0, 1], [0, 2], [1, 2]] : [[0, 1]];
+  $('axes').replaceChildren(...pairs.map(([a, b]) => new Option(`${names[a]}, ${names[b]}`, `${a},${b}`)));
+  setReady();
+  draw();
+}
+
+/// Draws that anyone can repeat: a linear congruence modulo 2^32 [Knuth1997 sec. 3.3.4, line 16].
+function draws(seed) {
+  let word = seed >>> 0;
+  return () => { word = (Math.imul(1664525, word) + 1013904223) >>> 0; return word / 2 ** 32; };
+}
+
+function normal(draw) { return Math.sqrt(-2 * Math.log(1 - draw())) * Math.cos(2 * Math.PI * draw()); }
+
+function make(kind) {
+  const draw_ = draws(7);
+  const d = kind === 'cube' ? 3 : 2;
+  const rows = [];
+  while (rows.length < 1200) {
+    const u = Array.from({ length: d }, draw_);
+    if (kind === 'gradient') u[0] = Math.sqrt(u[0]);
+    if (kind !== 'even' && kind !== 'gradient' && rows.length % 3 > 0) {
+      const centre = rows.length % 3 === 1 || kind === 'cube' ? 0.3 : 0.72;
+      for (let k = 0; k < d; k += 1) u[k] = centre + 0.06 * normal(draw_);
+    }
+    if (u.every((c) => c > 0 && c < 1)) rows.push(u.map((c) => c.toFixed(5)).join(','));
+  }
+  setPoints(`${kind}.csv`, `${'x,y,z'.slice(0, 2 * d - 1)}\n${rows.join('\n')}\n`, d === 3 ? 'box:0,0,0,1,1,1' : 'box:0,0,1,1');
+}
+
+function paintedText() {
+  return `x,y\n${state.strokes.flat().join('\n')}\n`;
+}
+
+function usePainted() {
+  $('undo').disabled = state.strokes.length === 0;
+  if (state.strokes.length > 0) setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
+  else { Object.assign(state, { text: null, columns: [], result: null }); $('given').textContent = 'no points yet'; setReady(); draw(); }
+}
+
+// The picture.
+
+function domainBox() {
+  const axes = $('axes').value.split(',').map(Number);
+  const d = state.columns.length || 2;
+  const words = /^box:(.*)$/.exec($('domain').value.trim());
+  const numbers = words ? words[1].split(',').map(Number) : [];
+  if (numbers.length === 2 * d && numbers.every(Number.isFinite)) return axes.map((a) => [numbers[a], numbers[d + a]]);
+  if (d > 0 && state.columns.length > 0) { const box = boxAround(state.columns); return axes.map((a) => [box.low[a], box.high[a]]); }
+  return [[0, 1], [0, 1]];
+}
+
+/// Pixels of a place: one scale for both axes, y upwards.
+function scaleOf() {
+  const [[x0, x1], [y0, y1]] = domainBox();
+  const scale = (SIZE - 2 * EDGE) / Math.max(x1 - x0, y1 - y0, Number.MIN_VALUE);
+  const left = (SIZE - scale * (x1 - x0)) / 2;
+  const foot = (SIZE + scale * (y1 - y0)) / 2;
+  return { x: (v) => left + scale * (v - x0), y: (v) => foot - scale * (v - y0), inverse: (px, py) => [x0 + (px - left) / scale, y0 + (foot - py) / scale] };
+}
+
+function mix(place) {
+  const at = Math.min(Math.max(place, 0), 1) * (COLOURS.length - 1);
+  const k = Math.min(Math.floor(at), COLOURS.length - 2);
+  const part = (word, i) => parseInt(word.slice(1 + 2 * i, 3 + 2 * i), 16);
+  return `rgb(${[0, 1, 2].map((i) => Math.round(part(COLOURS[k], i) + (at - k) * (part(COLOURS[k + 1], i) - part(COLOURS[k], i)))).join(' ')})`;
+}
+
+function valuesOf(cells, by) {
+  if (by === 'value') return cells.events ?? cells.pair_integral;
+  return cells[by];
+}
+
+/// Colour of each cell, and the legend's two ends: a logarithmic scale where all values are above 0.
+function colouring(cells) {
+  const by = $('colour').value;
+  const values = valuesOf(cells, by);
+  if (by === 'label') return { of: (i) => LABELS[values[i] % LABELS.length], ends: null };
+  const isLog = values.every((v) => v > 0);
+  const f = isLog ? Math.log : (v) => v;
+  const low = values.reduce((a, b) => Math.min(a, b), Infinity);
+  const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
+  const place = (v) => (f(high) > f(low) ? (f(v) - f(low)) / (f(high) - f(low)) : 0.5);
+  return { of: (i) => mix(place(values[i])), ends: [low, high, isLog] };
+}
+
+function isFlat(cells) { return !('z_low_m' in cells); }
+
+function cornersOf(cells) {
+  const axes = $('axes').value.split(',').map(Number).map((a) => 'xyz'[a]);
+  const at = axes.map((a) => [cells[`${a}_low_m`], cells[`${a}_high_m`]]);
+  return at.every(([low]) => low) ? at : null;
+}
+
+function drawCells(c, s) {
+  const { cells } = state.result;
+  const at = cornersOf(cells);
+  if (!at) return;
+  const paint = colouring(cells);
+  for (let i = 0; i < at[0][0].length; i += 1) {
+    const box = [s.x(at[0][0][i]), s.y(at[1][1][i]), s.x(at[0][1][i]) - s.x(at[0][0][i]), s.y(at[1][0][i]) - s.y(at[1][1][i])];
+    c.globalAlpha = isFlat(cells) ? 0.75 : 0.12;
+    c.fillStyle = paint.of(i);
+    c.fillRect(...box);
+    c.globalAlpha = 1;
+    c.strokeStyle = i === state.picked ? '#d55e00' : '#80808080';
+    c.lineWidth = i === state.picked ? 4 : 1;
+    c.strokeRect(...box);
+  }
+  const number = (v) => Number(v.toPrecision(3)).toString();
+  $('legend').style.backgroundImage = paint.ends ? `linear-gradient(90deg, ${COLOURS.join(',')})` : 'none';
+  $('legend').replaceChildren(...(paint.ends
+    ? [number(paint.ends[0]), `${$('colour').selectedOptions[0].text}${paint.ends[2] ? ' (logarithmic)' : ''}`, number(paint.ends[1])]
+    : ['label 0 to 7, one colour each']).map((t) => Object.assign(document.createElement('span'), { textContent: t })));
+}
+
+function draw() {
+  const canvas = $('picture');
+  const c = canvas.getContext('2d');
+  const style = getComputedStyle(document.documentElement);
+  const s = scaleOf();
+  const axes = $('axes').value.split(',').map(Number);
+  c.clearRect(0, 0, SIZE, SIZE);
+  $('legend').replaceChildren();
+  $('legend').style.backgroundImage = 'none';
+  if (state.result) drawCells(c, s);
+  const [[x0, x1], [y0, y1]] = domainBox();
+  c.strokeStyle = style.getPropertyValue('--soft');
+  c.lineWidth = 1.5;
+  c.strokeRect(s.x(x0), s.y(y1), s.x(x1) - s.x(x0), s.y(y0) - s.y(y1));
+  if (state.columns.length > 0) {
+    const n = state.columns[0].length;
+    const r = n > 20000 ? 0.6 : n > 3000 ? 1 : 1.6;
+    c.fillStyle = style.getPropertyValue('--ink');
+    c.globalAlpha = n > 20000 ? 0.4 : 0.85;
+    for (let i = 0; i < n; i += 1) c.fillRect(s.x(state.columns[axes[0]][i]) - r, s.y(state.columns[axes[1]][i]) - r, 2 * r, 2 * r);
+    c.globalAlpha = 1;
+    canvas.setAttribute('aria-label', `${n} points${state.result ? ` in ${state.result.json.n_cell} cells` : ''}`);
+  } else canvas.setAttribute('aria-label', 'no points yet');
+}
+
+function pick(i) {
+  const { cells } = state.result;
+  const n = cells.count.length;
+  state.picked = ((i % n) + n) % n;
+  const k = state.picked;
+  const name = cells.events ? 'events' : 'pair integral';
+  $('picked').textContent = `cell ${k} of ${n}: ${cells.count[k]} points, density ${cells.density[k].toPrecision(4)} 1/m^${isFlat(cells) ? 2 : 3}, `
+    + `${name} ${(cells.events ?? cells.pair_integral)[k].toPrecision(4)}${cells.label ? `, label ${cells.label[k]} of pass ${cells.pass[k]}` : ''}`;
+  draw();
+}
+
+function pointAt(event) {
+  const box = $('picture').getBoundingClientRect();
+  return scaleOf().inverse((event.clientX - box.left) * SIZE / box.width, (event.clientY - box.top) * SIZE / box.height);
+}
+
+function pickAt(event) {
+  const at = state.result && cornersOf(state.result.cells);
+  if (!at) return;
+  const [x, y] = pointAt(event);
+  let best = -1;
+  let least = Infinity;
+  for (let i = 0; i < at[0][0].length; i += 1) {
+    const inside = x >= at[0][0][i] && x < at[0][1][i] && y >= at[1][0][i] && y < at[1][1][i];
+    const area = (at[0][1][i] - at[0][0][i]) * (at[1][1][i] - at[1][0][i]);
+    if (inside && area < least) { best = i; least = area; }
+  }
+  if (best >= 0 && best !== state.picked) pick(best);
+}
+
+function spray(event) {
+  const [x, y] = pointAt(event);
+  const stroke = state.strokes[state.strokes.length - 1];
+  for (let k = 0; k < 6; k += 1) {
+    const p = [x + 0.03 * normal(Math.random), y + 0.03 * normal(Math.random)];
+    if (p.every((c) => c > 0 && c < 1)) stroke.push(p.map((c) => c.toFixed(4)).join(','));
+  }
+  setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
+}
+
+// Running.
+
+function wordsNow() {
+  const words = ['decompose', state.name, `--domain=${$('domain').value.trim()}`];
+  for (const key of ['variant', 'mesh', 'beta_dt']) {
+    const value = $(key).value.trim();
+    if (value) words.push(`--${key.replace('_', '-')}=${value}`);
+  }
+  return [...words, ...$('more').value.trim().split(/\s+/).filter(Boolean), '-o', 'cells', '--json'];
+}
+
+function start() {
+  fail('');
+  state.run += 1;
+  state.words = wordsNow();
+  state.begun = performance.now();
+  $('run').disabled = true;
+  $('cancel').disabled = false;
+  say('computing');
+  worker.postMessage({ id: state.run, words: state.words, files: { [state.name]: state.text } });
+}
+
+function cancel() {
+  worker.terminate();
+  state.run += 1;
+  say('cancelled');
+  newWorker();
+}
+
+async function finish({ result, fault }) {
+  const seconds = (performance.now() - state.begun) / 1000;
+  setReady();
+  if (fault || result.status > 1 || !result.stdout) {
+    say('');
+    fail(fault ?? (result.stderr.trim().split('\n').pop() || `clast ended with code ${result.status}`));
+    return;
+  }
+  say(`done in ${seconds.toFixed(2)} s`);
+  const text = (name) => new TextDecoder().decode(result.files[name]);
+  state.result = { json: JSON.parse(result.stdout), files: result.files, cells: columnsOf(text('cells/cells.csv')) };
+  state.picked = -1;
+  $('colour').querySelector('[value=label]').disabled = !state.result.cells.label;
+  if (!state.result.cells.label && $('colour').value === 'label') $('colour').value = 'density';
+  await show();
+  draw();
+}
+
+function columnsOf(text) {
+  const lines = text.split('\n').filter((line) => line && !line.startsWith('#'));
+  const names = lines[0].split(',');
+  const rows = lines.slice(1).map((line) => line.split(',').map(Number));
+  return Object.fromEntries(names.map((name, k) => [name, rows.map((row) => row[k])]));
+}
+
+function tag(name, text, className) {
+  return Object.assign(document.createElement(name), { textContent: text, className: className ?? '' });
+}
+
+function fillTable(table, heads, rows) {
+  const head = tag('tr', '');
+  head.append(...heads.map((h, k) => Object.assign(tag('th', h, k > 0 ? 'n' : ''), { scope: 'col' })));
+  table.replaceChildren(head, ...rows.map((row) => {
+    const line = tag('tr', '');
+    line.append(...row.map((cell, k) => tag('td', cell, k > 0 ? 'n' : '')));
+    return line;
+  }));
+}
+
+function figure(value, name) {
+  const box = tag('div', '', 'figure');
+  box.append(tag('b', value), tag('span', name));
+  return box;
+}
+
+function short(v) { return v === null || v === undefined ? '-' : typeof v === 'number' ? Number(v.toPrecision(5)).toString() : String(v); }
+
+function commandNow() {
+  const quote = (w) => (/^[\w@%+=:,./-]+$/.test(w) ? w : `'${w.replaceAll("'", "'\\''")}'`);
+  return ['clast', ...state.words.filter((w) => w !== '--json')].map(quote).join(' ');
+}
+
+async function show() {
+  const r = state.result.json;
+  const key = r.events === null ? 'pair_integral' : 'events';
+  const unit = r.events === null ? ` ${r.pair_integral_unit}` : '';
+  $('figures').replaceChildren(
+    figure(short(r.n), `points in ${r.dimension} dimensions`), figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'),
+    figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
+    figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}` : `above ${short(r[`${key}_low`])}`,
+      r.resolved ? '95 % interval' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
+  fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), short(t.p), t.reject ? 'rejects' : '']));
+  $('stop').textContent = r.stop ?? '';
+  $('passes_card').hidden = !(r.passes?.length > 0);
+  fillTable($('passes'), ['bins', 'threshold', 'score', 'expected'], (r.passes ?? []).map((p) => [p.bins.join(' x '), short(p.lambda), short(p.score), short(p.ideal_score)]));
+  $('command').textContent = commandNow();
+  const digest = globalThis.crypto?.subtle ? await crypto.subtle.digest('SHA-256', state.result.files['cells/cells.csv']) : null;
+  $('hash').textContent = digest ? [...new Uint8Array(digest)].map((b) => b.toString(16).padStart(2, '0')).join('') : 'not known to this browser';
+  $('result').hidden = false;
+}
+
+// Files out.
+
+function crc32(bytes) {
+  let crc = -1;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let k = 0; k < 8; k += 1) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
+}
+
+/// A zip of stored files [APPNOTE 6.3.9]; its times are those of 1980.
+function zipOf(files) {
+  const parts = [];
+  const list = [];
+  let at = 0;
+  for (const [name, content] of Object.entries(files)) {
+    const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : content;
+    const path = new TextEncoder().encode(name);
+    const common = new DataView(new ArrayBuffer(26));
+    [[0, 20, 2], [2, 0x800, 2], [4, 0, 2], [6, 0, 2], [8, 33, 2], [10, crc32(bytes), 4], [14, bytes.length, 4], [18, bytes.length, 4], [22, path.length, 2]]
+      .forEach(([place, value, size]) => (size === 2 ? common.setUint16(place, value, true) : common.setUint32(place, value, true)));
+    const place = new DataView(new ArrayBuffer(16));
+    place.setUint32(12, at, true);
+    parts.push(new Uint8Array([80, 75, 3, 4]), new Uint8Array(common.buffer), path, bytes);
+    list.push(new Uint8Array([80, 75, 1, 2, 20, 0]), new Uint8Array(common.buffer), new Uint8Array(place.buffer).subarray(2), path);
+    at += 30 + path.length + bytes.length;
+  }
+  const size = list.reduce((n, part) => n + part.length, 0);
+  const end = new DataView(new ArrayBuffer(22));
+  end.setUint32(0, 0x06054b50, true);
+  end.setUint16(8, Object.keys(files).length, true);
+  end.setUint16(10, Object.keys(files).length, true);
+  end.setUint32(12, size, true);
+  end.setUint32(16, at, true);
+  return new Blob([...parts, ...list, end.buffer], { type: 'application/zip' });
+}
+
+function save(blob, name) {
+  const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+function shared() {
+  const kept = { name: state.name, text: state.text, domain: $('domain').value };
+  for (const key of ['variant', 'mesh', 'beta_dt', 'more']) kept[key] = $(key).value;
+  return btoa(String.fromCharCode(...new TextEncoder().encode(JSON.stringify(kept)))).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+}
+
+function open(fragment) {
+  const match = /^#split=([\w-]+)$/.exec(fragment);
+  if (!match) return;
+  try {
+    const kept = JSON.parse(new TextDecoder().decode(bytesOf(match[1].replaceAll('-', '+').replaceAll('_', '/'))));
+    setPoints(String(kept.name), String(kept.text), String(kept.domain));
+    for (const key of ['variant', 'mesh', 'beta_dt', 'more']) $(key).value = String(kept[key] ?? '');
+  } catch (fault) {
+    fail(`the address of this page is damaged: ${fault.message}`);
+  }
+}
+
+async function copy(text, done) {
+  try { await navigator.clipboard.writeText(text); say(done); } catch { say('the browser did not let it be copied'); }
+}
+
+async function take(file) {
+  if (!file) return;
+  const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
+  const name = file.name.replace(/^[-/\\]+|[/\\\0]/g, '_') || 'points';
+  setPoints(name, isText ? await file.text() : new Uint8Array(await file.arrayBuffer()));
+}
+
+function listen() {
+  $('form').addEventListener('submit', (event) => { event.preventDefault(); if (!$('run').disabled) start(); });
+  $('cancel').addEventListener('click', cancel);
+  $('file').addEventListener('change', () => take($('file').files[0]));
+  document.querySelectorAll('[data-make]').forEach((b) => b.addEventListener('click', () => make(b.dataset.make)));
+  for (const kind of ['dragover', 'dragleave', 'drop']) {
+    document.addEventListener(kind, (event) => {
+      event.preventDefault();
+      $('drop').classList.toggle('over', kind === 'dragover');
+      if (kind === 'drop') take(event.dataTransfer.files[0]);
+    });
+  }
+  $('paint').addEventListener('click', () => {
+    state.painting = !state.painting;
+    $('paint').setAttribute('aria-pressed', String(state.painting));
+    if (state.painting) usePainted();
+  });
+  $('undo').addEventListener('click', () => { state.strokes.pop(); usePainted(); });
+  $('clear').addEventListener('click', () => { state.strokes = []; usePainted(); });
+  const picture = $('picture');
+  picture.addEventListener('pointerdown', (event) => {
+    if (!state.painting) return;
+    picture.setPointerCapture(event.pointerId);
+    state.strokes.push([]);
+    $('undo').disabled = false;
+    spray(event);
+  });
+  picture.addEventListener('pointermove', (event) => {
+    if (!state.painting) pickAt(event);
+    else if (event.buttons > 0) spray(event);
+  });
+  picture.addEventListener('keydown', (event) => {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (step && state.result) { event.preventDefault(); pick(state.picked + step); }
+  });
+  for (const id of ['colour', 'axes', 'domain']) $(id).addEventListener('change', draw);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  $('copy').addEventListener('click', () => copy(commandNow(), 'copied'));
+  $('zip').addEventListener('click', () => save(zipOf({ [state.name]: state.text, ...state.result.files }), 'cells.zip'));
+  $('share').addEventListener('click', () => {
+    const word = typeof state.text === 'string' ? shared() : '';
+    if (!word || word.length > MOST_SHARED) { say('these points are too many for an address; take the zip'); return; }
+    location.hash = `split=${word}`;
+    copy(location.href, 'copied');
+  });
+}
+
+async function begin() {
+  listen();
+  draw();
+  open(location.hash);
+  if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') {
+    say('');
+    fail('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 80, Firefox 113, Safari 16.4)');
+    return;
+  }
+  try {
+    program = await WebAssembly.compile(await unzipped(bytesOf($('clast-wasm').textContent.trim())));
+    newWorker();
+  } catch (fault) {
+    say('');
+    fail(`clast could not be loaded: ${fault.message}`);
+  }
+}
+
+begin();

@@ -1,0 +1,204 @@
+// What the user can press, turn and type.
+import { moveCut, setCut } from './cut.js';
+import { makeChains } from './chains.js';
+import { showFirst } from './grains.js';
+import { drawLegend, tag } from './legend.js';
+import { grainAt, pick } from './pick.js';
+import { MAX_WIDTH, MIN_WIDTH, savePicture } from './picture.js';
+
+const COLOURS = [['size', 'Colour by size'], ['order', 'Colour by order'], ['shape', 'Colour by shape'],
+  ['coordination', 'Colour by contacts']];
+const CUTS = [['none', 'No cut'], ['view', 'Cut in view'], ['x', 'Cut across x'], ['y', 'Cut across y'], ['z', 'Cut across z']];
+const KEYS = 'Arrow keys turn, Shift and arrow keys move, + and - zoom, 0 frames all, C changes colours, X Y Z V cut, F shows contacts, '
+  + 'P saves a picture, Escape lets a grain go.';
+const TURN = Math.PI / 24; // rad a key
+const CLICK = 4; // px that a click may move
+
+function button(text, title, action) {
+  const made = tag('button', '', text);
+  made.type = 'button';
+  made.title = title;
+  made.addEventListener('click', action);
+  return made;
+}
+
+function choice(title, options, action) {
+  const made = tag('select');
+  made.title = title;
+  made.setAttribute('aria-label', title);
+  for (const [value, text] of options) {
+    const option = tag('option', '', text);
+    option.value = value;
+    made.append(option);
+  }
+  made.addEventListener('change', () => action(made.value));
+  return made;
+}
+
+function range(title, low, high, step, value, action) {
+  const made = tag('input');
+  Object.assign(made, { type: 'range', min: low, max: high, step, value, title });
+  made.setAttribute('aria-label', title);
+  made.addEventListener('input', () => action(Number(made.value)));
+  return made;
+}
+
+function grow(view, n) {
+  view.shown = n;
+  showFirst(view.chains ? [...view.meshes, view.chains] : view.meshes, n);
+  const drawn = n === view.data.n_grain ? '' : `${n.toLocaleString('en')} of `;
+  view.note.textContent = `${drawn}${view.data.n_grain.toLocaleString('en')} grains`;
+  view.draw();
+}
+
+/// Runs the slider from the first grain to the last in about six seconds.
+function play(view, slider) {
+  const start = performance.now();
+  view.playing = !view.playing;
+  const step = (now) => {
+    const t = Math.min((now - start) / 6000, 1);
+    if (!view.playing || !view.renderer) return;
+    slider.value = Math.max(1, Math.round(t * Number(slider.max)));
+    grow(view, Number(slider.value));
+    if (t < 1) requestAnimationFrame(step);
+    else view.playing = false;
+  };
+  requestAnimationFrame(step);
+}
+
+function colour(view, by) {
+  view.by = by;
+  if (view.chains?.visible) showChains(view, false);
+  view.parts.colour.value = by;
+  view.paint();
+}
+
+function cut(view, axis) {
+  setCut(view, axis);
+  view.parts.cut.value = axis;
+  view.parts.place.hidden = axis === 'none';
+  view.draw();
+}
+
+/// Contacts in place of the grains' surfaces.
+function showChains(view, isOn) {
+  if (isOn && !view.chains) {
+    view.chains = makeChains(view);
+    view.scene.add(view.chains);
+    showFirst([view.chains], view.shown);
+  }
+  if (view.chains) view.chains.visible = isOn;
+  for (const mesh of view.meshes) mesh.visible = !isOn;
+  if (isOn) pick(view, -1);
+  view.parts.chains.setAttribute('aria-pressed', String(isOn));
+  drawLegend(view);
+  view.draw();
+}
+
+function toggleChains(view) {
+  if (view.data.contacts) showChains(view, !view.chains?.visible);
+}
+
+function dark(view, isDark) {
+  view.dark = isDark;
+  view.stage.classList.toggle('dark', isDark);
+  view.background();
+  view.draw();
+}
+
+/// Width in pixels and the button that saves.
+function pictureControls(view) {
+  const width = tag('input');
+  Object.assign(width, { type: 'number', min: MIN_WIDTH, max: MAX_WIDTH, value: 2400, step: 100, title: 'Width of the picture in pixels' });
+  width.setAttribute('aria-label', width.title);
+  view.parts.width = width;
+  return [button('Save PNG', 'Save this view as a PNG', () => savePicture(view, Number(width.value))), width, tag('span', 'view-note', 'px wide')];
+}
+
+function linkControls(view, others) {
+  if (others.length === 0) return [];
+  const box = tag('input');
+  const label = tag('label', 'view-key', 'Same camera in all views');
+  box.type = 'checkbox';
+  box.addEventListener('change', () => { view.isLinked = box.checked; view.share(); });
+  label.prepend(box);
+  view.parts.link = box;
+  view.parts.beside = choice('Beside', [['', 'Beside it \u2026'], ...others.map((o, k) => [String(k), o.name])],
+    (value) => view.beside(value === '' ? null : others[Number(value)]));
+  return [label, view.parts.beside];
+}
+
+export function makeControls(view, others) {
+  const { data } = view;
+  const bar = tag('div', 'view-controls');
+  const parts = {
+    colour: choice('Colour', COLOURS.filter(([key]) => data[key]), (by) => colour(view, by)),
+    grow: range('Growth: grains in order of placement', 1, data.n_shown, 1, data.n_shown, (n) => grow(view, n)),
+    cut: choice('Cut', CUTS, (axis) => cut(view, axis)),
+    place: range('Place of the cut', 0, 1, 0.002, 0.5, (place) => { moveCut(view, place); view.draw(); }),
+    chains: button(data.contacts?.force ? 'Force chains' : 'Contacts', 'Show contacts in place of the grains', () => toggleChains(view)),
+  };
+  view.parts = parts;
+  parts.colour.value = view.by;
+  parts.place.hidden = true;
+  parts.chains.setAttribute('aria-pressed', 'false');
+  bar.append(parts.colour, button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow)), parts.grow, view.note, parts.cut, parts.place);
+  if (data.contacts) bar.append(parts.chains);
+  bar.append(button('Reset view', 'Frame everything', () => { view.frame(); view.draw(); }),
+    button('Light / dark', 'Change the background', () => dark(view, !view.dark)), ...pictureControls(view), ...linkControls(view, others));
+  return bar;
+}
+
+/// Turns, moves or zooms by a key; false for other keys.
+function moveByKey(view, key, isShifted) {
+  const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const arrow = arrows[key];
+  if (arrow && isShifted) view.pan(0.08 * arrow[0], 0.08 * arrow[1]);
+  else if (arrow) view.turn(TURN * arrow[0], TURN * arrow[1]);
+  else if (key === '+' || key === '=') view.zoom(1 / 1.15);
+  else if (key === '-') view.zoom(1.15);
+  else if (key === '0' || key === 'Home') view.frame();
+  else return false;
+  return true;
+}
+
+function actByKey(view, key) {
+  const { data } = view;
+  const colours = COLOURS.map(([name]) => name).filter((name) => data[name]);
+  const axis = { x: 'x', y: 'y', z: 'z', v: 'view' }[key];
+  if (axis) cut(view, view.cut.axis === axis ? 'none' : axis);
+  else if (key === 'c') colour(view, colours[(colours.indexOf(view.by) + 1) % colours.length]);
+  else if (key === 'f') toggleChains(view);
+  else if (key === 'p') savePicture(view, Number(view.parts.width.value));
+  else if (key === 'escape') pick(view, -1);
+  else return false;
+  view.paint();
+  return true;
+}
+
+/// Keys and clicks on the stage.
+export function listen(view) {
+  const { stage } = view;
+  let down = null;
+  stage.tabIndex = 0;
+  stage.setAttribute('role', 'application');
+  stage.setAttribute('aria-label', `3-D view of ${view.data.n_grain.toLocaleString('en')} grains. ${KEYS}`);
+  stage.title = '';
+  stage.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (moveByKey(view, event.key, event.shiftKey) || actByKey(view, event.key.toLowerCase())) {
+      event.preventDefault();
+      view.draw();
+    }
+  });
+  stage.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
+  stage.addEventListener('pointerup', (event) => {
+    if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > CLICK || view.chains?.visible) return;
+    const box = stage.getBoundingClientRect();
+    pick(view, grainAt(view, event.clientX - box.left, event.clientY - box.top));
+    view.paint();
+    view.draw();
+  });
+}
+
+export { grow };

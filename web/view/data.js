@@ -1,0 +1,68 @@
+// What the page holds of an assembly, decoded.
+//
+// Per run a <script type="application/json" class="view-data"> with
+//   {unit, length, n_grain, n_shown, bar, size, order, shape, shape_name, id, shapes: [{name, colour, smooth, position, index, grain,
+//    pose}], contact}
+// bar: colours from low to high; size, order: {title, log, low, high, unit, ticks: [[place, text]]}, the colour bars of a picture of
+// the same run (size times unit is on its scale; no `size`: grains without volume); shape: colours, shapes[].colour says which;
+// id: names of the grains where they are not 0, 1, 2 ..; position: base64 of float32 [n][3] in the shape's frame; index: base64 of
+// uint32 [n][3]; grain: base64 of uint32 [m], the grain's place in the order of growth;
+// pose: base64 of float32 [m][10]: position[3], quaternion w x y z [4], scale, size, density [kg/m3];
+// contact: {pair: base64 of uint32 [c][2] (second 0xffffffff: a wall), branch: base64 of float32 [c][3] from the first grain's centroid
+// to the second's or to the wall, force: base64 of float32 [c] in N, or null}. Lengths are in `length` units.
+import { Color } from 'three';
+
+export const POSE = 10;
+export const WALL = 0xffffffff;
+
+function bytes(text) {
+  const raw = atob(text);
+  const out = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i += 1) out[i] = raw.charCodeAt(i);
+  return out.buffer;
+}
+
+export const floats = (text) => new Float32Array(bytes(text));
+export const words = (text) => new Uint32Array(bytes(text));
+
+/// When a contact came to be in the order of growth: with its later grain.
+function laterGrain(pair, c) {
+  return pair[2 * c + 1] === WALL ? pair[2 * c] : Math.max(pair[2 * c], pair[2 * c + 1]);
+}
+
+/// Contacts in order of growth, and each grain's number of them and greatest force.
+function readContacts(data) {
+  if (!data.contact) return null;
+  const given = { pair: words(data.contact.pair), branch: floats(data.contact.branch), force: data.contact.force && floats(data.contact.force) };
+  const order = [...given.pair.subarray(given.pair.length / 2).keys()].sort((a, b) => laterGrain(given.pair, a) - laterGrain(given.pair, b));
+  const pair = Uint32Array.from(order.flatMap((c) => [given.pair[2 * c], given.pair[2 * c + 1]]));
+  const branch = Float32Array.from(order.flatMap((c) => [...given.branch.subarray(3 * c, 3 * c + 3)]));
+  const force = given.force && Float32Array.from(order, (c) => given.force[c]);
+  const later = Uint32Array.from(order, (c) => laterGrain(given.pair, c));
+  const count = new Uint32Array(data.n_shown);
+  const most = new Float32Array(data.n_shown);
+  for (let c = 0; c < pair.length / 2; c += 1) {
+    for (const g of [pair[2 * c], pair[2 * c + 1]]) {
+      if (g === WALL) continue;
+      count[g] += 1;
+      if (force) most[g] = Math.max(most[g], force[c]);
+    }
+  }
+  return { pair, branch, force, later, count, most, n: order.length };
+}
+
+/// A bar of whole numbers from 0 on.
+function countBar(title, most) {
+  const step = Math.max(1, Math.ceil(most / 8));
+  const ticks = [];
+  for (let k = 0; k <= most; k += step) ticks.push([k / Math.max(most, 1), String(k)]);
+  return { title, log: false, low: 0, high: Math.max(most, 1), unit: 1, ticks };
+}
+
+export function readData(element) {
+  const data = JSON.parse(element.textContent);
+  data.colours = data.bar.map((c) => new Color(c));
+  data.contacts = readContacts(data);
+  if (data.contacts) data.coordination = countBar('contacts of a grain', data.contacts.count.reduce((a, b) => Math.max(a, b), 0));
+  return data;
+}

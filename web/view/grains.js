@@ -1,0 +1,143 @@
+// Grains: one instanced mesh a shape, coloured, grown to a number, cut through.
+import {
+  BufferAttribute, BufferGeometry, Color, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, ShaderChunk, Vector3,
+} from 'three';
+import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+import { floats, POSE, words } from './data.js';
+
+const CREASE = 0.6; // rad: sharper edges stay edges
+const TINT = new Color('#c9b79c'); // grains of one size, as in pictures
+const PICKED = new Color('#d55e00');
+
+function geometryOf(shape) {
+  const plain = new BufferGeometry();
+  plain.setAttribute('position', new BufferAttribute(floats(shape.position), 3));
+  plain.setIndex(new BufferAttribute(words(shape.index), 1));
+  if (!shape.smooth) return toCreasedNormals(plain, CREASE);
+  plain.computeVertexNormals();
+  return plain;
+}
+
+/// A chunk of three's with its place of clipping taken inside the triangle: at a pixel that a triangle on edge half covers, the place
+/// of the pixel's middle may lie far beyond the plane.
+function inside(shader, name) {
+  return shader.replace(`#include <${name}>`, ShaderChunk[name].replace('varying vec3', 'centroid varying vec3'));
+}
+
+/// What is seen of a cut grain from inside is the back of its surface; where a ray meets that first, the plane has cut a solid there.
+/// Lit as the plane it is, it is the cut's face, exact for grains that do not overlap.
+function materialOf(cap) {
+  const material = new MeshStandardMaterial({ roughness: 0.72, metalness: 0.02 });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.capNormal = cap;
+    shader.vertexShader = inside(shader.vertexShader, 'clipping_planes_pars_vertex');
+    const fragment = inside(shader.fragmentShader, 'clipping_planes_pars_fragment');
+    shader.fragmentShader = `uniform vec3 capNormal;\n${fragment}`.replace('#include <normal_fragment_maps>',
+      '#include <normal_fragment_maps>\nif (!gl_FrontFacing) normal = capNormal;');
+  };
+  return material;
+}
+
+function meshOf(shape, cap) {
+  const pose = floats(shape.pose);
+  const grain = words(shape.grain);
+  const mesh = new InstancedMesh(geometryOf(shape), materialOf(cap), grain.length);
+  const matrix = new Matrix4();
+  const at = new Vector3();
+  const turn = new Quaternion();
+  const scale = new Vector3();
+  for (let i = 0; i < grain.length; i += 1) {
+    const p = pose.subarray(POSE * i, POSE * (i + 1));
+    at.set(p[0], p[1], p[2]);
+    turn.set(p[4], p[5], p[6], p[3]);
+    scale.setScalar(p[7]);
+    mesh.setMatrixAt(i, matrix.compose(at, turn, scale));
+  }
+  mesh.frustumCulled = false;
+  mesh.userData = { grain, pose, shape };
+  return mesh;
+}
+
+/// Meshes of all shapes; `cap` {value: Vector3} is the cut's normal as the camera sees it.
+export function makeGrains(data, cap) {
+  return data.shapes.map((shape) => meshOf(shape, cap));
+}
+
+/// Radius about the origin that holds all grains.
+export function radiusOf(meshes) {
+  let r = 0;
+  for (const mesh of meshes) {
+    mesh.geometry.computeBoundingSphere();
+    const own = mesh.geometry.boundingSphere.radius + mesh.geometry.boundingSphere.center.length();
+    const { pose, grain } = mesh.userData;
+    for (let i = 0; i < grain.length; i += 1) {
+      const p = POSE * i;
+      r = Math.max(r, Math.hypot(pose[p], pose[p + 1], pose[p + 2]) + own * pose[p + 7]);
+    }
+  }
+  return r || 1;
+}
+
+export function isWide(bar) {
+  return bar.high > 1.01 * bar.low;
+}
+
+/// Place of a value on a colour bar.
+export function placeOf(bar, value) {
+  return bar.log ? Math.log(value / bar.low) / Math.log(bar.high / bar.low) : (value - bar.low) / (bar.high - bar.low);
+}
+
+export function colourAt(colours, t, out) {
+  const x = Math.min(Math.max(t, 0), 1) * (colours.length - 1);
+  const i = Math.min(Math.floor(x), colours.length - 2);
+  return out.copy(colours[i]).lerp(colours[i + 1], x - i);
+}
+
+/// What a colour stands for: a grain's value on the bar `by`.
+function valueOf(data, by, mesh, i) {
+  const g = mesh.userData.grain[i];
+  if (by === 'order') return g + 1;
+  if (by === 'coordination') return data.contacts.count[g];
+  return mesh.userData.pose[POSE * i + 8] * data.size.unit;
+}
+
+export function paintGrains(view) {
+  const { meshes, data, by } = view;
+  const colour = new Color();
+  const single = by !== 'shape' && !isWide(data[by]);
+  for (const mesh of meshes) {
+    const { grain, shape } = mesh.userData;
+    for (let i = 0; i < grain.length; i += 1) {
+      if (grain[i] === view.picked) colour.copy(PICKED);
+      else if (by === 'shape') colour.set(data.shape[shape.colour]);
+      else if (single) colour.copy(TINT);
+      else colourAt(data.colours, placeOf(data[by], valueOf(data, by, mesh, i)), colour);
+      mesh.setColorAt(i, colour);
+    }
+    mesh.instanceColor.needsUpdate = true;
+  }
+}
+
+/// Shows the grains placed before `n`.
+export function showFirst(meshes, n) {
+  for (const mesh of meshes) {
+    const { grain } = mesh.userData;
+    let low = 0;
+    let high = grain.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (grain[middle] < n) low = middle + 1;
+      else high = middle;
+    }
+    mesh.count = low;
+  }
+}
+
+/// A grain's numbers.
+export function findGrain(meshes, g) {
+  for (const mesh of meshes) {
+    const i = mesh.userData.grain.indexOf(g);
+    if (i >= 0) return { shape: mesh.userData.shape, pose: mesh.userData.pose.subarray(POSE * i, POSE * (i + 1)) };
+  }
+  return null;
+}

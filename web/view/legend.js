@@ -1,0 +1,84 @@
+// What colours mean, and how long a length is.
+import { isWide } from './grains.js';
+import { length, roundBelow } from './units.js';
+
+const BAR = 260; // px: width of the colour bar, as in page.css
+const MAX_SCALE = 160; // px: longest scale bar
+
+export function tag(name, className, text) {
+  const made = document.createElement(name);
+  if (className) made.className = className;
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/// Marks of a bar; a label that would touch the one before it is left out, the mark stays.
+export function labelledTicks(bar) {
+  let free = -1;
+  return [...bar.ticks].sort((a, b) => a[0] - b[0]).map(([place, text]) => {
+    const half = (4 + 3.6 * text.length) / BAR; // of the label, as a share of the bar
+    const isShown = place - half > free;
+    if (isShown) free = place + half;
+    return [place, isShown ? text : ''];
+  });
+}
+
+export function titleOf(bar) {
+  return bar.title + (bar.log ? ', log scale' : '');
+}
+
+/// The bar that is shown: of the force chains, else of the grains' colours; null for shapes.
+export function barOf(view) {
+  if (view.chains?.visible && view.chains.userData.bar) return view.chains.userData.bar;
+  return view.by === 'shape' ? null : view.data[view.by];
+}
+
+export function single(bar) {
+  return isWide(bar) ? null : `${Number(bar.low.toPrecision(4))}, all grains`;
+}
+
+function shapeLegend(data) {
+  return data.shape.map((colour, k) => {
+    const row = tag('span', 'view-key', data.shape_name[k]);
+    const dot = tag('i', 'view-dot');
+    dot.style.background = colour;
+    row.prepend(dot);
+    return row;
+  });
+}
+
+export function drawLegend(view) {
+  const bar = barOf(view);
+  if (!bar) {
+    view.legend.replaceChildren(...shapeLegend(view.data));
+    return;
+  }
+  const title = tag('span', 'view-title', titleOf(bar));
+  if (single(bar)) {
+    view.legend.replaceChildren(title, tag('span', '', single(bar)));
+    return;
+  }
+  const strip = tag('i', 'view-bar');
+  const scale = tag('div', 'view-scale');
+  strip.style.background = `linear-gradient(90deg, ${view.data.bar.join(',')})`;
+  for (const [place, text] of labelledTicks(bar)) {
+    const mark = tag('i', 'view-tick', text);
+    mark.style.left = `${100 * place}%`;
+    scale.append(mark);
+  }
+  view.legend.replaceChildren(title, strip, scale);
+}
+
+/// A round length at the distance of the point about which the view turns: its text and its pixels.
+export function scaleBar(view, height) {
+  const distance = view.camera.position.distanceTo(view.controls.target);
+  const perPixel = (2 * distance * Math.tan((view.camera.fov * Math.PI) / 360)) / height;
+  const round = roundBelow(MAX_SCALE * perPixel * view.data.length) / view.data.length;
+  return { text: length(view.data, round, 3), pixels: round / perPixel };
+}
+
+export function drawScale(view) {
+  const { text, pixels } = scaleBar(view, view.stage.clientHeight);
+  view.scale.style.width = `${pixels}px`;
+  view.scale.textContent = text;
+}
