@@ -208,8 +208,28 @@ class clast_dem_measures(Structure):
     """Sums over all grains."""
 
 
+class clast_dem_energy(Structure):
+    """Where the energy has gone since clast_dem_begin_energy [J]: put_in = what is held + what is lost + steps + rest."""
+
+
+class clast_dem_cell(Structure):
+    """The periodic cell as it is now; zeros in other domains."""
+
+
+class clast_dem_load(Structure):
+    """What a bed carries."""
+
+
 class clast_scene_bed(Structure):
     """Case P1 and its kin: grains of 63 gravel forms (152 points on a dented ellipsoid), D log-uniform in 5.6 to 8 mm, random form and turn, on a loose lattice in a box of width x width, periodic in x and y, over a floor, in water; the published law and shaking act."""
+
+
+class clast_evolve_input(Structure):
+    """What an evolution starts from; everything is borrowed for its life."""
+
+
+class clast_evolve_source(Structure):
+    """What a configuration names, loaded."""
 
 
 class clast_text_list(Structure):
@@ -336,6 +356,10 @@ class clast_impact(Structure):
     """Two particles that meet."""
 
 
+class clast_site(Structure):
+    """A piece of work that lies somewhere, for a partition."""
+
+
 class clast_comm(Structure):
     """One rank's view of all."""
 
@@ -394,6 +418,10 @@ class clast_pack_config(Structure):
 
 class clast_pack_input(Structure):
     """What a packing is made of, loaded."""
+
+
+class clast_pack_ranks(Structure):
+    """A bed over ranks: what went between them."""
 
 
 class clast_pack_hull(Structure):
@@ -666,6 +694,14 @@ class clast_structure_options(Structure):
 
 class clast_cloud_columns(Structure):
     """Which columns of a table hold what; an empty list, an empty text or NULL: nothing does."""
+
+
+class clast_evolve_config(Structure):
+    """clast_evolve_config."""
+
+
+class clast_evolve_result(Structure):
+    """An evolution in numbers, SI."""
 
 
 class clast_grains_options(Structure):
@@ -1205,11 +1241,73 @@ clast_dem_measures._fields_ = [
     ('n_refresh', c_int64),
     ('verified', clast_dem_verification),
 ]
+clast_dem_energy._fields_ = [
+    ('translation', c_double),
+    ('rotation', c_double),
+    ('normal_springs', c_double),
+    ('tangential_springs', c_double),
+    ('attraction', c_double),
+    ('made', c_double),
+    ('gravity', c_double),
+    ('shaking', c_double),
+    ('cell', c_double),
+    ('damping', (c_double * 2)),
+    ('friction', (c_double * 2)),
+    ('rolling', (c_double * 2)),
+    ('fluid', c_double),
+    ('calming', c_double),
+    ('scheme', c_double),
+    ('put_in', c_double),
+    ('rest', c_double),
+]
+clast_dem_cell._fields_ = [
+    ('side', (c_double * 3)),
+    ('rate', (c_double * 3)),
+    ('shift', c_double),
+    ('shear_rate', c_double),
+    ('strain', (c_double * 3)),
+    ('shear_strain', c_double),
+]
+clast_dem_load._fields_ = [
+    ('volume', c_double),
+    ('solid', c_double),
+    ('stress', (c_double * 6)),
+    ('kinetic_stress', (c_double * 6)),
+    ('modulus', (c_double * 3)),
+    ('fabric', (c_double * 6)),
+    ('n_contact', c_int64),
+    ('n_force', c_int64),
+    ('coordination', c_double),
+    ('n_rattler', c_int32),
+    ('coordination_held', c_double),
+    ('unbalanced', c_double),
+    ('force_mean', c_double),
+    ('force_below', (c_double * 3)),
+]
 clast_scene_bed._fields_ = [
     ('n', c_int32),
     ('n_vert', c_int32),
     ('width', c_double),
     ('fall', c_double),
+]
+clast_evolve_input._fields_ = [
+    ('n_shape', c_int32),
+    ('shape', POINTER(clast_assembly)),
+    ('grading', c_void_p),
+    ('domain', POINTER(clast_domain)),
+    ('release', POINTER(clast_domain)),
+    ('points', POINTER(clast_cloud)),
+    ('field', POINTER(clast_cloud)),
+]
+clast_evolve_source._fields_ = [
+    ('shape', POINTER(clast_assembly)),
+    ('n_shape', c_int32),
+    ('grading', c_void_p),
+    ('domain', clast_domain),
+    ('release', clast_domain),
+    ('points', clast_cloud),
+    ('field', clast_cloud),
+    ('input', clast_evolve_input),
 ]
 clast_text_list._fields_ = [
     ('n', c_int32),
@@ -1497,6 +1595,11 @@ clast_impact._fields_ = [
     ('mass', (c_double * 2)),
     ('curvature', (c_double * 2)),
 ]
+clast_site._fields_ = [
+    ('position', (c_double * 3)),
+    ('cost', c_double),
+    ('number', c_int32),
+]
 clast_comm._fields_ = [
     ('rank', c_int32),
     ('n_rank', c_int32),
@@ -1506,6 +1609,9 @@ clast_comm._fields_ = [
     ('broadcast', c_void_p),
     ('gather', c_void_p),
     ('context', c_void_p),
+    ('sum', c_void_p),
+    ('exchange', c_void_p),
+    ('partition', c_void_p),
 ]
 clast_mesh._fields_ = [
     ('n_vert', c_int32),
@@ -1681,6 +1787,10 @@ clast_pack_config._fields_ = [
     ('density_weight', clast_f64_list),
     ('mass', c_double),
     ('seed', c_uint64),
+    ('start', c_char_p),
+    ('start_unit', c_char_p),
+    ('start_columns', c_char_p),
+    ('start_diameter', c_double),
     ('container', c_char_p),
     ('container_unit', c_char_p),
     ('generator', c_int32),
@@ -1702,6 +1812,12 @@ clast_pack_config._fields_ = [
     ('still_speed', c_double),
     ('max_steps', c_int64),
     ('max_damping_time', c_double),
+    ('stages', clast_text_list),
+    ('load_rate', c_double),
+    ('load_tolerance', c_double),
+    ('load_rest', c_double),
+    ('max_load_time', c_double),
+    ('energy', c_bool),
     ('layer', c_double),
     ('cut', c_double),
     ('trim', c_double),
@@ -1716,8 +1832,20 @@ clast_pack_input._fields_ = [
     ('curve', POINTER(clast_curve)),
     ('n_shape', c_int32),
     ('shape', POINTER(clast_shape)),
+    ('start', POINTER(clast_assembly)),
     ('container', POINTER(clast_mesh)),
     ('container_closed', POINTER(clast_mesh)),
+]
+clast_pack_ranks._fields_ = [
+    ('n', c_int32),
+    ('n_idle', c_int32),
+    ('n_balance', c_int64),
+    ('n_migrated', c_int64),
+    ('ghosts', c_double),
+    ('step_bytes', c_double),
+    ('list_bytes', c_double),
+    ('imbalance', c_double),
+    ('is_zoltan', c_bool),
 ]
 clast_pack_hull._fields_ = [
     ('shape', (c_char * 64)),
@@ -1733,6 +1861,7 @@ clast_pack_source._fields_ = [
     ('hull', POINTER(clast_pack_hull)),
     ('container', clast_mesh),
     ('container_closed', clast_mesh),
+    ('start', clast_assembly),
     ('input', clast_pack_input),
 ]
 clast_pairs_config._fields_ = [
@@ -2371,6 +2500,81 @@ clast_cloud_columns._fields_ = [
     ('variable_column', c_char_p),
     ('unit', c_char_p),
 ]
+clast_evolve_config._fields_ = [
+    ('medium', clast_medium),
+    ('kernel', c_char_p),
+    ('alpha', c_double),
+    ('sticking', clast_sticking),
+    ('out_of_range', c_int32),
+    ('shapes', clast_text_list),
+    ('shape_weight', clast_f64_list),
+    ('density', clast_f64_list),
+    ('unit', c_char_p),
+    ('curve', c_char_p),
+    ('particles', c_int32),
+    ('weight', c_double),
+    ('release', c_char_p),
+    ('points', c_char_p),
+    ('diameter_column', c_char_p),
+    ('domain', c_char_p),
+    ('floor', c_int32),
+    ('sides', c_int32),
+    ('open_top', c_bool),
+    ('wind', c_char_p),
+    ('field', c_char_p),
+    ('field_columns', c_char_p),
+    ('wind_shear', c_double),
+    ('eddy_diffusivity', c_double),
+    ('brownian', c_bool),
+    ('fall', c_int32),
+    ('structure', c_bool),
+    ('collision_radius', c_int32),
+    ('meeting', c_int32),
+    ('walk_step', c_double),
+    ('max_tries', c_int32),
+    ('even', c_int32),
+    ('change_level', c_double),
+    ('duration', c_double),
+    ('rows', c_int32),
+    ('step_error', c_double),
+    ('time_step', c_double),
+    ('seed', c_uint64),
+    ('keep', c_int32),
+    ('frames', c_int32),
+    ('checkpoint_time', c_double),
+    ('resume', c_char_p),
+    ('force', c_bool),
+]
+clast_evolve_result._fields_ = [
+    ('n_start', c_int64),
+    ('n_particle', c_int64),
+    ('n_event', c_int64),
+    ('n_deposit', c_int64),
+    ('n_out', c_int64),
+    ('n_step', c_int64),
+    ('time', c_double),
+    ('mass_start', c_double),
+    ('mass', c_double),
+    ('mass_deposit', c_double),
+    ('mass_out', c_double),
+    ('mass_balance', c_double),
+    ('number_balance', c_int64),
+    ('n_cut', c_int64),
+    ('n_test', c_int64),
+    ('grains_most', c_int64),
+    ('deposit_diameter', c_double),
+    ('deposit_porosity', c_double),
+    ('deposit_speed', c_double),
+    ('deposit_grains', c_double),
+    ('fractal_dimension', c_double),
+    ('fractal_error', c_double),
+    ('range', clast_range_use),
+    ('hash', c_uint64),
+    ('wall_s', c_double),
+    ('n_frame', c_int32),
+    ('n_kept', c_int32),
+    ('folder', c_char_p),
+]
 clast_grains_options._fields_ = [
     ('kind', c_int),
     ('hull', c_bool),
@@ -2416,6 +2620,12 @@ clast_pack_result._fields_ = [
     ('elongation', (c_double * 2)),
     ('n_frame', c_int64),
     ('frame_interval', c_double),
+    ('n_overlap', c_int64),
+    ('deepest_start', c_double),
+    ('cell', clast_dem_cell),
+    ('load', clast_dem_load),
+    ('energy', clast_dem_energy),
+    ('ranks', clast_pack_ranks),
 ]
 clast_pairs._fields_ = [
     ('n', c_int64),
@@ -2454,6 +2664,7 @@ clast_porosity_fit._fields_ = [
 clast_decomposition._fields_ = [
     ('n', c_int64),
     ('n_outside', c_int64),
+    ('n_here', c_int64),
     ('n_test', c_int64),
     ('dimension', c_int32),
     ('n_capped', c_int32),
@@ -2536,7 +2747,12 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_drive': (24, {'shake_amplitude': (0, 8), 'shake_period': (8, 8), 'damping': (16, 8)}),
     'clast_dem_verification': (32, {'n': (0, 8), 'n_off': (8, 8), 'n_bad': (16, 8), 'worst': (24, 8)}),
     'clast_dem_measures': (184, {'step': (0, 8), 'time': (8, 8), 'n_grain': (16, 4), 'mass': (24, 8), 'mean_height': (32, 8), 'top': (40, 8), 'max_speed': (48, 8), 'kinetic_energy': (56, 8), 'potential_energy': (64, 8), 'elastic_energy': (72, 8), 'momentum': (80, 24), 'n_listed': (104, 8), 'n_contact': (112, 8), 'n_wall_contact': (120, 8), 'max_overlap': (128, 8), 'coordination': (136, 8), 'n_refresh': (144, 8), 'verified': (152, 32)}),
+    'clast_dem_energy': (160, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'damping': (72, 16), 'friction': (88, 16), 'rolling': (104, 16), 'fluid': (120, 8), 'calming': (128, 8), 'scheme': (136, 8), 'put_in': (144, 8), 'rest': (152, 8)}),
+    'clast_dem_cell': (96, {'side': (0, 24), 'rate': (24, 24), 'shift': (48, 8), 'shear_rate': (56, 8), 'strain': (64, 24), 'shear_strain': (88, 8)}),
+    'clast_dem_load': (264, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'fabric': (136, 48), 'n_contact': (184, 8), 'n_force': (192, 8), 'coordination': (200, 8), 'n_rattler': (208, 4), 'coordination_held': (216, 8), 'unbalanced': (224, 8), 'force_mean': (232, 8), 'force_below': (240, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
+    'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
+    'clast_evolve_source': (656, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 64), 'field': (536, 64), 'input': (600, 56)}),
     'clast_text_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_f64_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_field': (88, {'name': (0, 8), 'offset': (8, 8), 'type': (16, 4), 'value': (24, 8), 'low': (32, 8), 'high': (40, 8), 'unit': (48, 8), 'help': (56, 8), 'text': (64, 8), 'group': (72, 8), 'common': (80, 1)}),
@@ -2568,7 +2784,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_range_report': (88, {'start': (0, 40), 'collisions': (40, 40), 'time': (80, 8)}),
     'clast_sticking': (80, {'law': (0, 4), 'film_viscosity': (8, 8), 'film_thickness': (16, 8), 'asperity': (24, 8), 'restitution': (32, 8), 'critical_stokes': (40, 8), 'stokes_exponent': (48, 8), 'adhesion': (56, 8), 'young': (64, 8), 'poisson': (72, 8)}),
     'clast_impact': (56, {'speed': (0, 8), 'radius': (8, 16), 'mass': (24, 16), 'curvature': (40, 16)}),
-    'clast_comm': (56, {'rank': (0, 4), 'n_rank': (4, 4), 'send': (8, 8), 'take': (16, 8), 'least': (24, 8), 'broadcast': (32, 8), 'gather': (40, 8), 'context': (48, 8)}),
+    'clast_site': (40, {'position': (0, 24), 'cost': (24, 8), 'number': (32, 4)}),
+    'clast_comm': (80, {'rank': (0, 4), 'n_rank': (4, 4), 'send': (8, 8), 'take': (16, 8), 'least': (24, 8), 'broadcast': (32, 8), 'gather': (40, 8), 'context': (48, 8), 'sum': (56, 8), 'exchange': (64, 8), 'partition': (72, 8)}),
     'clast_mesh': (24, {'n_vert': (0, 4), 'n_tri': (4, 4), 'vert': (8, 8), 'tri': (16, 8)}),
     'clast_mass': (104, {'volume': (0, 8), 'centroid': (8, 24), 'inertia': (32, 72)}),
     'clast_hit': (40, {'t': (0, 8), 'tri': (8, 4), 'bary': (16, 24)}),
@@ -2581,10 +2798,11 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
-    'clast_pack_config': (608, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'container': (376, 8), 'container_unit': (384, 8), 'generator': (392, 4), 'spacing': (400, 8), 'fill_low': (408, 8), 'fill_high': (416, 8), 'first_low': (424, 8), 'first_high': (432, 8), 'initial_speed': (440, 8), 'random_turn': (448, 1), 'shake_amplitude': (456, 8), 'shake_period': (464, 8), 'shaking_time': (472, 8), 'shake_from_start': (480, 1), 'damping': (488, 8), 'rule': (496, 4), 'height_change': (504, 8), 'check_time': (512, 8), 'still_speed': (520, 8), 'max_steps': (528, 8), 'max_damping_time': (536, 8), 'layer': (544, 8), 'cut': (552, 8), 'trim': (560, 8), 'series_time': (568, 8), 'frame_time': (576, 8), 'checkpoint_time': (584, 8), 'resume': (592, 8), 'force': (600, 1)}),
-    'clast_pack_input': (48, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'container': (32, 8), 'container_closed': (40, 8)}),
+    'clast_pack_config': (696, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'stages': (576, 16), 'load_rate': (592, 8), 'load_tolerance': (600, 8), 'load_rest': (608, 8), 'max_load_time': (616, 8), 'energy': (624, 1), 'layer': (632, 8), 'cut': (640, 8), 'trim': (648, 8), 'series_time': (656, 8), 'frame_time': (664, 8), 'checkpoint_time': (672, 8), 'resume': (680, 8), 'force': (688, 1)}),
+    'clast_pack_input': (56, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8)}),
+    'clast_pack_ranks': (64, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'step_bytes': (32, 8), 'list_bytes': (40, 8), 'imbalance': (48, 8), 'is_zoltan': (56, 1)}),
     'clast_pack_hull': (80, {'shape': (0, 64), 'n_triangle': (64, 4), 'volume_added': (72, 8)}),
-    'clast_pack_source': (160, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'input': (112, 48)}),
+    'clast_pack_source': (288, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'input': (232, 56)}),
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
@@ -2651,13 +2869,15 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_source': (208, {'core': (0, 120), 'coat': (120, 8), 'n_coat': (128, 4), 'sizes': (136, 40), 'input': (176, 32)}),
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
+    'clast_evolve_config': (512, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'field': (360, 8), 'field_columns': (368, 8), 'wind_shear': (376, 8), 'eddy_diffusivity': (384, 8), 'brownian': (392, 1), 'fall': (396, 4), 'structure': (400, 1), 'collision_radius': (404, 4), 'meeting': (408, 4), 'walk_step': (416, 8), 'max_tries': (424, 4), 'even': (428, 4), 'change_level': (432, 8), 'duration': (440, 8), 'rows': (448, 4), 'step_error': (456, 8), 'time_step': (464, 8), 'seed': (472, 8), 'keep': (480, 4), 'frames': (484, 4), 'checkpoint_time': (488, 8), 'resume': (496, 8), 'force': (504, 1)}),
+    'clast_evolve_result': (248, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_kept': (236, 4), 'folder': (240, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
-    'clast_pack_result': (432, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8)}),
+    'clast_pack_result': (1032, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'n_overlap': (432, 8), 'deepest_start': (440, 8), 'cell': (448, 96), 'load': (544, 264), 'energy': (808, 160), 'ranks': (968, 64)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
     'clast_porosity_fit': (288, {'model': (0, 128), 'ranking': (128, 32), 'trials': (160, 32), 'terms': (192, 32), 'rows': (224, 32), 'n_removed': (256, 4), 'condition': (264, 8), 'r2_held_out': (272, 8), 'p_value': (280, 8)}),
-    'clast_decomposition': (5464, {'n': (0, 8), 'n_outside': (8, 8), 'n_test': (16, 8), 'dimension': (24, 4), 'n_capped': (28, 4), 'before': (32, 232), 'n_pass': (264, 4), 'pass': (272, 4608), 'stop': (4880, 4), 'cells': (4888, 128), 'events': (5016, 8), 'events_low': (5024, 8), 'events_high': (5032, 8), 'points_needed': (5040, 8), 'events_cross': (5048, 8), 'points_per_bin': (5056, 8), 'search': (5064, 32), 'cells_bias': (5096, 8), 'bias_estimate': (5104, 8), 'smoothing_bias': (5112, 8), 'beta_dt': (5120, 8), 'volume': (5128, 8), 'seed': (5136, 8), 'pairs': (5144, 168), 'events_by_cells': (5312, 32), 'events_by_pairs': (5344, 32), 'estimator': (5376, 4), 'within': (5384, 72), 'disagree': (5456, 1), 'resolved': (5457, 1), 'has_drawn': (5458, 1)}),
+    'clast_decomposition': (5472, {'n': (0, 8), 'n_outside': (8, 8), 'n_here': (16, 8), 'n_test': (24, 8), 'dimension': (32, 4), 'n_capped': (36, 4), 'before': (40, 232), 'n_pass': (272, 4), 'pass': (280, 4608), 'stop': (4888, 4), 'cells': (4896, 128), 'events': (5024, 8), 'events_low': (5032, 8), 'events_high': (5040, 8), 'points_needed': (5048, 8), 'events_cross': (5056, 8), 'points_per_bin': (5064, 8), 'search': (5072, 32), 'cells_bias': (5104, 8), 'bias_estimate': (5112, 8), 'smoothing_bias': (5120, 8), 'beta_dt': (5128, 8), 'volume': (5136, 8), 'seed': (5144, 8), 'pairs': (5152, 168), 'events_by_cells': (5320, 32), 'events_by_pairs': (5352, 32), 'estimator': (5384, 4), 'within': (5392, 72), 'disagree': (5464, 1), 'resolved': (5465, 1), 'has_drawn': (5466, 1)}),
 }
 
 VALUES: dict[str, int] = {
@@ -2820,8 +3040,32 @@ VALUES: dict[str, int] = {
     'CLAST_DEM_PERIODIC': 1,
     'CLAST_DEM_BOX': 2,
     'CLAST_DEM_OPEN': 3,
+    'CLAST_DEM_CELL': 4,
     'CLAST_DEM_SHARED': 0,
     'CLAST_DEM_EACH': 1,
+    'CLAST_BORDER_DEPOSIT': 0,
+    'CLAST_BORDER_REFLECT': 1,
+    'CLAST_BORDER_PERIODIC': 2,
+    'CLAST_FALL_FORM': 0,
+    'CLAST_FALL_SPHERE': 1,
+    'CLAST_FALL_STOKES': 2,
+    'CLAST_COLLISION_GYRATION': 0,
+    'CLAST_COLLISION_ENCLOSING': 1,
+    'CLAST_COLLISION_VOLUME': 2,
+    'CLAST_MEETING_AUTO': 0,
+    'CLAST_MEETING_BALLISTIC': 1,
+    'CLAST_MEETING_DIFFUSIVE': 2,
+    'CLAST_MEETING_CENTRAL': 3,
+    'CLAST_EVEN_TREE': 0,
+    'CLAST_EVEN_BOXES': 1,
+    'CLAST_EVEN_WHOLE': 2,
+    'CLAST_EVOLVE_BALANCE': 0,
+    'CLAST_EVOLVE_SPECTRUM': 1,
+    'CLAST_EVOLVE_EVENTS': 2,
+    'CLAST_EVOLVE_DEPOSIT': 3,
+    'CLAST_EVOLVE_PARTICLES': 4,
+    'CLAST_N_EVOLVE_TABLE': 5,
+    'CLAST_N_EVOLVE_SAVED': 6,
     'CLAST_FIELD_F64': 0,
     'CLAST_FIELD_I32': 1,
     'CLAST_FIELD_I64': 2,
@@ -2942,6 +3186,7 @@ VALUES: dict[str, int] = {
     'CLAST_PACK_SHAKE': 1,
     'CLAST_PACK_DAMP': 2,
     'CLAST_PACK_DONE': 3,
+    'CLAST_PACK_LOAD': 4,
     'CLAST_PACK_CUBIC': 0,
     'CLAST_PACK_HCP': 1,
     'CLAST_PACK_SHELF': 2,
@@ -3152,8 +3397,10 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cloud_column': (c_int, [POINTER(clast_table), c_char_p, POINTER(POINTER(c_double))], 'Numbers of the named column; *column is NULL for a name that is empty or NULL.'),
     'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)") is converted.'),
     'clast_cloud_repeated': (c_int, [POINTER(clast_cloud), POINTER(c_int64)], 'Points that have the very coordinates of an earlier one; O(n).'),
+    'clast_cloud_repeated_ranks': (c_int, [POINTER(clast_cloud), POINTER(clast_comm), POINTER(c_int64)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
-    'clast_cloud_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_points_options), POINTER(clast_table)], 'The same from memory, HDF5 excepted; `name` stands for the path.'),
+    'clast_cloud_read_ranks': (c_int, [POINTER(clast_comm), c_char_p, POINTER(clast_cloud_columns), POINTER(clast_points_options), POINTER(clast_cloud)], 'The points of one file, a part on each rank in the order of the rows: delimited text by stretches of its bytes, HDF5 arrays by rows, some at a time, so that no rank holds the file.'),
+    'clast_cloud_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_points_options), POINTER(clast_table)], 'clast_cloud_read from memory, HDF5 excepted; `name` stands for the path.'),
     'clast_domain_parse': (c_int, [c_char_p, POINTER(clast_domain)], 'Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L" (base centre at the origin, along z), "cylinder:X,Y,Z,NX,NY,NZ,R,L" (base centre, direction of the axis, of any length), "half-pipe:R,L", "sphere:R" or "sphere:X,Y,Z,R" .'),
     'clast_domain_parse_in': (c_int, [c_char_p, c_double, POINTER(clast_domain)], 'The same where a bare length is in units of `factor` m.'),
     'clast_domain_format': (None, [POINTER(clast_domain), c_char_p], 'The domain as clast_domain_parse reads it, in m; "no domain" of another, "map" for a map, "mesh:" and the bounding box of a surface.'),
@@ -3167,7 +3414,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_discrepancy_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_discrepancy)], 'All three discrepancies of n >= 2 points.'),
     'clast_henze_zirkler_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_henze_zirkler)], 'Scores are clamped to u in [2^-53, 1 - 2^-53].'),
     'clast_pearson_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_pearson)], '@return CLAST_E_ARGUMENT for n < 3.'),
-    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of every k-th are looked for.'),
+    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their places alone decide.'),
+    'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
     'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
@@ -3176,6 +3424,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
     'clast_decompose_sizes': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), c_int32, c_int32, POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
+    'clast_decompose_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], 'The same of one cloud of which each rank has a part; points stay where they are.'),
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),
@@ -3188,6 +3437,11 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_add_grains': (c_int, [c_void_p, c_int32, POINTER(clast_dem_grain)], 'Adds grains; all or none.'),
     'clast_dem_set_drive': (None, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
     'clast_dem_step': (c_int, [c_void_p, c_int64], 'Goes on by n_step time steps.'),
+    'clast_dem_begin_energy': (c_int, [c_void_p], 'From now on the work of all forces is booked, which changes no bit of the run; begins anew if it was.'),
+    'clast_dem_energy_measure': (None, [c_void_p, POINTER(clast_dem_energy)], 'Where the energy has gone; untouched when none was booked.'),
+    'clast_dem_load_measure': (c_int, [c_void_p, POINTER(clast_dem_load)], 'What the bed carries now.'),
+    'clast_dem_set_cell_rate': (c_int, [c_void_p, POINTER(c_double), c_double], "Speeds of the cell's three sides, and of the upper images along x, from the next step on [m/s]."),
+    'clast_dem_read_cell': (None, [c_void_p, POINTER(clast_dem_cell)], 'as it is now.'),
     'clast_dem_n_grain': (c_int32, [c_void_p], 'Grains so far.'),
     'clast_dem_n_step': (c_int64, [c_void_p], 'steps so far.'),
     'clast_dem_time': (c_double, [c_void_p], '[s].'),
@@ -3201,6 +3455,25 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_scene_p1': (c_int, [POINTER(clast_scene_bed), POINTER(c_void_p)], 'Case P1 into *dem, which the caller destroys.'),
     'clast_dem_scene_e1': (c_int, [POINTER(clast_scene_bed), c_void_p, POINTER(c_void_p)], 'Case E1: the grains of a P1 as they are now, replaced by their mass-equivalent ellipsoids (axes times 0.985).'),
     'clast_dem_scene_s1': (c_int, [POINTER(c_void_p)], 'Case S1: 10,830 spheres of 6.7 mm on a simple-cubic lattice of 6.9 mm with random velocities, box of 0.134 m periodic in x and y; to be settled for 0.2 s.'),
+    'clast_evolve_create': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_input), POINTER(c_void_p)], 'All particles at their places at time 0.'),
+    'clast_evolve_destroy': (None, [c_void_p], 'NULL is allowed.'),
+    'clast_evolve_advance': (c_int, [c_void_p], 'A leg of at most 16 steps, to the next row of the tables at the farthest.'),
+    'clast_evolve_is_over': (c_bool, [c_void_p], 'The duration has passed, or nothing is left in the fluid.'),
+    'clast_evolve_time': (c_double, [c_void_p], 'Seconds that have passed in the cloud; NAN for NULL.'),
+    'clast_evolve_n_row': (c_int32, [c_void_p], 'Rows of the tables written, the one at the start not counted; 0 for NULL.'),
+    'clast_evolve_measure': (c_int, [c_void_p, POINTER(clast_evolve_result)], 'The numbers now.'),
+    'clast_evolve_result_free': (None, [POINTER(clast_evolve_result)], 'may be called twice.'),
+    'clast_evolve_result_json': (c_int, [POINTER(clast_evolve_result), c_bool, POINTER(c_char_p)], 'As one JSON object under the names of DESIGN section 7; free the text with clast_text_free.'),
+    'clast_evolve_table': (c_int, [c_void_p, c_int, POINTER(clast_table)], 'One of the tables.'),
+    'clast_evolve_aggregate': (c_int, [c_void_p, c_int64, POINTER(clast_assembly)], 'The grains of the body that is this node of the tree of events, about its centre of mass, with their contacts: particles at the start are nodes 0 .'),
+    'clast_evolve_largest': (c_int, [c_void_p, POINTER(c_int32), POINTER(c_int64)], 'Nodes of the bodies of most grains first, of equal ones the older first: [*n] of at most *n.'),
+    'clast_evolve_assembly': (c_int, [c_void_p, POINTER(clast_assembly)], 'All grains where they are, in the fluid and on the floor.'),
+    'clast_evolve_save': (c_int, [c_void_p, POINTER(clast_table)], 'All that is needed to go on, as tables: clast_state keeps them.'),
+    'clast_evolve_restore': (c_int, [POINTER(clast_table), c_void_p], 'Goes on from there to the same bits; `evolve` was just created from the same configuration.'),
+    'clast_evolve_load': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_source)], "@return the reader's status and line, with the option before it."),
+    'clast_evolve_unload': (None, [POINTER(clast_evolve_source)], 'may be called twice.'),
+    'clast_evolve_run': (c_int, [POINTER(clast_evolve_config), c_char_p, POINTER(clast_monitor), POINTER(clast_evolve_result)], 'Follows the cloud to its end; with a folder writes tables, states, charts, manifest and summary into it, and checkpoints on the way.'),
+    'clast_evolve_resume': (c_int, [c_char_p, POINTER(clast_monitor), POINTER(clast_evolve_result)], 'Goes on from the newest checkpoint of a folder; ends in the same bytes.'),
     'clast_fields_default': (c_int, [POINTER(clast_field), c_void_p], 'Sets every field to its default.'),
     'clast_fields_free': (None, [POINTER(clast_field), c_void_p], 'Frees owned texts and lists.'),
     'clast_fields_check': (c_int, [POINTER(clast_field), c_void_p], 'Whether each field holds what the table allows: numbers finite and in their range, choices of the list, texts and lists not NULL.'),
@@ -3364,11 +3637,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_bed': (clast_bed, [c_void_p], 'Where the grains lie, for porosities.'),
     'clast_pack_porosity': (clast_porosity_options, [POINTER(clast_pack_config)], '.'),
     'clast_pack_series': (POINTER(clast_table), [c_void_p], 'Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J, max_speed_m/s, n_contact, n_wall_contact, max_overlap_m.'),
+    'clast_pack_load_table': (POINTER(clast_table), [c_void_p], 'What the bed carries and where its energy goes, rows as of the series and at the end of each stage: the table load.csv of docs/theory/load.md.'),
     'clast_pack_achieved': (c_int, [c_void_p, POINTER(clast_table)], 'Sieve curve achieved beside the wanted one (columns as clast_grading_compare).'),
     'clast_pack_load': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_source)], "@return the reader's status, with the option and the file's name before its message."),
     'clast_pack_unload': (None, [POINTER(clast_pack_source)], 'may be called twice.'),
-    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, charts and frames into it, and checkpoints on the way.'),
-    'clast_pack_resume': (c_int, [c_char_p, c_int64, POINTER(clast_monitor), POINTER(clast_pack_result)], 'Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps had ended early.'),
+    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, charts and frames into it, and checkpoints on the way.'),
+    'clast_pack_resume': (c_int, [c_char_p, c_int64, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps had ended early.'),
     'clast_pack_result_json': (c_int, [POINTER(clast_pack_result), c_bool, POINTER(c_char_p)], 'The result as one JSON object, names of DESIGN section 7.'),
     'clast_pairs_count': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_pairs_config), POINTER(clast_pairs)], 'Counts the pairs of a cloud by their distance in shells of equal ratio, compares them with those of a uniform cloud in the same domain, and estimates the integral of the squared density.'),
     'clast_pairs_free': (None, [POINTER(clast_pairs)], '.'),
@@ -3771,9 +4045,13 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'density_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each density (by number of grains) with density_of: chance; none: all equal'),
         'mass': ('number', 1.0, 'kg', 1e-15, 1000000000000000.0, None, 'mass of the packing (m_tot)'),
         'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of sizes, forms, turns, velocities'),
+        'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
+        'start_unit': ('text', '', '-', None, None, None, 'length unit of the start, where it does not say'),
+        'start_columns': ('text', '', '-', None, None, None, 'columns of its spheres in their order: id,x,y,z,d'),
+        'start_diameter': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'of all its spheres; 0: as the file says'),
         'container': ('text', '', '-', None, None, None, 'surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it'),
         'container_unit': ('text', '', '-', None, None, None, 'length unit of its coordinates'),
-        'domain': ('choice', 'cylinder', '-', None, None, 'cylinder|periodic|box|open', 'container, its sides'),
+        'domain': ('choice', 'cylinder', '-', None, None, 'cylinder|periodic|box|open|cell', 'container, its sides; cell: periodic in x, y and z (height)'),
         'width': ('number', 0.104, 'm', 1e-09, 1000000.0, None, 'inside diameter of the cylinder, or width in x (L)'),
         'depth': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width in y; 0: as width'),
         'height': ('number', 1.0, 'm', 1e-09, 1000000.0, None, 'height of the lid and of generation (H)'),
@@ -3826,6 +4104,12 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'still_speed': ('number', 0.001, 'm/s', 0.0, 1000000.0, None, 'of the fastest grain'),
         'max_steps': ('integer', 0.0, '-', 0.0, 9000000000000000.0, None, 'stop after so many time steps as it is; 0: never'),
         'max_damping_time': ('number', 20.0, 's', 0.0, 1000000000.0, None, 'give up when the bed is not still by then'),
+        'stages': ('texts', '', '-', None, None, None, 'stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T'),
+        'load_rate': ('number', 1.0, '1/s', 1e-09, 1000000000.0, None, 'rate of strain at which a pressure is approached, at most'),
+        'load_tolerance': ('number', 0.01, '-', 1e-09, 1.0, None, 'share of a pressure within which it is reached'),
+        'load_rest': ('number', 0.001, '-', 1e-12, 1.0, None, 'a loaded bed rests when the mean force on a grain over that of a contact is below this'),
+        'max_load_time': ('number', 20.0, 's', 0.0, 1000000000.0, None, 'give up when a stage has not come to its end by then'),
+        'energy': ('flag', False, '-', None, None, None, 'book the work of all forces by kind: load.csv, energy_book.svg'),
         'layer': ('number', 0.001, 'm', 1e-12, 1000000.0, None, 'slices of the porosity profile (h_p)'),
         'cut': ('number', 0.5, '-', 0.0, 1.0, None, 'the bed ends where the porosity is this (n cut-off)'),
         'trim': ('number', -1.0, 'm', -1.0, 1000000.0, None, 'left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0'),
@@ -4030,6 +4314,71 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'extrapolate': ('flag', True, '-', None, None, None, 'add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of cells'),
         'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of the ghost points'),
     },
+    'evolve': {
+        'shapes': ('texts', 'sphere', '-', None, None, None, 'shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate (state.h5)'),
+        'shape_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each shape; none: all equal'),
+        'density': ('numbers', '2500', 'kg/m^3', 1e-06, 1000000.0, None, 'of the solid: one for all shapes, or one each'),
+        'unit': ('text', '', '-', None, None, None, 'length unit of surface files; may be left out: sizes come from the curve'),
+        'curve': ('text', '10um', '-', None, None, None, "volume-equivalent diameters: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case"),
+        'particles': ('integer', 0.0, '-', 0.0, 10000000.0, None, 'particles at the start; 0: the rows of points'),
+        'weight': ('number', 1.0, '-', 1.0, 1000000000000000.0, None, 'real particles that each stands for, a whole number: the number density is particles x weight / volume'),
+        'release': ('text', '', '-', None, None, None, 'domain in which they start evenly (as domain); none: all of it'),
+        'points': ('text', '', '-', None, None, None, 'file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)'),
+        'diameter_column': ('text', '', '-', None, None, None, 'its column of volume-equivalent diameters; none: the curve'),
+        'domain': ('text', '', '-', None, None, None, 'box:LOW..,HIGH.., cylinder:X,Y,Z,NX,NY,NZ,R,L (base, axis), sphere:R, mesh:FILE; z is up'),
+        'floor': ('choice', 'deposit', '-', None, None, 'deposit|reflect|periodic', 'what is below: it stays there, comes back, or enters at the top'),
+        'sides': ('choice', 'periodic', '-', None, None, 'deposit|reflect|periodic', 'the same of the sides; periodic: a box alone'),
+        'open_top': ('flag', False, '-', None, None, None, 'what passes the top of a box is gone; else it comes back'),
+        'wind': ('text', '0,0,0', '-', None, None, None, 'velocity x,y,z of the fluid at z = 0 [m/s]'),
+        'field': ('text', '', '-', None, None, None, 'file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), added to the wind; beyond the grid those at its edge'),
+        'field_columns': ('text', 'u,v,w', '-', None, None, None, 'its columns of velocities'),
+        'wind_shear': ('number', 0.0, '1/s', -1000000000.0, 1000000000.0, None, 'change of velocity x with z'),
+        'eddy_diffusivity': ('number', 0.0, '-', 0.0, 1000000.0, None, 'turbulent diffusivity, the same everywhere [m^2/s]'),
+        'brownian': ('flag', True, '-', None, None, None, "particles diffuse by Brownian motion, as their envelopes' drag says"),
+        'fall': ('choice', 'form', '-', None, None, 'form|sphere|stokes', "drag: of each body's own form, of the sphere of its envelope, or of that in creeping flow"),
+        'temperature': ('number', 288.15, 'K', 0.0, 100000.0, None, 'of the fluid'),
+        'viscosity': ('number', 1.7894e-05, 'Pa s', 0.0, 1000000.0, None, 'of the fluid (default: air)'),
+        'fluid_density': ('number', 1.225, 'kg/m^3', 0.0, 100000.0, None, 'of the fluid (default: air)'),
+        'mean_free_path': ('number', 0.0, 'm', 0.0, 1.0, None, 'of a gas, for the slip correction; 0: none'),
+        'gravity': ('number', 9.80665, 'm/s^2', 0.0, 1000000.0, None, '0: nothing falls'),
+        'kernel': ('text', 'brownian+settling', '-', None, None, None, 'collision kernel, or a sum, as in clast agglomerate --help-all: constant, additive, product, brownian, shear_laminar, shear_turbulent, settling, inertial, ...'),
+        'shear': ('number', 0.0, '1/s', 0.0, 1000000000000.0, None, 'shear rate that kernels see; 0: that of wind_shear'),
+        'dissipation': ('number', 0.0, 'm^2/s^3', 0.0, 1000000000000.0, None, 'turbulent dissipation'),
+        'speed_rms': ('number', 0.0, 'm/s', 0.0, 1000000.0, None, 'turbulent velocity, one component'),
+        'efficiency': ('number', 0.0, '-', 0.0, 1.0, None, 'collision efficiency of settling; 0: by Stokes number and ratio of radii'),
+        'constant': ('number', 1e-06, '-', 0.0, 1e+300, None, 'K of kernel constant [m^3/s]'),
+        'additive': ('number', 1e-06, '-', 0.0, 1e+300, None, 'b of kernel additive [m^3/s]'),
+        'product': ('number', 1e-06, '-', 0.0, 1e+300, None, 'c of kernel product [m^3/s]'),
+        'out_of_range': ('choice', 'error', '-', None, None, 'error|extrapolate', 'kernels and sticking beyond where they hold'),
+        'collision_radius': ('choice', 'gyration', '-', None, None, 'gyration|enclosing|volume', "radius that kernels see: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere"),
+        'even': ('choice', 'tree', '-', None, None, 'tree|boxes|whole', 'where bodies count as evenly spread: cells that a test splits, boxes of bins, or the whole domain'),
+        'change_level': ('number', 0.01, '-', 1e-12, 0.5, None, 'false alarms of the test that finds the cells out of date'),
+        'alpha': ('number', 1.0, '-', 0.0, 1.0, None, 'share of collisions that stick; with another law of sticking a factor on it'),
+        'sticking': ('choice', 'constant', '-', None, None, 'constant|viscous|liquid|contact', 'share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts'),
+        'film_viscosity': ('number', 0.0, 'Pa s', 0.0, 1000000000000.0, None, 'viscous, liquid: of the liquid on the particles'),
+        'film_thickness': ('number', 0.0, 'm', 0.0, 1.0, None, 'viscous: h of the film'),
+        'asperity': ('number', 0.0, 'm', 0.0, 1.0, None, 'viscous: height h_a of the roughness'),
+        'restitution': ('number', 0.0, '-', 0.0, 1.0, None, 'viscous: e of the dry solids'),
+        'critical_stokes': ('number', 1.3, '-', 0.0, 1000000000000.0, None, 'liquid: St_cr, where half of the collisions stick'),
+        'stokes_exponent': ('number', 0.8, '-', 0.0, 100.0, None, 'liquid: q of 1 / (1 + (St / St_cr)^q)'),
+        'adhesion': ('number', 0.0, '-', 0.0, 1000000.0, None, 'contact: work of adhesion of the surfaces [J/m^2]'),
+        'young': ('number', 0.0, 'Pa', 0.0, 1000000000000000.0, None, "contact: Young's modulus of the particles"),
+        'poisson': ('number', 0.25, '-', -0.999, 0.5, None, "contact: Poisson's ratio of the particles"),
+        'structure': ('flag', True, '-', None, None, None, 'aggregates keep their grains as they touch; no: drops that merge'),
+        'meeting': ('choice', 'auto', '-', None, None, 'auto|ballistic|diffusive|central', 'how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section'),
+        'walk_step': ('number', 0.1, '-', 0.0001, 1.0, None, 'diffusive: least step of the walk, in radii of the smallest thrown grain'),
+        'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths tried before a pair is given up, in thousands'),
+        'duration': ('number', 0.0, 's', 0.0, 1e+300, None, 'time that passes at most'),
+        'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
+        'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step"),
+        'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
+        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
+        'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
+        'frames': ('integer', 0.0, '-', 0.0, 1000000.0, None, 'a frame for ParaView at each so many rows; 0: none'),
+        'checkpoint_time': ('number', 60.0, 's', 0.0, 1000000000.0, None, 'between checkpoints, of the clock'),
+        'resume': ('text', '', '-', None, None, None, 'run folder to go on with'),
+        'force': ('flag', False, '-', None, None, None, 'replace an earlier run in the output folder'),
+    },
     'study': {
         'run': ('text', '', '-', None, None, None, 'command to run: aggregate, decompose, fill, ...'),
         'config': ('text', '', '-', None, None, None, 'YAML configuration that all runs share'),
@@ -4106,10 +4455,11 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_aggregate_fields': ('mode', 'core', 'core_size', 'core_meaning', 'core_density', 'coat', 'coat_weight', 'class_limit', 'coat_density', 'core_spheres', 'coat_spheres', 'fill_spheres', 'fill', 'unit', 'accept_faults', 'sizes', 'size_column', 'size_unit', 'size', 'size_law', 'size_mean', 'size_deviation', 'size_shape', 'size_low', 'size_high', 'n_particle', 'size_draw', 'size_by_mass', 'replicate', 'size_meaning', 'order', 'cone', 'rays', 'orientations', 'axis', 'origin', 'target', 'start', 'max_tries', 'approach', 'walk_step', 'contact', 'flavour', 'march_coarse', 'march_fine', 'march_steps', 'march_vertices', 'envelope', 'envelope_every', 'solid_union', 'envelope_rays', 'envelope_length', 'permeability', 'stop_mass', 'stop_size', 'stop_porosity', 'fit', 'observed_size', 'observed_size_error', 'observed_density', 'observed_density_error', 'observed_velocity', 'observed_velocity_error', 'fit_packing', 'fit_repeats', 'fit_replicate_max', 'pick', 'n_final', 'repeats', 'confidence', 'seed', 'checkpoint_every', 'picture', 'printable', 'neck', 'spacing', 'force', 'resume'),
     'clast_decompose_fields': ('domain', 'outside', 'variant', 'mesh', 'events', 'level', 'votes', 'tests', 'statistic', 'paper', 'ghost_samples', 'crossfit', 'lower', 'strict', 'max_pass', 'beta_dt', 'tree_level', 'tree_root_level', 'variable_tolerance', 'tree_least', 'tree_refine', 'extrapolate', 'pairs', 'pairs_radius', 'estimator', 'seed'),
     'clast_dem_fields': ('domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify'),
+    'clast_evolve_fields': ('shapes', 'shape_weight', 'density', 'unit', 'curve', 'particles', 'weight', 'release', 'points', 'diameter_column', 'domain', 'floor', 'sides', 'open_top', 'wind', 'field', 'field_columns', 'wind_shear', 'eddy_diffusivity', 'brownian', 'fall', 'temperature', 'viscosity', 'fluid_density', 'mean_free_path', 'gravity', 'kernel', 'shear', 'dissipation', 'speed_rms', 'efficiency', 'constant', 'additive', 'product', 'out_of_range', 'collision_radius', 'even', 'change_level', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'structure', 'meeting', 'walk_step', 'max_tries', 'duration', 'rows', 'step_error', 'time_step', 'seed', 'keep', 'frames', 'checkpoint_time', 'resume', 'force'),
     'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
     'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
     'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
-    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
     'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
     'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
@@ -4119,4 +4469,4 @@ TABLES: dict[str, tuple[str, ...]] = {
 }
 
 # Commands that write a run's folder.
-FOLDERS: tuple[str, ...] = ('aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'study')
+FOLDERS: tuple[str, ...] = ('aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'evolve', 'study')
