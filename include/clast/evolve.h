@@ -5,11 +5,11 @@
 
 // A whole run with its folder, checkpoints and going on (clast_evolve_run and clast_evolve_resume)
 // is of libclast_view.
-#include <clast/agglomerate.h>
 #include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/field.h>
 #include <clast/grading.h>
+#include <clast/kernel.h>
 #include <clast/status.h>
 #include <clast/table.h>
 

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include <clast/assembly.h>
+#include <clast/settling.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
+#include <clast/settling.h>
 #include <clast/shape.h>
 #include <clast/table.h>
 #include <math.h>

@@ -1,5 +1,6 @@
 #pragma once
 // All grains of an assembly as bodies that can be asked for gaps and overlaps.
+#include "touch/body.h"
 #include "touch/scene.h"
 #include <clast/assembly.h>
 

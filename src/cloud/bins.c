@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

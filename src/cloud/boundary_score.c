@@ -12,6 +12,7 @@
 #include "math/quadrature.h"
 #include "math/special.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

@@ -8,7 +8,9 @@
 
 #include "cloud/contract.h"
 #include "math/quadrature.h"
+#include <clast/cloud.h>
 #include <clast/pairs.h>
+#include <clast/status.h>
 #include <math.h>
 
 enum { MOST_KINK = 12 };

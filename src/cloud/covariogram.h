@@ -3,8 +3,6 @@
 // over directions u. [Matheron 1975; docs/theory/pairs.md]
 #include "base/status.h"
 
-#include <clast/cloud.h>
-
 /// The set covariance in closed form or by quadrature [m^d]: a box, a cylinder or a sphere.
 double clx_covariogram(const clast_domain *domain, double r);
 

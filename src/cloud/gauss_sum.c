@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "math/sort.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

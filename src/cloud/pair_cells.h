@@ -3,7 +3,6 @@
 #include "base/status.h"
 #include "cloud/pair_lanes.h"
 
-#include <clast/cloud.h>
 #include <clast/pairs.h>
 
 enum { CLX_PAIR_RANGE = 2 }; ///< cells to either side that hold neighbours

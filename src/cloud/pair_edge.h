@@ -2,8 +2,6 @@
 // Local edge correction of a pair: how much of its surroundings the domain's border cuts away.
 #include "base/status.h"
 
-#include <clast/cloud.h>
-
 /// Distance within which no border is met, at most `most`; 0 where it is not known.
 double clx_pair_edge_safe(const clast_domain *domain, const double *x, double most);
 

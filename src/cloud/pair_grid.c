@@ -6,7 +6,10 @@
 #include "cloud/pair_sums.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/parallel.h"
+#include "cloud/part.h"
+#include "math/exact_sum.h"
 #include <clast/machine.h>
 #include <math.h>
 #include <string.h>

@@ -7,9 +7,11 @@
 //     centred    1 + (|x-1/2| + |y-1/2| - |x-y|) / 2 = (1 + |x-1/2|/2 -+ x/2) +- y/2 + |y-1/2|/2
 //     star       2 - max(x, y)                       = 2 - x  or  2 - y
 // so sums over orthants of products of that basis serve all three.
-#include <clast/decompose.h>
+#include "base/status.h"
 
 typedef struct clx_part clx_part;
+
+#include <clast/decompose.h>
 
 enum { CLX_PAIR_BASIS = 3 };
 

@@ -10,6 +10,7 @@
 #include "math/rng.h"
 #include "math/sort.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

@@ -9,6 +9,7 @@
 #include "math/sort.h"
 
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <string.h>
 
 enum { AT_ONCE = 1 << 22 }; ///< points of a rank that are compared in one round

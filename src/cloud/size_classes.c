@@ -3,6 +3,7 @@
 #include "cloud/size_classes.h"
 
 #include "base/alloc.h"
+#include <clast/agglomerate.h>
 #include <math.h>
 #include <stdio.h>
 

@@ -1,7 +1,9 @@
 #pragma once
 // Counts of particles by their number of monomers, summed over runs.
-#include <clast/agglomerate.h>
+#include <clast/status.h>
 #include <clast/table.h>
+
+typedef struct clast_population clast_population;
 
 enum { CLX_N_SINGLE = 8, CLX_N_CLASS = 112 }; ///< classes of one number; all
 

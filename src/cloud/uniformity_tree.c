@@ -13,6 +13,7 @@
 #include "math/sort.h"
 #include "math/special.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

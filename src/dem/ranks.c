@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "dem/fluid.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <string.h>
 

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/lines.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <string.h>
 
 /// Numbers of a grain in a step: position, velocity, omega, travel, stability load; orientation

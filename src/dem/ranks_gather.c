@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/lines.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <string.h>
 
 /// Writes the rank's own grains, or the pairs whose a they are, as one message.

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/lines.h"
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <string.h>
 
 /// Box about the spheres of a rank's items; low > high: it has none.

@@ -10,6 +10,8 @@
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <clast/settling.h>
+#include <clast/shape.h>
+#include <clast/status.h>
 #include <math.h>
 
 static const double BOLTZMANN = 1.380649e-23; ///< J/K, exact [SI2019]

@@ -5,6 +5,7 @@
 #include "assembly/whole.h"
 #include "base/whole.h"
 #include "cloud/contract.h"
+#include <clast/agglomerate.h>
 #include <float.h>
 #include <math.h>
 

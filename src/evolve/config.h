@@ -1,6 +1,7 @@
 #pragma once
 // Checks of an evolution's configuration that no single range can see.
 #include "base/status.h"
+#include <clast/agglomerate.h>
 #include <clast/evolve.h>
 
 /// @return CLAST_E_CONFIG with the option, its value and what to do

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
+#include <clast/status.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,6 +9,7 @@
 #include <clast/table.h>
 
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

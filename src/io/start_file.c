@@ -3,8 +3,10 @@
 
 #include "base/alloc.h"
 #include "base/path.h"
+#include <clast/assembly.h>
 #include <clast/field.h>
 #include <clast/state.h>
+#include <clast/status.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -8,6 +8,7 @@
 
 #include "mpi/zoltan.h"
 #include <clast/machine.h>
+
 #include <mpi.h>
 #include <sched.h>
 #include <stdlib.h>

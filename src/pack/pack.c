@@ -10,6 +10,7 @@
 #include "pack/start.h"
 #include <clast/machine.h>
 #include <clast/settling.h>
+#include <clast/status.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

@@ -8,6 +8,8 @@
 #include "base/alloc.h"
 #include "dem/dem.h"
 #include "dem/touch.h"
+#include <clast/assembly.h>
+#include <clast/status.h>
 #include <math.h>
 
 clast_status clx_pack_start_check(clast_pack *p)

@@ -71,7 +71,7 @@ static clast_status write_aggregate(const char *folder, const char *name, const 
     char path[CLX_PATH_LIMIT];
     CLX_TRY(clast_evolve_aggregate(evolve, node, &assembly));
     CLX_TRY(clx_path_join(path, folder, name));
-    CLX_TRY(clast_state_write_assembly(path, &assembly, config));
+    CLX_TRY(clast_state_write_assembly(&assembly, path, config));
 done:
     clast_assembly_free(&assembly);
     return status;

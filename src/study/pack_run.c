@@ -16,6 +16,7 @@
 #include "study/pack_folder.h"
 #include <clast/field.h>
 #include <clast/machine.h>
+#include <clast/status.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 // First touch of two bodies: chooses the kernel for the two kinds, and turns frames.
 #include "touch/first_touch.h"
 
+#include "touch/body.h"
 #include "touch/ellipsoid.h"
 #include "touch/frame.h"
 #include "touch/pair.h"

@@ -7,7 +7,9 @@
 //
 // Error of any answer, as a distance between the bodies at t: 1e-12 of the bodies' size or less.
 // Where a body grazes another the position t itself is worse conditioned (the square root of that).
-#include "touch/body.h"
+#include "base/status.h"
+
+typedef struct clx_touch_body clx_touch_body;
 
 /// The line of travel and the part of it that is searched.
 typedef struct clx_touch_path {

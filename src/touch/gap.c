@@ -2,6 +2,7 @@
 // follows from it for scenes.
 #include "touch/gap.h"
 
+#include "touch/body.h"
 #include "touch/ellipsoid.h"
 #include "touch/frame.h"
 #include "touch/gap_tree.h"

@@ -1,5 +1,6 @@
 #pragma once
 // Is one body inside the other at the start of a search, with no surfaces intersecting?
+#include "touch/body.h"
 #include "touch/first_touch.h"
 
 /// A point (in the tree's own frame) is inside the closed surface of a mesh tree, by the parity of

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "geom/tree.h"
 #include "math/vec3.h"
+#include "touch/body.h"
 #include <string.h>
 
 // Bodies that join one by one spoil the tree: a walk among 1e5 spheres opened 31 nodes where the
