@@ -3,6 +3,7 @@
 
 #include "math/rng.h"
 #include "ref_touch.h"
+#include "touch/body.h"
 #include "touch/frame.h"
 
 enum { N_PAIR = 3000 };

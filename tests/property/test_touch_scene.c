@@ -3,6 +3,7 @@
 
 #include "math/rng.h"
 #include "math/vec3.h"
+#include "touch/body.h"
 #include "touch/scene.h"
 
 static clx_touch_body random_body(clx_rng *rng, double spread)

@@ -1,5 +1,6 @@
 // Slow oracles of first-touch search.
 #include "ref_touch.h"
+#include "touch/body.h"
 
 #include <math.h>
 

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include "math/vec3.h"
+#include "touch/body.h"
 #include "touch/first_touch.h"
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
