@@ -63,6 +63,8 @@ typedef struct {
     sampled *some;      ///< [n_some] along the curve of grid 0
     clx_keyed *in_grid; ///< [n_some] their codes in the grid, ascending; items: places in `some`
     int64_t n_some;
+    bool sorts_once;  ///< all points are sampled, here, each with a code of its own: one order for
+                      ///< both
     int64_t next;     ///< of in_grid: those before have been met or passed
     double *met;      ///< [n_some][rungs] weight of its neighbours over volume, summed over shifts
     double *met_here; ///< the same of one grid
@@ -368,16 +370,30 @@ done:
     return status;
 }
 
-/// Grid m: its points in order, and all of them as a cell.
-static clast_status start_grid(ladder_walk *w, int m, ladder_cell *all)
+static void set_shift(ladder_walk *w, int m)
+{
+    for (int32_t j = 0; j < w->ladder->d; ++j) {
+        w->shift[j] = (double)(m * (j + 1) % N_SHIFT) / N_SHIFT;
+    }
+}
+
+/// All points of a grid as a cell.
+static ladder_cell cell_of_all(const ladder_walk *w)
+{
+    ladder_cell all = {.end = w->point.n,
+                       .is_cut = w->sample->domain->kind == CLAST_DOMAIN_MESH,
+                       .is_counted = true};
+    set_owner(w, &all);
+    return all;
+}
+
+/// Points of the grid whose shift is set, in order.
+static clast_status order_points(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
     code_context c = {w, NULL, NULL};
     const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
-    for (int32_t j = 0; j < w->ladder->d; ++j) {
-        w->shift[j] = (double)(m * (j + 1) % N_SHIFT) / N_SHIFT;
-    }
     clx_ranked_free(&w->point);
     status = clx_alloc(&c.code, s->n, sizeof *c.code);
     if (status == CLAST_OK && w->weight != NULL) {
@@ -393,9 +409,6 @@ static clast_status start_grid(ladder_walk *w, int m, ladder_cell *all)
     const int64_t n = leave_out_ghosts(s, c.code);
     CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit, &w->point));
     CLX_TRY(count_shared(w));
-    *all = (ladder_cell){
-        .end = w->point.n, .is_cut = s->domain->kind == CLAST_DOMAIN_MESH, .is_counted = true};
-    set_owner(w, all);
 done:
     clx_free(c.keyed);
     clx_free(c.code);
@@ -492,8 +505,11 @@ static clast_status merge_sampled(ladder_walk *w)
         sampled *own = &w->some[i % w->n_some];
         *own = is_before(&other, own, d) ? other : *own;
     }
+    w->sorts_once = w->comm->n_rank == 1 && w->weight == NULL && w->n_some == w->point.n;
     for (int64_t i = 1; i < w->n_some; ++i) { // found under the first of equal codes
-        w->some[i] = w->some[i].code == w->some[i - 1].code ? w->some[i - 1] : w->some[i];
+        const bool is_repeated = w->some[i].code == w->some[i - 1].code;
+        w->some[i] = is_repeated ? w->some[i - 1] : w->some[i];
+        w->sorts_once = w->sorts_once && !is_repeated;
     }
 done:
     clx_gathered_free(&all);
@@ -539,35 +555,55 @@ done:
     return status;
 }
 
-/// What sampled points met in the grid; each was met on one rank.
-static clast_status walk_grid(ladder_walk *w, ladder_cell *all)
+/// Sampled points of the grid whose shift is set, in order.
+static clast_status order_sampled(ladder_walk *w)
+{
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        w->in_grid[i] = (clx_keyed){code_of(w, w->some[i].u), (uint64_t)i};
+    }
+    return clast_comm_agree(w->comm, clx_sort_keyed(w->in_grid, w->n_some), NULL);
+}
+
+/// What sampled points have met on all ranks in this grid; each was met on one of them.
+static clast_status share_met(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
     const int64_t size = w->n_some * CLX_LADDER_RUNGS;
     int64_t *bits = NULL;
-    for (int64_t i = 0; i < w->n_some; ++i) {
-        w->in_grid[i] = (clx_keyed){code_of(w, w->some[i].u), (uint64_t)i};
+    if (w->comm->n_rank == 1 || size == 0) {
+        return CLAST_OK;
     }
-    memset(w->met_here, 0, (size_t)size * sizeof *w->met_here);
-    status = clx_sort_keyed(w->in_grid, w->n_some);
-    if (status == CLAST_OK) {
-        status = clx_alloc(&bits, size, sizeof *bits);
-    }
-    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
-    w->next = 0;
-    visit(w, all);
-    CLAST_ASSERT(bits != NULL);
-    if (size > 0) {
-        memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
-    }
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&bits, size, sizeof *bits), NULL));
+    memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
     clx_comm_sum(w->comm, bits, size); // of all ranks' numbers one is not 0
-    for (int64_t i = 0; i < size; ++i) {
-        double met = 0.0;
-        memcpy(&met, &bits[i], sizeof met);
-        w->met[i] += met;
-    }
+    memcpy(w->met_here, bits, (size_t)size * sizeof *bits);
 done:
     clx_free(bits);
+    return status;
+}
+
+/// Grid m, whose points are in order for m = 0.
+static clast_status walk_grid(ladder_walk *w, int m)
+{
+    clast_status status = CLAST_OK;
+    const int64_t size = w->n_some * CLX_LADDER_RUNGS;
+    set_shift(w, m);
+    if (m > 0 && !w->sorts_once) {
+        CLX_TRY(order_points(w));
+    }
+    CLX_TRY(order_sampled(w));
+    for (int64_t i = 0; w->sorts_once && i < w->n_some; ++i) {
+        w->point.key[i] = w->in_grid[i].key;
+    }
+    memset(w->met_here, 0, (size_t)size * sizeof *w->met_here);
+    w->next = 0;
+    ladder_cell all = cell_of_all(w);
+    visit(w, &all);
+    CLX_TRY(share_met(w));
+    for (int64_t i = 0; i < size; ++i) {
+        w->met[i] += w->met_here[i];
+    }
+done:
     return status;
 }
 
@@ -627,18 +663,16 @@ static void set_sizes(ladder_walk *w)
 static clast_status count(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
-    ladder_cell all;
-    CLX_TRY(start_grid(w, 0, &all));
+    set_shift(w, 0);
+    CLX_TRY(order_points(w));
+    ladder_cell all = cell_of_all(w);
     w->n_all = w->point.n_all;
     tally(w, &all);
     clx_comm_sum(w->comm, w->tally, DEEPEST + 1);
     choose_rungs(w, w->ladder);
     CLX_TRY(take_sample(w));
     for (int m = 0; m < N_SHIFT && w->n_all > 1; ++m) {
-        if (m > 0) {
-            CLX_TRY(start_grid(w, m, &all));
-        }
-        CLX_TRY(walk_grid(w, &all));
+        CLX_TRY(walk_grid(w, m));
     }
     finish(w, w->ladder);
 done:
