@@ -50,12 +50,13 @@ static const char *const fractal[] = {"fractal_dimension", "fractal_prefactor"};
 
 const char *clast_collide_idle(const clast_collide_config *config, const char *key)
 {
-    if (config == NULL || key == NULL) {
-        return NULL;
+    const int32_t law = config != NULL ? config->sticking.law : -1;
+    if (key == NULL || law < 0 || law > CLAST_STICKING_CONTACT) {
+        return NULL; // what is wrong with it is for others to say
     }
     for (size_t k = 0; k < sizeof use / sizeof use[0]; ++k) {
         const bool is_used = (use[k].kernels & config->kernel) != 0 ||
-                             (use[k].laws >> config->sticking.law & 1U) != 0;
+                             (use[k].laws >> law & 1U) != 0;
         if (strcmp(use[k].key, key) == 0) {
             return is_used ? NULL : use[k].kernels != 0 ? "kernel" : "sticking";
         }
