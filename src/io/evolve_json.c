@@ -53,7 +53,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, r->hash);
     (void)json_object_set_new(o, "state_hash", json_string(hash));
     put_count(o, "n_start", r->n_start);
-    put_count(o, "n_particle", r->n_particle);
+    put_count(o, "n_in_fluid", r->n_particle);
     put_count(o, "n_event", r->n_event);
     put_count(o, "n_deposit", r->n_deposit);
     put_count(o, "n_out", r->n_out);
@@ -61,7 +61,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     put(o, "time", r->time);
     put_count(o, "n_step", r->n_step);
     put(o, "mass_start", r->mass_start);
-    put(o, "mass", r->mass);
+    put(o, "mass_in_fluid", r->mass);
     put(o, "mass_out", r->mass_out);
     put(o, "mass_balance", r->mass_balance);
     put_count(o, "grains_most", r->grains_most);

@@ -32,7 +32,7 @@ class Evolve(Case):
     def test_books_balance_in_every_row(self):
         run = self.folder / "run"
         out = self.run_ash("-j", 2, "--json", "-o", run).json
-        for key in ("n_start", "n_particle", "n_event", "n_deposit", "n_step", "mass_balance", "state_hash", "deposit", "wall_s"):
+        for key in ("n_start", "n_in_fluid", "n_event", "n_deposit", "n_step", "mass_balance", "state_hash", "deposit", "wall_s"):
             self.assertIn(key, out)
         self.assertGreater(out["n_event"], 50)
         balance = rows(run / "balance.csv")
