@@ -46,7 +46,8 @@ class Numbers(unittest.TestCase):
         said = command("decompose", POINTS, "--domain", BOX)
         found = clast.decompose(self.x, domain=BOX)
         for name in ("n", "n_cell", "score", "stop", "reject", "resolved", "pair_integral", "pair_integral_low", "pair_integral_high"):
-            self.assertEqual(getattr(found, name), said[name], name)
+            here = getattr(found, name)
+            self.assertEqual(None if here != here else here, said[name], name)  # null there is NaN here
         self.assertEqual(found.cells["count"].sum(), 500)
         self.assertEqual([(t["name"], t["statistic"], t["p"], t["reject"]) for t in said["tests"]], [tuple(row) for row in found.tests.tolist()])
         for name in ("ideal_score", "estimator", "n_repeated"):
