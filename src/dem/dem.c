@@ -223,9 +223,6 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     }
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
-        if (dem->cell != NULL) {
-            clx_cell_begin_step(dem);
-        }
         if (dem->list.is_due) {
             clx_inner_unpack(dem);
             CLX_TRY(clx_neighbour_list_refresh(dem));
@@ -237,6 +234,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_check_starts(dem));
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
+        if (dem->cell != NULL) { // after the lists, which hold from before its images move
+            clx_cell_begin_step(dem);
+        }
         CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
         if (dem->cell != NULL) {
             clx_cell_end_step(dem);

@@ -29,6 +29,48 @@ done:
     return status;
 }
 
+static bool has_usual_fills(const clast_pack_config *c, const clast_pack_config *usual)
+{
+    return c->fill_low == usual->fill_low && c->fill_high == usual->fill_high &&
+           c->first_low == usual->first_low && c->first_high == usual->first_high;
+}
+
+/// Options that act in domain cell alone, or on nothing there.
+static clast_status check_cell(const clast_pack_config *c, const clast_pack_config *usual)
+{
+    clast_status status = CLAST_OK;
+    const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
+    CLX_CHECK(!is_cell || (c->shaking_time == usual->shaking_time &&
+                           c->shake_amplitude == usual->shake_amplitude &&
+                           c->shake_period == usual->shake_period &&
+                           c->shake_from_start == usual->shake_from_start &&
+                           c->damping == usual->damping && has_usual_fills(c, usual)),
+              CLAST_E_CONFIG,
+              "domain cell is filled whole, and loaded by its stages: leave out shaking_time, "
+              "shake_amplitude, shake_period, shake_from_start, damping, fill_low, fill_high, "
+              "first_low and first_high");
+    CLX_CHECK(
+        !is_cell || (c->rule == usual->rule && c->height_change == usual->height_change &&
+                     c->check_time == usual->check_time && c->still_speed == usual->still_speed &&
+                     c->max_damping_time == usual->max_damping_time),
+        CLAST_E_CONFIG,
+        "stages of domain cell end by their until, load_rest and max_load_time: leave out rule, "
+        "height_change, check_time, still_speed and max_damping_time");
+    CLX_CHECK(
+        !is_cell || (c->dem.wall_friction == usual->dem.wall_friction && c->layer == usual->layer &&
+                     c->cut == usual->cut && c->trim == usual->trim),
+        CLAST_E_CONFIG,
+        "domain cell has no walls, no ends and no profile: leave out wall_friction, layer, cut and "
+        "trim");
+    CLX_CHECK(is_cell ||
+                  (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
+                   c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
+              CLAST_E_CONFIG,
+              "load_rate, load_tolerance, load_rest and max_load_time act in domain cell alone");
+done:
+    return status;
+}
+
 /// Options that the law, the domain or the forms leave without effect.
 static clast_status check_unused(const clast_pack_config *c, const clast_pack_config *usual)
 {
@@ -48,28 +90,17 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
                   (strcmp(c->curve, usual->curve) == 0 && c->shape_weight.n == 0 &&
                    c->mass == usual->mass && !c->form_law && !c->ellipsoids &&
                    c->spacing == usual->spacing && c->generator == usual->generator &&
-                   c->density_of == usual->density_of && c->initial_speed == usual->initial_speed),
+                   c->density_of == usual->density_of && c->initial_speed == usual->initial_speed &&
+                   has_usual_fills(c, usual) && c->shake_from_start == usual->shake_from_start),
               CLAST_E_CONFIG,
               "start brings the grains: leave out curve, shape_weight, mass, form_law, "
-              "ellipsoids, spacing, generator, density_of and initial_speed");
+              "ellipsoids, spacing, generator, density_of, initial_speed, fill_low, fill_high, "
+              "first_low, first_high and shake_from_start");
     CLX_CHECK(has_start || ((c->start_unit == NULL || c->start_unit[0] == '\0') &&
                             (c->start_columns == NULL || c->start_columns[0] == '\0') &&
                             c->start_diameter == 0.0),
               CLAST_E_CONFIG, "start_unit, start_columns and start_diameter are of a start");
-    const bool is_cell = d->domain == CLAST_DEM_CELL;
-    CLX_CHECK(!is_cell || (c->shaking_time == usual->shaking_time &&
-                           c->shake_amplitude == usual->shake_amplitude &&
-                           c->damping == usual->damping && c->fill_low == usual->fill_low &&
-                           c->fill_high == usual->fill_high && c->first_low == usual->first_low &&
-                           c->first_high == usual->first_high && c->trim == usual->trim),
-              CLAST_E_CONFIG,
-              "domain cell is filled whole, and loaded by its stages: leave out shaking_time, "
-              "shake_amplitude, damping, fill_low, fill_high, first_low, first_high and trim");
-    CLX_CHECK(is_cell ||
-                  (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
-                   c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
-              CLAST_E_CONFIG,
-              "load_rate, load_tolerance, load_rest and max_load_time act in domain cell alone");
+    CLX_TRY(check_cell(c, usual));
     CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
               "depth %g m: a cylinder has a width alone", d->depth);
     CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,

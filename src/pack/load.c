@@ -87,16 +87,23 @@ clast_status clx_pack_load_begin(clast_pack *p)
     return begin_stage(p, 0);
 }
 
+static bool moves_at_rate(const clx_stage *s, int k)
+{
+    return s->kind[k] == CLX_DRIVE_RATE && s->aim[k] != 0.0;
+}
+
+static bool has_rate(const clx_stage *s)
+{
+    return moves_at_rate(s, 0) || moves_at_rate(s, 1) || moves_at_rate(s, 2);
+}
+
 /// Strain since the stage began: the greatest of the sides that move at a rate, or of all.
 static double strain_of(const clast_pack *p, const clx_stage *s, const clast_dem_cell *cell)
 {
     double most = fabs(cell->shear_strain - p->load.sheared);
-    bool has_rate = s->shear != 0.0;
+    const bool is_at_rate = s->shear != 0.0 || has_rate(s);
     for (int k = 0; k < 3; ++k) {
-        has_rate = has_rate || s->kind[k] == CLX_DRIVE_RATE;
-    }
-    for (int k = 0; k < 3; ++k) {
-        if (!has_rate || s->kind[k] == CLX_DRIVE_RATE) {
+        if (!is_at_rate || moves_at_rate(s, k)) {
             most = fmax(most, fabs(cell->strain[k] - p->load.strain[k]));
         }
     }
@@ -116,16 +123,24 @@ static bool is_reached(const clast_pack *p, const clx_stage *s, const clast_dem_
     return true;
 }
 
-/// Greatest stress of sides that move at a rate, or the mean; shear stress where it shears.
-static double stress_of(const clx_stage *s, const clast_dem_load *load)
+/// Whether a stress has come to `until`: the shear stress where it shears; else that of a side that
+/// moves at a rate, or, where none does, is held at a pressure. From above where the side extends,
+/// or its own pressure is lower.
+static bool has_come(const clx_stage *s, const clast_dem_load *load)
 {
-    double most = fabs(s->shear != 0.0 ? load->stress[4] + load->kinetic_stress[4] : 0.0);
+    if (s->shear != 0.0) {
+        return fabs(load->stress[4] + load->kinetic_stress[4]) >= s->until;
+    }
+    const bool is_at_rate = has_rate(s);
     for (int k = 0; k < 3; ++k) {
-        if (s->kind[k] == CLX_DRIVE_RATE || s->kind[k] == CLX_DRIVE_STRESS) {
-            most = fmax(most, load->stress[k] + load->kinetic_stress[k]);
+        const double now = load->stress[k] + load->kinetic_stress[k];
+        const bool is_held = !is_at_rate && s->kind[k] == CLX_DRIVE_STRESS;
+        const bool falls = is_held ? s->aim[k] < s->until : s->aim[k] < 0.0;
+        if ((is_held || moves_at_rate(s, k)) && (falls ? now <= s->until : now >= s->until)) {
+            return true;
         }
     }
-    return most;
+    return false;
 }
 
 static bool is_over(const clast_pack *p, const clx_stage *s, const clast_dem_load *load,
@@ -139,7 +154,7 @@ static bool is_over(const clast_pack *p, const clx_stage *s, const clast_dem_loa
     case CLX_END_STRAIN:
         return strain_of(p, s, cell) >= s->until;
     case CLX_END_STRESS:
-        return s->until > 0.0 ? stress_of(s, load) >= s->until : is_reached(p, s, load);
+        return s->until > 0.0 ? has_come(s, load) : is_reached(p, s, load);
     default:
         return is_reached(p, s, load) && load->n_contact > 0 &&
                load->unbalanced < p->config.load_rest;

@@ -79,7 +79,7 @@ static clast_status check_room(const clast_pack *p)
     double light = 0.0;
     double heavy = 0.0;
     CLX_CHECK(
-        p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
+        is_cell || p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
         "a height of %g m is %g slices of %g m (layer), a row of the profile each; at most %g: "
         "take a lower domain or a greater layer",
         p->tall, p->tall / c->layer, c->layer, MOST_SLICES);
@@ -363,7 +363,7 @@ static clast_status decide(clast_pack *p)
     if (p->phase == CLAST_PACK_LOAD) {
         CLX_TRY(clx_pack_load_look(p));
         if (p->load.is_over) {
-            begin_phase(p, CLAST_PACK_DONE);
+            CLX_TRY(begin_phase(p, CLAST_PACK_DONE));
         }
     }
     if (p->phase == CLAST_PACK_GENERATE && step % steps_of(p, 1e-3) == 0) {

@@ -59,9 +59,13 @@ static clast_status read_drive(const clast_pack_config *c, int32_t number, const
     if (n < 2 || strcmp(text + n - 2, "Pa") != 0 || clast_unit_parse(text, "Pa", aim) != CLAST_OK) {
         return fail(c, number, "this is no pressure (10kPa) and no strain rate (0.1/s):", text);
     }
+    if (*aim == 0.0) {
+        return fail(c, number,
+                    "a stress of 0 is never reached; give a small one, or a rate:", text);
+    }
     return *aim > 0.0 || c->dem.cohesion != CLAST_DEM_DRY
                ? CLAST_OK
-               : fail(c, number, "dry grains bear no pull and no stress of 0:", text);
+               : fail(c, number, "dry grains bear no pull:", text);
 }
 
 static clast_status read_axis(const clast_pack_config *c, int32_t number, const char *word,
@@ -166,6 +170,12 @@ static clast_status check(const clast_pack_config *c, int32_t number, const clx_
     }
     if (s->end == CLX_END_STRESS && s->until == 0.0 && !has_stress) {
         return fail(c, number, "no side has a stress to reach; give one after until stress", "");
+    }
+    if (s->end == CLX_END_STRESS && !has_rate && !has_stress) {
+        return fail(c, number, "nothing changes the bed's stress: drive a side", "");
+    }
+    if (s->shear != 0.0 && (s->kind[0] == CLX_DRIVE_STRESS || s->aim[0] != 0.0)) {
+        return fail(c, number, "the side x stays while xz shears: leave out x", "");
     }
     return CLAST_OK;
 }

@@ -105,6 +105,10 @@ class Load(Case):
         self.assert_fails(2, *hold, "--start", dump, says=("start", "start_unit"))
         self.assert_fails(2, *hold, "--start", run, says=("is a folder",))
         self.assert_fails(2, *hold, "--start", run / "state.h5", "--mass", "1g", says=("start brings the grains",))
+        poured = ["pack", "--start", run / "state.h5", "--width", "40mm", "--height", "40mm", "--quiet"]
+        for option in (("--fill-low", "0.5"), ("--fill-high", "0.9"), ("--first-low", "0.1"), ("--first-high", "0.9"),
+                       ("--no-shake-from-start",)):
+            self.assert_fails(2, *poured, *option, says=("start brings the grains", option[0].replace("--no-", "--")[2:].replace("-", "_")))
         text.write_text("0 0 0.005 0.002\n0 0 0.0055 0.002\n", encoding="utf-8")
         self.assert_fails(3, *hold, "--start", text, "--start-unit", "m", "--start-columns", "x,y,z,r",
                           says=("grains 0 and 1 begin inside of each other",))
@@ -137,6 +141,15 @@ class Load(Case):
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--mass", "13g", says=("larger cell",))
         self.assert_fails(2, *CELL, "--stages", "z=1e6/s until strain 0.1", says=("faster than half", "load_rate"))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--shaking-time", "2s", says=("leave out", "shaking_time"))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 0Pa", says=("stage 1", "never reached"))
+        self.assert_fails(2, *CELL, "--stages", "hold until stress 1kPa", says=("stage 1", "drive a side"))
+        self.assert_fails(2, *CELL, "--stages", "xz=1/s x=1/s until strain 1", says=("stage 1", "leave out x"))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--fluid-viscosity", "1e-3", says=("fluid_viscosity", "domain cell"))
+        for option in (("--rule", "speed"), ("--still-speed", "1"), ("--check-time", "1s"), ("--height-change", "1mm"),
+                       ("--max-damping-time", "1s"), ("--shake-period", "1s"), ("--no-shake-from-start",), ("--wall-friction", "0.1"),
+                       ("--cut", "0.4"), ("--layer", "2mm")):
+            self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", *option,
+                              says=("domain cell", "leave out", option[0].replace("--no-", "--")[2:].replace("-", "_")))
         self.assert_fails(5, *CELL, "--stages", "z=10kPa", "--max-load-time", "1ms", says=("stage 1", "not come to its end"))
         self.assert_fails(2, "pack", "--curve", "4mm", "--mass", "2g", "--width", "30mm", "--height", "0.1m", "--stages",
                           "isotropic 10kPa", says=("domain cell alone",))

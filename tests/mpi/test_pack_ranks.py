@@ -174,6 +174,13 @@ class Beds(Case):
         code, _, err = ranks(2, *run, partition="metis")
         self.assertEqual((code, len(own_lines(err))), (2, 1), err)
 
+    def test_a_start_is_of_one_rank(self):
+        run = self.folder / "run"
+        code, _, err = ranks(2, "pack", "--start", "bed.dump", "--start-unit", "m", "-o", run, "-q")
+        self.assertEqual(code, 2, err)
+        self.assertIn("start bed.dump over 2 ranks", err)
+        self.assertFalse(run.exists() or (self.folder / "run.new").exists())
+
     def test_more_ranks_than_grains(self):
         code, out, err = ranks(4, *SMALL, "--mass", "0.1g", "--height", "40mm", "--max-steps", 300)
         self.assertEqual(code, 0, err)

@@ -388,6 +388,9 @@ static void cells_refuse_what_they_cannot(void **state)
     c.floor = true;
     assert_int_equal(clast_dem_create(&c, &dem), CLAST_E_CONFIG);
     c.floor = false;
+    c.fluid_viscosity = 1e-3;
+    assert_int_equal(clast_dem_create(&c, &dem), CLAST_E_CONFIG);
+    c.fluid_viscosity = 0.0;
     const clast_dem_grain grain = at(0.0, 0.0, 0.015);
     dem = balls(&c, 1, &grain);
     CHECK_OK(clast_dem_set_cell_rate(dem, rate, 0.0));
@@ -462,6 +465,50 @@ static void servo_holds_its_pressure(void **state)
     clast_fields_free(clast_pack_fields, &c);
 }
 
+/* Stages end where the stress of what drives them is, from above where it falls: not at the held
+ * pressure of other sides, and not at once. */
+static void stages_end_at_the_driven_stress(void **state)
+{
+    (void)state;
+    enum { N = 6 };
+    char *stages[N] = {"isotropic 10kPa until rest",
+                       "triaxial 10kPa 1/s until stress 20kPa",
+                       "triaxial 10kPa -1/s until stress 12kPa",
+                       "shear 1/s 10kPa until stress 3kPa",
+                       "oedometer 4kPa until stress 6kPa",
+                       "x=6kPa y=6kPa z=0/s until strain 1e-3"};
+    clast_pack_config c = packing(N, stages);
+    const double size = 0.004;
+    clast_grading *grading = NULL;
+    clast_shape sphere = {0};
+    CHECK_OK(clast_grading_uniform(size, size, &grading));
+    CHECK_OK(clast_shape_sphere("sphere", 0.5, &sphere));
+    clast_pack *pack = start(&c, grading, &sphere, CLAST_OK);
+    CHECK_OK(clast_pack_advance(pack, 1000000));
+    assert_true(clast_pack_is_over(pack));
+    const clast_table *t = clast_pack_load_table(pack);
+    const double *stage = clast_table_numbers(t, "stage");
+    const double *step = clast_table_numbers(t, "step");
+    const double *z = clast_table_numbers(t, "stress_zz_Pa");
+    int64_t end[N] = {0};
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        end[(int)stage[i] - 1] = i;
+    }
+    for (int k = 1; k < N; ++k) {
+        assert_true(step[end[k]] > step[end[k - 1]] + 25.0);
+    }
+    assert_true(z[end[1]] >= 2e4 && z[end[1]] < 2.2e4);
+    assert_true(z[end[2]] <= 1.2e4 && z[end[2]] > 1e4);
+    const double xz = fabs(clast_table_numbers(t, "stress_xz_Pa")[end[3]]);
+    assert_true(xz >= 3e3 && xz < 4e3 && z[end[3]] > 5e3);
+    assert_true(z[end[4]] <= 6e3 && z[end[4]] > 4e3);
+    clast_pack_destroy(pack);
+    clast_grading_destroy(grading);
+    clast_shape_free(&sphere);
+    c.stages = (clast_text_list){0};
+    clast_fields_free(clast_pack_fields, &c);
+}
+
 /* Words that are no stage, and stages that cannot be. */
 static void stages_refuse_what_they_cannot(void **state)
 {
@@ -478,6 +525,12 @@ static void stages_refuse_what_they_cannot(void **state)
                      "shear 10kPa until strain 1",
                      "hold until strain 1",
                      "hold until stress",
+                     "hold until stress 1kPa",
+                     "z=0/s until stress 1kPa",
+                     "z=0/s until strain 0.1",
+                     "isotropic 0Pa",
+                     "xz=1/s x=1/s until strain 0.1",
+                     "shear 1/s x=10kPa until strain 0.1",
                      "x=1/s xz=1kPa until time 1s",
                      "isotropic 1000000/s until strain 0.1",
                      "hold until time 1s until time 2s"};
@@ -506,6 +559,7 @@ int main(void)
         cmocka_unit_test(sheared_bed_misses_no_contact),
         cmocka_unit_test(cells_refuse_what_they_cannot),
         cmocka_unit_test(servo_holds_its_pressure),
+        cmocka_unit_test(stages_end_at_the_driven_stress),
         cmocka_unit_test(stages_refuse_what_they_cannot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
