@@ -55,8 +55,8 @@ const char *clast_collide_idle(const clast_collide_config *config, const char *k
         return NULL; // what is wrong with it is for others to say
     }
     for (size_t k = 0; k < sizeof use / sizeof use[0]; ++k) {
-        const bool is_used = (use[k].kernels & config->kernel) != 0 ||
-                             (use[k].laws >> law & 1U) != 0;
+        const bool is_used =
+            (use[k].kernels & config->kernel) != 0 || (use[k].laws >> law & 1U) != 0;
         if (strcmp(use[k].key, key) == 0) {
             return is_used ? NULL : use[k].kernels != 0 ? "kernel" : "sticking";
         }
