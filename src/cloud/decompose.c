@@ -316,6 +316,7 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
         status = clx_alloc(&of_sample, m->n, sizeof *of_sample);
     }
     CLX_TRY(clast_comm_agree(m->comm, status, NULL));
+    CLAST_ASSERT(of_sample != NULL);
     gather_bins(&passes, cell, &result->cells);
     for (int64_t i = 0; i < m->n; ++i) {
         of_sample[i] = cell[clx_bins_of(&passes.bins, m->u + i * m->domain->dimension)];
@@ -580,8 +581,8 @@ static clast_status check_ranks(const clast_domain *domain, const clast_cloud *c
                   {config->ghost_samples > 0, "expected scores by sampling (--ghost-samples)"},
                   {config->crossfit, "cross-fitting"}};
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
-        CLX_CHECK(!single[k].is_asked, CLAST_E_CONFIG,
-                  "one cloud over ranks has no %s: run it as one process", single[k].what);
+        CLX_CHECK(!single[k].is_asked, CLAST_E_CONFIG, "%s: not over ranks; run it as one process",
+                  single[k].what);
     }
 done:
     return status;
