@@ -4367,7 +4367,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'structure': ('flag', True, '-', None, None, None, 'aggregates keep their grains as they touch; no: drops that merge'),
         'meeting': ('choice', 'auto', '-', None, None, 'auto|ballistic|diffusive|central', 'how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section'),
         'walk_step': ('number', 0.1, '-', 0.0001, 1.0, None, 'diffusive: least step of the walk, in radii of the smallest thrown grain'),
-        'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths tried before a pair is given up, in thousands'),
+        'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths tried before a pair is given up, in thousands; of central lines: one by one'),
         'duration': ('number', 0.0, 's', 0.0, 1e+300, None, 'time that passes at most'),
         'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
         'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step"),

@@ -684,7 +684,7 @@ def evolve(
         structure: aggregates keep their grains as they touch; no: drops that merge (default True)
         meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section (auto, ballistic, diffusive, central; default auto)
         walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
-        max_tries: paths tried before a pair is given up, in thousands (1 to 1e+06; default 100)
+        max_tries: paths tried before a pair is given up, in thousands; of central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
         step_error: share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)

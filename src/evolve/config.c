@@ -8,6 +8,7 @@
 #include <clast/agglomerate.h>
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #define FIELD(type, name) #name, .offset = offsetof(clast_evolve_config, name), CLAST_FIELD_##type
 #define DEEP(type, name, member)                                                                   \
@@ -146,7 +147,8 @@ const clast_field clast_evolve_fields[] = {
            "lines over the cross-section"),
     NUMBER(walk_step, 0.1, 1e-4, 1, "-",
            "diffusive: least step of the walk, in radii of the smallest thrown grain"),
-    COUNT(max_tries, 100, 1, 1e6, "paths tried before a pair is given up, in thousands"),
+    COUNT(max_tries, 100, 1, 1e6,
+          "paths tried before a pair is given up, in thousands; of central lines: one by one"),
 
     NUMBER(duration, 0, 0, 1e300, "s", "time that passes at most", .common = true, .group = "time"),
     COUNT(rows, 50, 1, 1e6, "rows of the tables over it"),
@@ -189,11 +191,77 @@ clast_status clx_evolve_collide(const clast_evolve_config *c, clast_collide_conf
               "kernel %s needs velocities of their own, which bodies that follow the fluid do not "
               "have",
               c->kernel);
+    CLX_CHECK((collide->kernel >> CLAST_KERNEL_INERTIAL & 1U) == 0 || c->medium.speed_rms > 0.0,
+              CLAST_E_CONFIG, "kernel inertial needs speed_rms above 0");
     if (!(collide->medium.shear > 0.0)) {
         collide->medium.shear = fabs(c->wind_shear);
     }
     collide->medium.settling_law =
         c->fall == CLAST_FALL_STOKES ? CLAST_SETTLING_STOKES : CLAST_SETTLING_STANDARD;
+done:
+    return status;
+}
+
+int32_t clx_evolve_meeting(const clast_evolve_config *c, uint32_t kernel)
+{
+    const uint32_t slow = 1U << CLAST_KERNEL_BROWNIAN | 1U << CLAST_KERNEL_BROWNIAN_TRANSITION;
+    if (c->meeting != CLAST_MEETING_AUTO) {
+        return c->meeting;
+    }
+    return (kernel & ~slow) == 0 ? CLAST_MEETING_DIFFUSIVE : CLAST_MEETING_BALLISTIC;
+}
+
+/// Whether the motion of the bodies looks at a key of the fluid, whatever the kernel; `density` is
+/// that of the solid.
+static bool is_of_motion(const char *key)
+{
+    static const char *const motion[] = {"temperature", "viscosity", "density", "mean_free_path",
+                                         "gravity"};
+    for (size_t k = 0; k < sizeof motion / sizeof motion[0]; ++k) {
+        if (strcmp(key, motion[k]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Refuses a number of kernels or sticking that neither looks at.
+static clast_status check_used(const clast_evolve_config *c, const clast_collide_config *collide)
+{
+    clast_status status = CLAST_OK;
+    for (const clast_field *f = clast_evolve_fields; f->name != NULL; ++f) {
+        const char *const by = clast_collide_idle(collide, f->name);
+        char word[256] = "";
+        if (f->type != CLAST_FIELD_F64 || by == NULL || is_of_motion(f->name) ||
+            *(const double *)((const char *)c + f->offset) == f->value) {
+            continue;
+        }
+        (void)clast_field_format(clast_fields_find(clast_evolve_fields, by), c, 0, sizeof word,
+                                 word);
+        CLX_CHECK(false, CLAST_E_CONFIG, "%s does nothing with %s %s", f->name, by, word);
+    }
+done:
+    return status;
+}
+
+/// Refuses what another key makes idle.
+static clast_status check_idle(const clast_evolve_config *c, const clast_evolve_input *input)
+{
+    clast_status status = CLAST_OK;
+    const clast_field *f = clast_evolve_fields;
+    clast_collide_config collide;
+    CLX_TRY(clx_evolve_collide(c, &collide));
+    CLX_TRY(check_used(c, &collide));
+    CLX_CHECK(c->even != CLAST_EVEN_WHOLE ||
+                  c->change_level == clast_fields_find(f, "change_level")->value,
+              CLAST_E_CONFIG, "change_level does nothing with even whole");
+    CLX_CHECK((c->structure && clx_evolve_meeting(c, collide.kernel) == CLAST_MEETING_DIFFUSIVE) ||
+                  c->walk_step == clast_fields_find(f, "walk_step")->value,
+              CLAST_E_CONFIG, "walk_step does nothing without meeting diffusive%s",
+              c->structure ? "" : " of grains (structure)");
+    CLX_CHECK(input->field != NULL ||
+                  strcmp(c->field_columns, clast_fields_find(f, "field_columns")->text) == 0,
+              CLAST_E_CONFIG, "field_columns does nothing without field");
 done:
     return status;
 }
@@ -284,6 +352,7 @@ clast_status clx_evolve_config_check(const clast_evolve_config *c, const clast_e
               "viscosity and fluid_density must be above 0");
     CLX_CHECK(!c->brownian || c->medium.temperature > 0.0, CLAST_E_CONFIG,
               "temperature: Brownian motion needs one above 0");
+    CLX_TRY(check_idle(c, input));
 done:
     return status;
 }

@@ -11,5 +11,8 @@ clast_status clx_evolve_config_check(const clast_evolve_config *config,
 /// Kernel's mask and medium in full, from the configuration's words.
 clast_status clx_evolve_collide(const clast_evolve_config *config, clast_collide_config *collide);
 
+/// How the smaller of a pair comes, AUTO resolved by the kernel.
+int32_t clx_evolve_meeting(const clast_evolve_config *config, uint32_t kernel);
+
 /// The fluid's velocity at z = 0 [m/s].
 clast_status clx_evolve_wind_read(const clast_evolve_config *config, double wind[3]);

@@ -48,12 +48,7 @@ static clast_status prepare_encounters(clast_evolve *e)
     CLX_TRY(clx_evolve_collide(c, &e->collide));
     CLX_TRY(clx_evolve_wind_read(c, e->wind));
     e->ranges = clx_ranges_of(&e->collide);
-    e->meeting = c->meeting;
-    if (c->meeting == CLAST_MEETING_AUTO) {
-        const uint32_t slow = 1U << CLAST_KERNEL_BROWNIAN | 1U << CLAST_KERNEL_BROWNIAN_TRANSITION;
-        e->meeting =
-            (e->collide.kernel & ~slow) == 0 ? CLAST_MEETING_DIFFUSIVE : CLAST_MEETING_BALLISTIC;
-    }
+    e->meeting = clx_evolve_meeting(c, e->collide.kernel);
 done:
     return status;
 }
@@ -308,11 +303,13 @@ static double height_of(const clast_domain *d)
 }
 
 /// How long the next step may be: the mean particle meets, and the mean mass falls and spreads,
-/// by a share step_error of one and of the height. Ends at the next row.
+/// by a share step_error of one and of the height, or of the width between walls that keep what
+/// meets them. Ends at the next row.
 static double step_of(const clast_evolve *e)
 {
     const clast_evolve_config *c = e->config;
     const double height = height_of(e->input->domain);
+    const double width = fmin(height, clx_evolve_width(e));
     const double left = c->duration * ((double)(e->row + 1) / c->rows) - e->time;
     double mass = 0.0, fall = 0.0, spread = 0.0;
     for (int32_t k = 0; k < e->n_live; ++k) {
@@ -326,7 +323,7 @@ static double step_of(const clast_evolve *e)
         dt = c->time_step;
     } else {
         dt = fall > 0.0 ? fmin(dt, c->step_error * height * mass / fall) : dt;
-        dt = spread > 0.0 ? fmin(dt, c->step_error * height * height * mass / spread) : dt;
+        dt = spread > 0.0 ? fmin(dt, c->step_error * width * width * mass / spread) : dt;
         dt = e->rate > 0.0 ? fmin(dt, c->step_error / e->rate) : dt;
     }
     const double parts = ceil(left / dt);
@@ -344,7 +341,7 @@ static clast_status step(clast_evolve *e, bool *is_row)
     if (e->n_live > 1) {
         CLX_TRY(meet(e, dt));
     }
-    clx_evolve_move(e, dt);
+    CLX_TRY(clx_evolve_move(e, dt));
     e->time = *is_row ? next : e->time + dt;
     ++e->step;
     clx_evolve_list(e);

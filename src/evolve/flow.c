@@ -78,9 +78,7 @@ static clast_status fill(const clast_cloud *cloud, clx_flow *flow)
             CLX_CHECK(isfinite(u), CLAST_E_FORMAT, "row %lld has no finite velocity",
                       (long long)i + 1);
             flow->u[node][k] = u;
-            if (flow->n[k] > 1) {
-                flow->fastest = fmax(flow->fastest, fabs(u) / flow->step[k]);
-            }
+            flow->fastest[k] = fmax(flow->fastest[k], fabs(u));
         }
     }
 done:

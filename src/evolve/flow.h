@@ -7,8 +7,8 @@
 typedef struct clx_flow {
     int32_t n[3]; ///< nodes an axis
     double low[3], step[3];
-    double (*u)[3]; ///< [n[2]][n[1]][n[0]] velocity at the nodes, or NULL
-    double fastest; ///< cells crossed per second, at most
+    double (*u)[3];    ///< [n[2]][n[1]][n[0]] velocity at the nodes, or NULL
+    double fastest[3]; ///< greatest |u| of an axis [m/s]
 } clx_flow;
 
 /// The nodes of a cloud with velocities as a grid, in whatever order they come.

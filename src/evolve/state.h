@@ -143,7 +143,13 @@ clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double
                              clx_rng *rng);
 
 /// move.c: every body in the fluid for a time dt, onto the floor too.
-void clx_evolve_move(clast_evolve *e, double dt);
+///
+/// @return CLAST_E_LIMIT where a body needs more than a million parts of it
+clast_status clx_evolve_move(clast_evolve *e, double dt);
+
+/// Least distance between walls that keep or lose what meets them, but for the floor of a box alone
+/// [m]; INFINITY: none such.
+double clx_evolve_width(const clast_evolve *e);
 
 /// series.c: one row of the balance, and of the spectrum's classes, as things are.
 clast_status clx_evolve_write_row(clast_evolve *e);

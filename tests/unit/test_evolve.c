@@ -354,6 +354,145 @@ static void floor_takes_what_diffuses(void **state)
     end(&c);
 }
 
+#define STILL                                                                                      \
+    "curve=1um", "kernel=constant", "alpha=0", "gravity=0", "brownian=no", "even=whole",           \
+        "floor=reflect", "sides=deposit"
+
+/* Points all at one place. */
+static const char *points_at(int n, double x, double y, double z)
+{
+    static char option[4096];
+    const char *path = support_scratch_file("points.csv");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fprintf(file, "x,y,z\n");
+    for (int i = 0; i < n; ++i) {
+        (void)fprintf(file, "%.17g,%.17g,%.17g\n", x, y, z);
+    }
+    (void)fclose(file);
+    (void)snprintf(option, sizeof option, "points=%s", path);
+    return option;
+}
+
+/* Chance that a path from the middle has not met a wall of a slab after D t / L^2 = s. */
+static double slab_left(double s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 50; ++k) {
+        const double m = 2.0 * k + 1.0;
+        sum += (k % 2 == 0 ? 4.0 : -4.0) / (m * CLAST_PI) * exp(-m * m * CLAST_PI * CLAST_PI * s);
+    }
+    return sum;
+}
+
+/* The same of a disc's centre; zeros of J0 and J1 there. */
+static double disc_left(double s)
+{
+    static const double zero[] = {2.404825557695773, 5.520078110286311, 8.653727912911013,
+                                  11.79153443901428};
+    static const double j1[] = {0.5191474972894669, -0.3402648065583682, 0.2714522999283819,
+                                -0.2324598313647173};
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        sum += 2.0 / (zero[k] * j1[k]) * exp(-zero[k] * zero[k] * s);
+    }
+    return sum;
+}
+
+static void check_left(const char *domain, const char *floor, int n, const char *points,
+                       double exact)
+{
+    const char *const option[] = {domain,        points,   STILL, floor, "eddy_diffusivity=1e-5",
+                                  "duration=1s", "rows=1", NULL};
+    cloud c;
+    begin(&c, option);
+    const clast_evolve_result r = follow(&c);
+    CHECK_ABS((double)(n - r.n_deposit) / n, exact, 4.0 * sqrt(exact * (1.0 - exact) / n));
+    end(&c);
+}
+
+/* Sides that keep all: a square duct [Carslaw1959 sec. 5.6], a cylinder [sec. 7.6] and a sphere
+ * [sec. 9.3] from the middle, at the default step. */
+static void sides_take_what_diffuses(void **state)
+{
+    enum { N = 4000 };
+    (void)state;
+    const double slab = slab_left(0.1);
+    CHECK_ABS(slab * slab * 4000.0, 901.0, 1.0);
+    check_left("domain=box:0,0,0,1cm,1cm,1", "floor=reflect", N, points_at(N, 0.005, 0.005, 0.5),
+               slab * slab);
+    check_left("domain=cylinder:0,0,0,0,0,1,5mm,1", "floor=reflect", N, points_at(N, 0.0, 0.0, 0.5),
+               disc_left(0.4));
+    double sphere = 0.0;
+    for (int k = 1; k < 20; ++k) {
+        sphere += (k % 2 == 1 ? 2.0 : -2.0) * exp(-0.4 * k * k * CLAST_PI * CLAST_PI);
+    }
+    check_left("domain=sphere:5mm", "floor=deposit", N, points_at(N, 0.0, 0.0, 0.0), sphere);
+}
+
+/* A straight path ends on the wall that it meets first, where and when it meets it. */
+static void check_arrival(const char *points, const char *wind, const double x[4])
+{
+    const char *const option[] = {"domain=box:0,0,0,1cm,1cm,1cm",
+                                  points,
+                                  STILL,
+                                  wind,
+                                  "time_step=0.1s",
+                                  "duration=0.1s",
+                                  "rows=1",
+                                  NULL};
+    static const char *const column[] = {"x_m", "y_m", "z_m", "time_s"};
+    cloud c;
+    clast_table deposit = {0};
+    begin(&c, option);
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
+    assert_int_equal(deposit.n_row, 1);
+    for (int k = 0; k < 4; ++k) {
+        CHECK_ABS(clast_table_numbers(&deposit, column[k])[0], x[k], 1e-12);
+    }
+    clast_table_free(&deposit);
+    end(&c);
+}
+
+static void the_first_wall_keeps(void **state)
+{
+    (void)state;
+    const double t = 0.005 / 3.0;
+    check_arrival(points_at(1, 0.005, 0.005, 0.008), "wind=1,3,0",
+                  (double[]){0.005 + t, 0.01, 0.008, t});
+    check_arrival(points_at(1, 0.005, 0.005, 0.0005), "wind=1,0,0",
+                  (double[]){0.01, 0.005, 0.0005, 0.005});
+    check_arrival(points_at(1, 0.005, 0.005, 0.0005), "wind=-1,0,-0.2", /* off the floor, then */
+                  (double[]){0.0, 0.005, 0.0005, 0.005});
+}
+
+/* No aggregate lies on the floor before its grains have met. */
+static void arrivals_come_after_events(void **state)
+{
+    (void)state;
+    static const char *const option[] = {
+        "domain=box:0,0,0,1,1,1", "particles=2000", "curve=100um", "kernel=constant",
+        "constant=2e-3",          "structure=no",   "brownian=no", "duration=10s",
+        "time_step=1s",           "rows=1",         NULL};
+    cloud c;
+    clast_table deposit = {0};
+    clast_table events = {0};
+    begin(&c, option);
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_EVENTS, &events));
+    assert_true(events.n_row > 100);
+    for (int64_t i = 0; i < deposit.n_row; ++i) {
+        const int64_t k = (int64_t)clast_table_numbers(&deposit, "node")[i] - 2000;
+        assert_true(k < 0 || clast_table_numbers(&deposit, "time_s")[i] >=
+                                 clast_table_numbers(&events, "time_s")[k]);
+    }
+    clast_table_free(&deposit);
+    clast_table_free(&events);
+    end(&c);
+}
+
 /* Velocities of a turn about z with one turn in 10 s, on a grid in any order. */
 static const char *turning_field(int faulty)
 {
@@ -406,6 +545,11 @@ static void a_field_turns_the_cloud(void **state)
     }
     clast_table_free(&before);
     clast_table_free(&after);
+    end(&c);
+    open_cloud(&c, option);
+    set(&c.config, "wind=1e9,0,0"); /* crosses more than a million cells */
+    CHECK_OK(clast_evolve_create(&c.config, &c.source.input, &c.evolve));
+    CHECK_STATUS(clast_evolve_advance(c.evolve), CLAST_E_LIMIT);
     end(&c);
     (void)turning_field(1); /* a node is missing */
     open_cloud(&c, option);
@@ -490,6 +634,12 @@ static void bad_configurations_are_refused(void **state)
     refuses((const char *const[]){"domain=sphere:1", "particles=9", "duration=1s", NULL},
             CLAST_E_CONFIG);
     refuses((const char *const[]){"domain=box:0,0,0,1,1,1", "particles=9", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=brownian", "shear=1", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "young=1e9", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "even=whole", "change_level=0.1", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=settling", "walk_step=0.2", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "field_columns=a,b,c", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=inertial", "dissipation=1", NULL}, CLAST_E_CONFIG);
     refuses((const char *const[]){BOX, "release=box:2,2,2,3,3,3", NULL}, CLAST_E_CONFIG);
 #undef BOX
 }
@@ -503,6 +653,9 @@ int main(void)
                                        cmocka_unit_test(goes_on_to_the_same_bits),
                                        cmocka_unit_test(events_are_a_tree),
                                        cmocka_unit_test(floor_takes_what_diffuses),
+                                       cmocka_unit_test(sides_take_what_diffuses),
+                                       cmocka_unit_test(the_first_wall_keeps),
+                                       cmocka_unit_test(arrivals_come_after_events),
                                        cmocka_unit_test(a_field_turns_the_cloud),
                                        cmocka_unit_test(each_refused_allocation_is_told),
                                        cmocka_unit_test(bad_configurations_are_refused)};
