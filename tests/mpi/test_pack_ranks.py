@@ -127,22 +127,22 @@ class Beds(Case):
 
     def test_a_signal_leaves_a_checkpoint(self):
         run = self.folder / "run"
-        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "9", "--max-steps", 200000)
         process = start(2, *arguments, "-o", run)
         until = time.time() + 60
         while time.time() < until and not list(run.glob("checkpoint*")):
-            time.sleep(0.05)
-        time.sleep(0.1)
+            time.sleep(0.01)
         process.send_signal(signal.SIGTERM)
         _, err = process.communicate(timeout=60)
         self.assertNotEqual(process.returncode, 0, err)
+        self.assertTrue(list(run.glob("checkpoint*")), "the bed was done before the signal came")
         code, out, err = ranks(3, "pack", "--resume", run, "--json", "-q")
         self.assertEqual(code, 0, err)
         self.assertEqual(json.loads(out)["state_hash"], clast(*arguments, "--json").json["state_hash"])
 
     def test_a_killed_rank_ends_all(self):
         run = self.folder / "run"
-        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "9", "--max-steps", 200000)
         process = start(3, *arguments, "--checkpoint-time", 0, "-o", run)
         until = time.time() + 60
         while time.time() < until and len(list(run.glob("checkpoint*"))) < 2:
