@@ -58,9 +58,9 @@ static void print_text(const clast_evolve_result *r)
     if (r->n_frame > 0) {
         (void)printf("%-26s %d (frames.pvd)\n", "frames", r->n_frame);
     }
-    if (r->n_kept > 0) {
+    if (r->n_written > 0) {
         (void)printf("%-26s %d in %s/aggregates, for clast pack --shapes\n", "aggregates",
-                     r->n_kept, cli_name(r->folder));
+                     r->n_written, cli_name(r->folder));
     }
     (void)printf("%-26s %.4g s\n", "took", r->wall_s);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);

@@ -156,8 +156,8 @@ typedef struct clast_evolve_result {
     clast_range_use range;                   ///< collisions against the kernels' ranges
     uint64_t hash;                           ///< of the whole state
     double wall_s;
-    int32_t n_frame, n_kept; ///< files written
-    char *folder;            ///< where the run lies; NULL: nowhere
+    int32_t n_frame, n_written; ///< files written
+    char *folder;               ///< where the run lies; NULL: nowhere
 } clast_evolve_result;
 
 /// The numbers now.

@@ -13,7 +13,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 
-enum { KEPT = 6, MOST_TURNS = 60, FEW_FACES = 48 };
+enum { CANDIDATES = 6, MOST_TURNS = 60, FEW_FACES = 48 };
 
 static const double GAIN = 1e-13;
 
@@ -72,14 +72,14 @@ static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *bo
 }
 
 /// Inserts a box among the best few, in rising order; it is below the last when all are taken.
-static void insert_box(clx_box kept[KEPT], int *n_kept, const clx_box *box)
+static void insert_box(clx_box candidate[CANDIDATES], int *n_candidate, const clx_box *box)
 {
-    CLAST_ASSERT(*n_kept >= 0 && *n_kept <= KEPT);
-    int at = *n_kept < KEPT ? (*n_kept)++ : KEPT - 1;
-    for (; at > 0 && box_volume(&kept[at - 1]) > box_volume(box); --at) {
-        kept[at] = kept[at - 1];
+    CLAST_ASSERT(*n_candidate >= 0 && *n_candidate <= CANDIDATES);
+    int at = *n_candidate < CANDIDATES ? (*n_candidate)++ : CANDIDATES - 1;
+    for (; at > 0 && box_volume(&candidate[at - 1]) > box_volume(box); --at) {
+        candidate[at] = candidate[at - 1];
     }
-    kept[at] = *box;
+    candidate[at] = *box;
 }
 
 static void sort_edges(clx_box *box)
@@ -99,20 +99,21 @@ static void sort_edges(clx_box *box)
 }
 
 /// Tries every face as a side, the most promising first; width times shadow bounds the volume from
-/// below, so the rest need no look once that exceeds the last box kept.
+/// below, so the rest need no look once that exceeds the last candidate.
 static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *views,
-                           clx_shadow *shadow, clx_box kept[KEPT], int *n_kept)
+                           clx_shadow *shadow, clx_box candidate[CANDIDATES], int *n_candidate)
 {
     for (int32_t i = 0; i < views->n; ++i) {
         const clx_face_view *view = &views->view[i];
-        const double limit = *n_kept < KEPT ? (double)INFINITY : box_volume(&kept[KEPT - 1]);
+        const double limit =
+            *n_candidate < CANDIDATES ? (double)INFINITY : box_volume(&candidate[CANDIDATES - 1]);
         clx_box box;
         if (view->least >= limit) {
             break;
         }
         if (box_along(body, body->normal[view->face], view->width, limit, shadow, &box) &&
             box_volume(&box) < limit) {
-            insert_box(kept, n_kept, &box);
+            insert_box(candidate, n_candidate, &box);
         }
     }
 }
@@ -122,17 +123,17 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_v
 {
     clast_status status = CLAST_OK;
     clx_shadow shadow = {0};
-    clx_box kept[KEPT] = {{.edge = {0}}};
+    clx_box candidate[CANDIDATES] = {{.edge = {0}}};
     clx_box best;
-    int n_kept = 0;
+    int n_candidate = 0;
     CLX_TRY(clx_shadow_alloc(body, &shadow));
     box_in_frame(body, frame, &best);
     turn_down(body, &shadow, &best);
-    boxes_on_faces(body, views, &shadow, kept, &n_kept);
-    for (int k = 0; k < n_kept; ++k) {
-        turn_down(body, &shadow, &kept[k]);
-        if (box_volume(&kept[k]) < box_volume(&best)) {
-            best = kept[k];
+    boxes_on_faces(body, views, &shadow, candidate, &n_candidate);
+    for (int k = 0; k < n_candidate; ++k) {
+        turn_down(body, &shadow, &candidate[k]);
+        if (box_volume(&candidate[k]) < box_volume(&best)) {
+            best = candidate[k];
         }
     }
     if (body->n_face <= FEW_FACES) {

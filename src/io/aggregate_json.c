@@ -2,6 +2,7 @@
 #include <clast/aggregate_run.h>
 
 #include "base/alloc.h"
+#include "io/json.h"
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
@@ -216,15 +217,11 @@ clast_status clast_aggregate_report_json(const clast_aggregate_report *report, b
     clast_status status = CLAST_OK;
     double *value = NULL;
     json_t *object = NULL;
-    char *dumped = NULL;
     CLX_CHECK(report->n > 0, CLAST_E_USAGE, "a report of no aggregates");
     CLX_TRY(clx_alloc(&value, report->n, sizeof *value));
     object = whole(report, times, value);
-    dumped = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the report");
-    CLX_TRY(clx_alloc_text(text, dumped));
+    CLX_TRY(clx_json_dump(object, text));
 done:
-    free(dumped); // Jansson's own block
     json_decref(object);
     clx_free(value);
     return status;

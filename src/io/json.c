@@ -2,10 +2,13 @@
 // and manifests are written without a tree in memory.                                   [RFC 8259]
 #include "io/json.h"
 
+#include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Bytes of the UTF-8 character at `c`, or 0 if there is none (overlong, surrogate, cut short).
@@ -75,4 +78,25 @@ void clx_json_number(clx_file *file, double value)
     } else {
         (void)clx_file_write(file, "null", 4);
     }
+}
+
+void clx_json_set_number(json_t *object, const char *key, double value)
+{
+    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+void clx_json_set_count(json_t *object, const char *key, int64_t value)
+{
+    (void)json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+clast_status clx_json_dump(const json_t *object, char **text)
+{
+    clast_status status = CLAST_OK;
+    char *dumped = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");
+    CLX_TRY(clx_alloc_text(text, dumped));
+done:
+    free(dumped); // Jansson's own block
+    return status;
 }

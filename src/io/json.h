@@ -14,3 +14,14 @@ void clx_json_text(clx_file *file, const char *text);
 
 /// A number that reads back as the same double; null for nan and inf, which JSON does not have.
 void clx_json_number(clx_file *file, double value);
+
+// Results as objects of Jansson's.
+
+typedef struct json_t json_t;
+
+/// A number, or null for nan and inf.
+void clx_json_set_number(json_t *object, const char *key, double value);
+void clx_json_set_count(json_t *object, const char *key, int64_t value);
+
+/// The object as a text, of clx_alloc_text.
+clast_status clx_json_dump(const json_t *object, char **text);

@@ -1,23 +1,12 @@
 // A packing's results as JSON.
 #include <clast/pack.h>
 
-#include "base/alloc.h"
 #include "base/status.h"
+#include "io/json.h"
 #include <inttypes.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-
-static void put(json_t *object, const char *key, double value)
-{
-    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
-}
-
-static void put_count(json_t *object, const char *key, int64_t value)
-{
-    (void)json_object_set_new(object, key, json_integer((json_int_t)value));
-}
 
 /// What hulls add to their surfaces: per shape; null for an open surface.
 static json_t *hulls(const clast_pack_result *r)
@@ -26,8 +15,8 @@ static json_t *hulls(const clast_pack_result *r)
     for (int32_t i = 0; i < r->n_hull; ++i) {
         json_t *hull = json_object();
         (void)json_object_set_new(hull, "shape", json_string(r->hull[i].shape));
-        put_count(hull, "n_triangle", r->hull[i].n_triangle);
-        put(hull, "volume_added", r->hull[i].volume_added);
+        clx_json_set_count(hull, "n_triangle", r->hull[i].n_triangle);
+        clx_json_set_number(hull, "volume_added", r->hull[i].volume_added);
         (void)json_array_append_new(list, hull);
     }
     return list;
@@ -37,10 +26,10 @@ static json_t *hulls(const clast_pack_result *r)
 static json_t *verified(const clast_dem_verification *v)
 {
     json_t *o = json_object();
-    put_count(o, "n", v->n);
-    put_count(o, "n_off", v->n_off);
-    put_count(o, "n_bad", v->n_bad);
-    put(o, "worst", v->worst);
+    clx_json_set_count(o, "n", v->n);
+    clx_json_set_count(o, "n_off", v->n_off);
+    clx_json_set_count(o, "n_bad", v->n_bad);
+    clx_json_set_number(o, "worst", v->worst);
     return o;
 }
 
@@ -48,14 +37,14 @@ static json_t *verified(const clast_dem_verification *v)
 static json_t *ranks(const clast_pack_ranks *r)
 {
     json_t *o = json_object();
-    put_count(o, "n", r->n);
-    put_count(o, "n_idle", r->n_idle);
-    put_count(o, "n_balance", r->n_balance);
-    put_count(o, "n_migrated", r->n_migrated);
-    put(o, "ghosts", r->ghosts);
-    put(o, "step_bytes", r->step_bytes);
-    put(o, "list_bytes", r->list_bytes);
-    put(o, "imbalance", r->imbalance);
+    clx_json_set_count(o, "n", r->n);
+    clx_json_set_count(o, "n_idle", r->n_idle);
+    clx_json_set_count(o, "n_balance", r->n_balance);
+    clx_json_set_count(o, "n_migrated", r->n_migrated);
+    clx_json_set_number(o, "ghosts", r->ghosts);
+    clx_json_set_number(o, "step_bytes", r->step_bytes);
+    clx_json_set_number(o, "list_bytes", r->list_bytes);
+    clx_json_set_number(o, "imbalance", r->imbalance);
     (void)json_object_set_new(o, "is_zoltan", json_boolean(r->is_zoltan));
     return o;
 }
@@ -65,7 +54,7 @@ static json_t *tensor(const double x[6])
     static const char *const name[6] = {"xx", "yy", "zz", "xy", "xz", "yz"};
     json_t *o = json_object();
     for (int e = 0; e < 6; ++e) {
-        put(o, name[e], x[e]);
+        clx_json_set_number(o, name[e], x[e]);
     }
     return o;
 }
@@ -78,35 +67,35 @@ static json_t *loaded(const clast_pack_result *r)
     json_t *o = json_object();
     double stress[6];
     for (int k = 0; k < 3; ++k) {
-        put(o, side[k], r->cell.side[k]);
-        put(o, strain[k], r->cell.strain[k]);
+        clx_json_set_number(o, side[k], r->cell.side[k]);
+        clx_json_set_number(o, strain[k], r->cell.strain[k]);
     }
     for (int e = 0; e < 6; ++e) {
         stress[e] = r->load.stress[e] + r->load.kinetic_stress[e];
     }
-    put(o, "shear_strain", r->cell.shear_strain);
+    clx_json_set_number(o, "shear_strain", r->cell.shear_strain);
     (void)json_object_set_new(o, "stress", tensor(stress));
-    put(o, "pressure", (stress[0] + stress[1] + stress[2]) / 3.0);
+    clx_json_set_number(o, "pressure", (stress[0] + stress[1] + stress[2]) / 3.0);
     (void)json_object_set_new(o, "fabric", tensor(r->load.fabric));
-    put_count(o, "n_rattler", r->load.n_rattler);
-    put(o, "coordination_held", r->load.coordination_held);
-    put(o, "unbalanced", r->load.unbalanced);
+    clx_json_set_count(o, "n_rattler", r->load.n_rattler);
+    clx_json_set_number(o, "coordination_held", r->load.coordination_held);
+    clx_json_set_number(o, "unbalanced", r->load.unbalanced);
     return o;
 }
 
 static json_t *energies(const clast_dem_energy *e)
 {
     json_t *o = json_object();
-    put(o, "put_in", e->put_in);
-    put(o, "kinetic", e->translation + e->rotation);
-    put(o, "springs", e->normal_springs + e->tangential_springs);
-    put(o, "damping", e->damping[0] + e->damping[1]);
-    put(o, "friction", e->friction[0] + e->friction[1]);
-    put(o, "rolling", e->rolling[0] + e->rolling[1]);
-    put(o, "fluid", e->fluid);
-    put(o, "calming", e->calming);
-    put(o, "scheme", e->scheme);
-    put(o, "rest", e->rest);
+    clx_json_set_number(o, "put_in", e->put_in);
+    clx_json_set_number(o, "kinetic", e->translation + e->rotation);
+    clx_json_set_number(o, "springs", e->normal_springs + e->tangential_springs);
+    clx_json_set_number(o, "damping", e->damping[0] + e->damping[1]);
+    clx_json_set_number(o, "friction", e->friction[0] + e->friction[1]);
+    clx_json_set_number(o, "rolling", e->rolling[0] + e->rolling[1]);
+    clx_json_set_number(o, "fluid", e->fluid);
+    clx_json_set_number(o, "calming", e->calming);
+    clx_json_set_number(o, "scheme", e->scheme);
+    clx_json_set_number(o, "rest", e->rest);
     return o;
 }
 
@@ -116,53 +105,52 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     CLX_ARRAY(r->hull, r->n_hull);
     clast_status status = CLAST_OK;
     char hash[32];
-    char *dumped = NULL;
     json_t *o = json_object();
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, r->hash);
     (void)json_object_set_new(o, "state_hash", json_string(hash));
-    put_count(o, "n_grain", r->dem.n_grain);
-    put_count(o, "n_step", r->dem.step);
-    put(o, "time", r->dem.time);
+    clx_json_set_count(o, "n_grain", r->dem.n_grain);
+    clx_json_set_count(o, "n_step", r->dem.step);
+    clx_json_set_number(o, "time", r->dem.time);
     (void)json_object_set_new(o, "phase", json_string(clast_pack_phase_name(r->phase)));
     (void)json_object_set_new(o, "converged", json_boolean(r->converged));
-    put(o, "mass", r->dem.mass);
-    put(o, "mass_wanted", r->mass_wanted);
-    put_count(o, "n_outside", r->n_outside);
-    put(o, "porosity_bulk", r->porosity);
-    put(o, "z_low", r->z_low);
-    put(o, "z_high", r->z_high);
-    put(o, "bed_top", r->top);
-    put(o, "porosity_untrimmed", r->untrimmed);
-    put(o, "grain_size", r->walls.size);
-    put(o, "wall_ratio", r->walls.ratio);
-    put(o, "wall_share", r->wall_share);
-    put(o, "flatness_mean", r->flatness[0]);
-    put(o, "flatness_deviation", r->flatness[1]);
-    put(o, "elongation_mean", r->elongation[0]);
-    put(o, "elongation_deviation", r->elongation[1]);
-    put(o, "coordination", r->dem.coordination);
-    put_count(o, "n_contact", r->dem.n_contact);
-    put_count(o, "n_wall_contact", r->dem.n_wall_contact);
-    put(o, "mean_height", r->dem.mean_height);
-    put(o, "max_overlap", r->dem.max_overlap);
-    put(o, "max_speed", r->dem.max_speed);
+    clx_json_set_number(o, "mass", r->dem.mass);
+    clx_json_set_number(o, "mass_wanted", r->mass_wanted);
+    clx_json_set_count(o, "n_outside", r->n_outside);
+    clx_json_set_number(o, "porosity_bulk", r->porosity);
+    clx_json_set_number(o, "z_low", r->z_low);
+    clx_json_set_number(o, "z_high", r->z_high);
+    clx_json_set_number(o, "bed_top", r->top);
+    clx_json_set_number(o, "porosity_untrimmed", r->untrimmed);
+    clx_json_set_number(o, "grain_size", r->walls.size);
+    clx_json_set_number(o, "wall_ratio", r->walls.ratio);
+    clx_json_set_number(o, "wall_share", r->wall_share);
+    clx_json_set_number(o, "flatness_mean", r->flatness[0]);
+    clx_json_set_number(o, "flatness_deviation", r->flatness[1]);
+    clx_json_set_number(o, "elongation_mean", r->elongation[0]);
+    clx_json_set_number(o, "elongation_deviation", r->elongation[1]);
+    clx_json_set_number(o, "coordination", r->dem.coordination);
+    clx_json_set_count(o, "n_contact", r->dem.n_contact);
+    clx_json_set_count(o, "n_wall_contact", r->dem.n_wall_contact);
+    clx_json_set_number(o, "mean_height", r->dem.mean_height);
+    clx_json_set_number(o, "max_overlap", r->dem.max_overlap);
+    clx_json_set_number(o, "max_speed", r->dem.max_speed);
     (void)json_object_set_new(o, "still_moving", json_boolean(r->is_moving));
-    put_count(o, "n_loose", r->n_loose);
-    put(o, "sank_after_shaking", r->sank);
+    clx_json_set_count(o, "n_loose", r->n_loose);
+    clx_json_set_number(o, "sank_after_shaking", r->sank);
     (void)json_object_set_new(o, "shaken_while_falling", json_boolean(r->fell));
-    put(o, "kinetic_energy", r->dem.kinetic_energy);
-    put_count(o, "n_fill", r->n_fill);
-    put_count(o, "n_waited", r->n_waited);
-    put_count(o, "n_frame", r->n_frame);
+    clx_json_set_number(o, "kinetic_energy", r->dem.kinetic_energy);
+    clx_json_set_count(o, "n_fill", r->n_fill);
+    clx_json_set_count(o, "n_waited", r->n_waited);
+    clx_json_set_count(o, "n_frame", r->n_frame);
     (void)json_object_set_new(o, "hulls", hulls(r));
-    put(o, "grain_steps", r->grain_steps);
-    put_count(o, "n_refresh", r->dem.n_refresh);
+    clx_json_set_number(o, "grain_steps", r->grain_steps);
+    clx_json_set_count(o, "n_refresh", r->dem.n_refresh);
     if (r->dem.verified.n > 0) {
         (void)json_object_set_new(o, "verified", verified(&r->dem.verified));
     }
     if (r->n_overlap > 0) {
-        put_count(o, "n_overlap_start", r->n_overlap);
-        put(o, "deepest_overlap_start", r->deepest_start);
+        clx_json_set_count(o, "n_overlap_start", r->n_overlap);
+        clx_json_set_number(o, "deepest_overlap_start", r->deepest_start);
     }
     if (r->load.volume > 0.0) {
         (void)json_object_set_new(o, "cell", loaded(r));
@@ -171,18 +159,16 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
         (void)json_object_set_new(o, "energy", energies(&r->energy));
     }
     if (times) {
-        put(o, "wall_s", r->wall_s);
-        put(o, "ns_per_grain_step",
-            r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : (double)NAN);
+        clx_json_set_number(o, "wall_s", r->wall_s);
+        clx_json_set_number(o, "ns_per_grain_step",
+                            r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps
+                                                   : (double)NAN);
     }
     if (times && r->ranks.n > 1) { // like the clocks, no property of the bed
         (void)json_object_set_new(o, "ranks", ranks(&r->ranks));
     }
-    dumped = json_dumps(o, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");
-    CLX_TRY(clx_alloc_text(text, dumped));
+    CLX_TRY(clx_json_dump(o, text));
 done:
-    free(dumped); // Jansson's own block
     json_decref(o);
     return status;
 }

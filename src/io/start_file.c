@@ -157,6 +157,23 @@ done:
     return status;
 }
 
+/// In metres, to the caller; else the error names the key.
+static clast_status finish(const clast_pack_config *config, clast_status status,
+                           clast_assembly *made, clast_assembly *assembly)
+{
+    CLX_TRY(status);
+    CLX_CHECK(made->n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
+    CLX_TRY(to_metres(config, made));
+    *assembly = *made;
+    *made = (clast_assembly){0};
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_assembly_free(made);
+    return status;
+}
+
 clast_status clx_start_of_poses(const clast_pack_config *config, const clast_table *table,
                                 int32_t n_shape, const clast_shape *shape, clast_assembly *assembly)
 {
@@ -174,16 +191,8 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
     for (int64_t i = 0; i < table->n_row; ++i) {
         CLX_TRY(add_row(table, i, name, x, &made));
     }
-    CLX_CHECK(made.n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
-    CLX_TRY(to_metres(config, &made));
-    *assembly = made;
-    made = (clast_assembly){0};
 done:
-    if (status != CLAST_OK) {
-        clx_fail_prefix("start");
-    }
-    clast_assembly_free(&made);
-    return status;
+    return finish(config, status, &made, assembly);
 }
 
 clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly)
@@ -194,14 +203,6 @@ clast_status clx_start_read(const clast_pack_config *config, clast_assembly *ass
     CLX_CHECK(!is_folder(config->start), CLAST_E_CONFIG, "%s is a folder; give the state.h5 in it",
               config->start);
     CLX_TRY(is_state ? read_state(config, &made) : read_spheres(config, &made));
-    CLX_CHECK(made.n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
-    CLX_TRY(to_metres(config, &made));
-    *assembly = made;
-    made = (clast_assembly){0};
 done:
-    if (status != CLAST_OK) {
-        clx_fail_prefix("start");
-    }
-    clast_assembly_free(&made);
-    return status;
+    return finish(config, status, &made, assembly);
 }

@@ -79,7 +79,7 @@ done:
 
 /// state.h5, the body of most grains, and aggregates/node-NNNNNNNN.h5 of the first `keep`.
 static clast_status write_aggregates(const char *folder, const char *config, int32_t keep,
-                                     const clast_evolve *evolve, int32_t *n_kept)
+                                     const clast_evolve *evolve, int32_t *n_written)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -100,7 +100,7 @@ static clast_status write_aggregates(const char *folder, const char *config, int
         (void)snprintf(name, sizeof name, "aggregates/node-%08lld.h5", (long long)node[k]);
         CLX_TRY(write_aggregate(folder, name, NULL, evolve, node[k]));
     }
-    *n_kept = n;
+    *n_written = n;
 done:
     clx_free(node);
     return status;
@@ -127,7 +127,7 @@ clast_status clx_evolve_write_results(const char *folder, const char *config,
     CLX_TRY(write_tables(folder, evolve));
     CLX_TRY(write_sizes(folder, evolve));
     if (physics->structure) {
-        CLX_TRY(write_aggregates(folder, config, physics->keep, evolve, &result->n_kept));
+        CLX_TRY(write_aggregates(folder, config, physics->keep, evolve, &result->n_written));
     }
     CLX_TRY(clx_evolve_draw(folder, evolve));
     CLX_TRY(write_summary(folder, result));

@@ -4,7 +4,7 @@
 #include <clast/evolve.h>
 
 /// Everything that a finished run leaves: tables, states of the largest aggregates, charts,
-/// summary.json; checkpoints go last. Sets result->n_kept.
+/// summary.json; checkpoints go last. Sets result->n_written.
 clast_status clx_evolve_write_results(const char *folder, const char *config,
                                       const clast_evolve_config *physics,
                                       const clast_evolve *evolve, clast_evolve_result *result);

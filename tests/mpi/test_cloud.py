@@ -6,7 +6,7 @@ import random
 import unittest
 
 from clitest import Case, clast
-from test_command import own_lines, ranks
+from ranktest import own_lines, ranks
 
 BOX = ("--domain", "box:0,0,0,1,1,1")
 

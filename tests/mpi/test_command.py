@@ -1,60 +1,17 @@
 """MPI: `clast-mpi` gives the same bytes on 1, 2 and 4 ranks as `clast`, and fails and stops on all ranks."""
 import csv
-import fcntl
 import os
 import pathlib
 import signal
-import subprocess
 import time
 import unittest
 
 from clitest import Case, clast
+from ranktest import own_lines, ranks, start, wait_until_free
 
-CLAST_MPI = os.environ["CLAST_MPI"]
-MPIEXEC = os.environ["MPIEXEC"]
 SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
-# Two cores are enough for four ranks; a container's root is no danger to anybody.
-ENV = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-       "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
 SPHERES = ("aggregate", "--core", "sphere", "--core-size", "30um", "--coat", "sphere", "--size", "8um", "--rays", "10",
            "--no-picture", "--envelope", "sphere_hull", "-q")
-
-
-def start(n, *arguments):
-    return subprocess.Popen([MPIEXEC, "-n", str(n), CLAST_MPI, *map(str, arguments)], env=ENV, text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
-
-
-def ranks(n, *arguments, seconds=120):
-    """Runs `clast-mpi ARGUMENTS` on n ranks: (code, out, err). A run that hangs is killed, ranks and all."""
-    process = start(n, *arguments)
-    try:
-        out, err = process.communicate(timeout=seconds)
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        raise
-    return process.returncode, out, err
-
-
-def own_lines(err):
-    """What clast said, without mpirun's own remarks."""
-    return [line for line in err.splitlines() if line.startswith("clast")]
-
-
-
-def wait_until_free(run):
-    """Ranks outlive a killed mpirun by a moment, and hold the folder's lock until then."""
-    until = time.time() + 60
-    folder = os.open(run, os.O_RDONLY)
-    try:
-        while time.time() < until:
-            try:
-                fcntl.flock(folder, fcntl.LOCK_SH | fcntl.LOCK_NB)
-                return
-            except BlockingIOError:
-                time.sleep(0.05)
-    finally:
-        os.close(folder)
 
 
 class Ranks(Case):
