@@ -8,6 +8,7 @@
 #include "report/run.h"
 #include "report/value.h"
 #include <clast/assembly.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -95,6 +96,20 @@ static void put_by_envelope(clx_file *file, const json_t *summary)
     json_decref(names);
 }
 
+/// A part of a row; a deviation that is rounding alone is 0.
+static void put_spread_cell(clx_file *file, const char *place, const char *key, const char *part,
+                            const json_t *row)
+{
+    const double rounding = 1e-12 * fabs(json_number_value(json_object_get(row, "mean")));
+    json_t *value = json_object_get(row, part);
+    json_t *none = json_real(0.0);
+    const bool is_rounding = strcmp(part, "deviation") == 0 && json_is_real(value) &&
+                             fabs(json_real_value(value)) <= rounding;
+    clx_value_put_cell(file, strcmp(part, "pull") == 0 ? part : key, place,
+                       is_rounding ? none : value);
+    json_decref(none);
+}
+
 /// A row of numbers that share the unit of `key`: {mean, low, ...}; "pull" counts errors.
 static void put_spread_row(clx_file *file, const char *place, const char *key, const char *name,
                            const json_t *head, const json_t *row)
@@ -110,8 +125,7 @@ static void put_spread_row(clx_file *file, const char *place, const char *key, c
     (void)clx_file_print(file, "</td>");
     json_object_foreach((json_t *)head, part, any)
     {
-        const bool is_ratio = strcmp(part, "pull") == 0;
-        clx_value_put_cell(file, is_ratio ? part : key, place, json_object_get(row, part));
+        put_spread_cell(file, place, key, part, row);
     }
     (void)clx_file_print(file, "</tr>\n");
 }

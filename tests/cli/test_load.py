@@ -112,6 +112,10 @@ class Load(Case):
         text.write_text("0 0 0.005 0.002\n0 0 0.0055 0.002\n", encoding="utf-8")
         self.assert_fails(3, *hold, "--start", text, "--start-unit", "m", "--start-columns", "x,y,z,r",
                           says=("grains 0 and 1 begin inside of each other",))
+        low = self.folder / "low.csv"
+        low.write_text("x,y,z,d\n0,0,0.01,2\n")
+        self.assert_fails(3, "pack", "--start", low, "--start-unit", "mm", "--width", "10mm", "--height", "20mm", "--shaking-time", "0", "-q",
+                          says=("grain 0 begins inside of a wall, by 0.99 of its radius",))
 
     def test_own_tables_of_shapes_and_poses_come_back(self):
         """What clast export writes of any bodies is a start: the same places and turns."""
