@@ -5,9 +5,9 @@
 
 Run k is the same on every machine: a command, its inputs and their mutations are drawn from the seed k. A run is bad
 when a signal ends it, a sanitizer speaks, it takes over --limit seconds of a processor (30 times that by the clock) or
---memory bytes, its code is not one of 0 to 5, an error is not one last line, an input has changed, or a temporary file
-is left. The folder of a bad run is kept under build/fuzz-commands/K with its command line in `command`; `--first K
---runs 1` repeats it.
+--memory bytes, its code is not one of 0 to 5 (or 143, where it drew a --time-limit), an error is not one last line, an
+input has changed, or a temporary file is left. The folder of a bad run is kept under build/fuzz-commands/K with its
+command line in `command`; `--first K --runs 1` repeats it.
 """
 import argparse
 import concurrent.futures
@@ -273,13 +273,13 @@ def digest(folder):
     return {p.relative_to(folder): hashlib.sha256(p.read_bytes()).digest() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def fault_of(done, error, peak, a, before, folder):
-    """What is wrong with a run, or None."""
+def fault_of(done, error, peak, a, before, folder, has_limit):
+    """What is wrong with a run, or None; `has_limit`: it was told --time-limit and may end by it."""
     if "Sanitizer" in error or "runtime error:" in error:
         return "a sanitizer speaks"
     if done is None:
         return f"no end after {a.limit:g} s"
-    if not 0 <= done <= 5:
+    if not 0 <= done <= 5 and not (has_limit and done == 128 + signal.SIGTERM):
         return f"code {done}"
     if done > 1 and not error.rstrip("\n").split("\n")[-1].startswith("clast "):
         return f"code {done} without its one line"
@@ -314,7 +314,8 @@ def run_one(seeds, k, a):
             error = stderr.read().decode("utf-8", "replace")
         code = os.waitstatus_to_exitcode(state)
         is_late = code in (-signal.SIGXCPU, -signal.SIGKILL)
-        fault = fault_of(None if is_late else code, error, 1024 * usage.ru_maxrss, a, before, folder)
+        fault = fault_of(None if is_late else code, error, 1024 * usage.ru_maxrss, a, before, folder,
+                         any(word.startswith("--time-limit") for word in words))
         if fault is not None:
             kept = KEPT / str(k)
             shutil.rmtree(kept, ignore_errors=True)
