@@ -33,7 +33,7 @@ enum { CLOCK, GRAINS, BODIES, EVENTS, BALANCE, SPECTRUM };
         .n_column = sizeof(columns) / sizeof *(columns), .column = (columns)                       \
     }
 
-static clast_status add(clx_rows *rows, const double *value)
+static clast_status append_row(clx_rows *rows, const double *value)
 {
     double *row = NULL;
     const clast_status status = clx_rows_add(rows, &row);
@@ -52,7 +52,7 @@ static clast_status save_clock(const clast_evolve *e, clast_table *table)
                             e->n_cell,      e->mass_error,    (double)e->number_error,
                             e->range.n,     e->range.outside, e->range.row,
                             e->range.value, e->range.excess,  e->n_start};
-    CLX_TRY(add(&rows, value));
+    CLX_TRY(append_row(&rows, value));
     CLX_TRY(clx_rows_table(&rows, "clock", table));
 done:
     clx_rows_free(&rows);
@@ -67,8 +67,8 @@ static clast_status save_grains(const clast_evolve *e, clast_table *table)
         const clx_evolve_grain *g = &e->grain[i];
         const double *x = g->position;
         const double *q = g->orientation;
-        CLX_TRY(add(&rows, (const double[]){g->kind, g->next, g->scale, x[0], x[1], x[2], q[0],
-                                            q[1], q[2], q[3]}));
+        CLX_TRY(append_row(&rows, (const double[]){g->kind, g->next, g->scale, x[0], x[1], x[2],
+                                                   q[0], q[1], q[2], q[3]}));
     }
     CLX_TRY(clx_rows_table(&rows, "grains", table));
 done:
@@ -83,7 +83,8 @@ static clast_status save_bodies(const clast_evolve *e, clast_table *table)
     for (int32_t i = 0; i < e->n_start; ++i) {
         const clx_evolve_body *b = &e->body[i];
         const double *s = b->second;
-        CLX_TRY(add(&rows, (const double[]){b->first, b->last, b->n, b->state, (double)b->node,
+        CLX_TRY(append_row(&rows,
+                           (const double[]){b->first, b->last, b->n, b->state, (double)b->node,
                                             b->x[0], b->x[1], b->x[2], b->time, b->mass, b->volume,
                                             s[0], s[1], s[2], s[3], s[4], s[5], b->reach}));
     }
@@ -99,7 +100,8 @@ static clast_status save_events(const clast_evolve *e, clast_table *table)
     clx_rows rows = ROWS(event_column);
     for (int64_t k = 0; k < e->n_event; ++k) {
         const clx_evolve_event *v = &e->event[k];
-        CLX_TRY(add(&rows, (const double[]){v->time, (double)v->node[0], (double)v->node[1],
+        CLX_TRY(append_row(&rows,
+                           (const double[]){v->time, (double)v->node[0], (double)v->node[1],
                                             v->body, v->n, v->contact[0], v->contact[1],
                                             v->point[0], v->point[1], v->point[2], v->x[0], v->x[1],
                                             v->x[2], v->mass, v->gyration, v->envelope, v->speed}));
