@@ -1208,7 +1208,7 @@ clast_dem_grain._fields_ = [
     ('position', (c_double * 3)),
     ('orientation', (c_double * 4)),
     ('velocity', (c_double * 3)),
-    ('spin', (c_double * 3)),
+    ('angular_velocity', (c_double * 3)),
 ]
 clast_dem_drive._fields_ = [
     ('shake_amplitude', c_double),
@@ -2743,7 +2743,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_cells': (128, {'n': (0, 4), 'low': (8, 8), 'high': (16, 8), 'volume': (24, 8), 'count': (32, 8), 'label': (40, 8), 'pass': (48, 8), 'weight': (56, 8), 'events': (64, 8), 'of_point': (72, 8), 'is_box': (80, 1), 'nb': (84, 12), 'bin_count': (96, 8), 'of_bin': (104, 8), 'key': (112, 8), 'group': (120, 8)}),
     'clast_within_cells': (72, {'is_structured': (0, 1), 'cell': (8, 8), 'even': (16, 8), 'radius': (24, 8), 'n_pair': (32, 8), 'g': (40, 8), 'g_low': (48, 8), 'g_high': (56, 8), 'length': (64, 8)}),
     'clast_dem_config': (208, {'law': (0, 4), 'contact_scheme': (4, 4), 'restitution': (8, 8), 'collision_time': (16, 8), 'poisson': (24, 8), 'young': (32, 8), 'friction': (40, 8), 'wall_friction': (48, 8), 'rolling_friction': (56, 8), 'rolling_model': (64, 4), 'cohesion': (68, 4), 'cohesion_energy': (72, 8), 'surface_energy': (80, 8), 'clip': (88, 1), 'normal_torque': (89, 1), 'gyroscopic': (90, 1), 'clump_contacts': (92, 4), 'time_step': (96, 8), 'gravity': (104, 8), 'fluid_density': (112, 8), 'fluid_viscosity': (120, 8), 'sphere_drag': (128, 4), 'hindrance': (132, 1), 'added_mass': (136, 8), 'wet_restitution': (144, 1), 'domain': (148, 4), 'width': (152, 8), 'depth': (160, 8), 'height': (168, 8), 'floor': (176, 1), 'lid': (177, 1), 'rounding': (184, 8), 'skin': (192, 8), 'verify': (200, 4)}),
-    'clast_dem_grain': (128, {'shape': (0, 4), 'scale': (8, 8), 'density': (16, 8), 'position': (24, 24), 'orientation': (48, 32), 'velocity': (80, 24), 'spin': (104, 24)}),
+    'clast_dem_grain': (128, {'shape': (0, 4), 'scale': (8, 8), 'density': (16, 8), 'position': (24, 24), 'orientation': (48, 32), 'velocity': (80, 24), 'angular_velocity': (104, 24)}),
     'clast_dem_drive': (24, {'shake_amplitude': (0, 8), 'shake_period': (8, 8), 'damping': (16, 8)}),
     'clast_dem_verification': (32, {'n': (0, 8), 'n_off': (8, 8), 'n_bad': (16, 8), 'worst': (24, 8)}),
     'clast_dem_measures': (184, {'step': (0, 8), 'time': (8, 8), 'n_grain': (16, 4), 'mass': (24, 8), 'mean_height': (32, 8), 'top': (40, 8), 'max_speed': (48, 8), 'kinetic_energy': (56, 8), 'potential_energy': (64, 8), 'elastic_energy': (72, 8), 'momentum': (80, 24), 'n_listed': (104, 8), 'n_contact': (112, 8), 'n_wall_contact': (120, 8), 'max_overlap': (128, 8), 'coordination': (136, 8), 'n_refresh': (144, 8), 'verified': (152, 32)}),
