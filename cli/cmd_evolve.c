@@ -62,6 +62,10 @@ static void print_text(const clast_evolve_result *r)
         (void)printf("%-26s %d in %s/aggregates, for clast pack --shapes\n", "aggregates",
                      r->n_written, cli_name(r->folder));
     }
+    if (r->bed_width > 0.0) {
+        (void)printf("%-26s %s/deposit.h5, for clast pack --start: %.4g m wide, %.4g m high\n",
+                     "bed", cli_name(r->folder), r->bed_width, r->bed_height);
+    }
     (void)printf("%-26s %.4g s\n", "took", r->wall_s);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
 }
@@ -102,7 +106,9 @@ static const char details[] =
     "changes in time; bodies have inertia of their own.\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
     "is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
-    "bodies), particles.csv, state.h5 (the aggregate of most grains),\n"
+    "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start), "
+    "particles.csv,\n"
+    "state.h5 (the aggregate of most grains),\n"
     "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
     "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"
     "report.html, frames for ParaView with --frames (with numbers of each grain's body), and "

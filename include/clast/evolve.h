@@ -5,7 +5,6 @@
 
 // A whole run with its folder, checkpoints and going on (clast_evolve_run and clast_evolve_resume)
 // is of libclast_view.
-#include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/field.h>
 #include <clast/grading.h>
@@ -158,8 +157,9 @@ typedef struct clast_evolve_result {
     clast_range_use range;                   ///< collisions against the kernels' ranges
     uint64_t hash;                           ///< of the whole state
     double wall_s;
-    int32_t n_frame, n_written; ///< files written
-    char *folder;               ///< where the run lies; NULL: nowhere
+    int32_t n_frame, n_written;   ///< files written
+    double bed_width, bed_height; ///< of the column in deposit.h5 [m]; 0: not written
+    char *folder;                 ///< where the run lies; NULL: nowhere
 } clast_evolve_result;
 
 /// The numbers now.

@@ -7,6 +7,7 @@
 // and another drawn. [docs/theory/evolve.md section 4]
 #include "evolve/state.h"
 
+#include "aggregate/trial.h"
 #include "math/vec3.h"
 
 static const double BACK = 1e-11; ///< of the parts' radii: from where overlap of others is asked

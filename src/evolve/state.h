@@ -5,7 +5,6 @@
 // cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept (saved.c). Calls go
 // down only.
 #include "aggregate/kit.h"
-#include "aggregate/trial.h"
 #include "evolve/flow.h"
 #include "evolve/rows.h"
 #include "math/rng.h"
@@ -136,6 +135,9 @@ void clx_evolve_list(clast_evolve *e);
 
 /// Velocity of the fluid at a height.
 void clx_evolve_wind(const clast_evolve *e, double z, double velocity[3]);
+
+typedef struct clx_touch_scene clx_touch_scene;
+typedef struct clx_landing clx_landing;
 
 /// react.c: one of all the ways in which a group can touch a scene without overlap, each as likely.
 ///

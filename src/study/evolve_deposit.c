@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double ROOM = 1.05; ///< of a body's place, by its diameter
+
 /// Where the next body's enclosing sphere goes: row by row, layer by layer.
 typedef struct {
     double width;
@@ -17,16 +19,16 @@ typedef struct {
     double row, layer; ///< greatest diameters so far
 } shelf;
 
-/// The centre of a sphere of this diameter; a gap of a twentieth is left around each.
+/// The centre of a sphere of this diameter.
 static void next_place(shelf *s, double diameter, double centre[3])
 {
-    const double room = 1.05 * diameter;
-    if (s->x + room > s->width) {
+    const double room = ROOM * diameter;
+    if (s->x + room > s->width * (1.0 + 1e-12)) {
         s->x = 0.0;
         s->y += s->row;
         s->row = 0.0;
     }
-    if (s->y + room > s->width) {
+    if (s->y + room > s->width * (1.0 + 1e-12)) {
         s->x = s->y = s->row = 0.0;
         s->z += s->layer;
         s->layer = 0.0;
@@ -89,12 +91,13 @@ done:
     return status;
 }
 
-static clast_status add_body(const clast_evolve *evolve, int64_t node, double mass, shelf *s,
+/// Adds a body, not yet anywhere.
+static clast_status add_body(const clast_evolve *evolve, int64_t node, double mass,
                              clast_assembly *bed)
 {
     clast_status status = CLAST_OK;
     clast_assembly body = {0};
-    double centre[3];
+    const double nowhere[3] = {0.0, 0.0, 0.0};
     double turn[4] = {1.0, 0.0, 0.0, 0.0};
     int32_t id = -1;
     CLX_TRY(clast_evolve_aggregate(evolve, node, &body));
@@ -103,32 +106,46 @@ static clast_status add_body(const clast_evolve *evolve, int64_t node, double ma
         memcpy(turn, body.orientation[0], sizeof turn);
     }
     CLX_TRY(shape_of(&body, node, bed, &id));
-    const clast_shape *shape = &bed->shape[id];
-    const double diameter = 2.0 * scale * shape->bounding_radius;
-    CLX_CHECK(1.05 * diameter <= s->width, CLAST_E_CONFIG,
-              "bed_width: %g m is narrower than node %lld, which is %.3g m across", s->width,
-              (long long)node, diameter);
-    next_place(s, diameter, centre);
-    CLX_TRY(clast_assembly_add_grain(bed, id, centre, turn, scale,
-                                     mass / (shape->volume * scale * scale * scale)));
+    CLX_TRY(clast_assembly_add_grain(bed, id, nowhere, turn, scale,
+                                     mass / (bed->shape[id].volume * scale * scale * scale)));
 done:
     clast_assembly_free(&body);
     return status;
 }
 
-clast_status clx_evolve_write_bed(const char *folder, double width, const clast_evolve *evolve)
+static double diameter_of(const clast_assembly *bed, int32_t i)
+{
+    return 2.0 * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
+}
+
+/// Puts all into the column, which is as wide as the widest body at least; its width and height.
+static void place_all(double width, clast_assembly *bed, clast_evolve_result *result)
+{
+    shelf s = {.width = width};
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        s.width = fmax(s.width, ROOM * diameter_of(bed, i));
+    }
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        next_place(&s, diameter_of(bed, i), bed->position[i]);
+    }
+    result->bed_width = s.width;
+    result->bed_height = s.z + s.layer;
+}
+
+clast_status clx_evolve_write_bed(const char *folder, double width, const clast_evolve *evolve,
+                                  clast_evolve_result *result)
 {
     clast_status status = CLAST_OK;
     clast_table deposit = {0};
     clast_assembly bed = {.unit = "m"};
-    shelf s = {.width = width};
     char path[CLX_PATH_LIMIT];
     CLX_TRY(clast_evolve_table(evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
     for (int64_t i = 0; i < deposit.n_row; ++i) {
         CLX_TRY(add_body(evolve, (int64_t)clast_table_numbers(&deposit, "node")[i],
-                         clast_table_numbers(&deposit, "mass_kg")[i], &s, &bed));
+                         clast_table_numbers(&deposit, "mass_kg")[i], &bed));
     }
     if (deposit.n_row > 0) {
+        place_all(width, &bed, result);
         CLX_TRY(clx_path_join(path, folder, "deposit.h5"));
         CLX_TRY(clast_state_write_assembly(&bed, path, NULL));
     }

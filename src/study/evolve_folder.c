@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "io/state.h"
 #include "run/checkpoint.h"
+#include <clast/assembly.h>
 #include <clast/run_folder.h>
 #include <clast/state.h>
 #include <math.h>
@@ -128,8 +129,9 @@ clast_status clx_evolve_write_results(const char *folder, const char *config,
     CLX_TRY(write_sizes(folder, evolve));
     if (physics->structure) {
         CLX_TRY(write_aggregates(folder, config, physics->keep, evolve, &result->n_written));
-        CLX_TRY(physics->bed_width > 0.0 ? clx_evolve_write_bed(folder, physics->bed_width, evolve)
-                                         : CLAST_OK);
+        CLX_TRY(physics->bed_width > 0.0
+                    ? clx_evolve_write_bed(folder, physics->bed_width, evolve, result)
+                    : CLAST_OK);
     }
     CLX_TRY(clx_evolve_draw(folder, evolve));
     CLX_TRY(write_summary(folder, result));

@@ -98,12 +98,14 @@ class Evolve(Case):
     def test_the_deposit_settles_as_it_is(self):
         """Every body of the floor once, with its own size and mass, as a bed."""
         run, bed = self.folder / "run", self.folder / "bed"
-        self.run_ash("--particles", 300, "--bed-width", "0.2mm", "-o", run)
+        out = self.run_ash("--particles", 300, "--bed-width", "1um", "--json", "-o", run).json["deposit"]
         deposit = rows(run / "deposit.csv")
+        self.assertGreater(out["bed_width"], max(row["envelope_m"] for row in deposit))  # 1 um was too narrow
         self.assertGreater(max(row["grains"] for row in deposit), 1)
         start = clast("export", run / "deposit.h5", "-o", self.folder / "start.csv", "--json")
         self.assertEqual(start.code, 0, start.err)
-        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "periodic", "--width", "0.2mm", "--height", "20mm",
+        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "periodic", "--width", f"{out['bed_width']}m",
+                       "--height", f"{out['bed_height']}m",
                        "--collision-time", "20us", "--time-step", "0.5us", "--fluid-density", 0, "--shaking-time", 0, "--max-steps", 2000,
                        "--quiet", "-o", bed, "--json")
         self.assertEqual(packed.code, 0, packed.err)
