@@ -77,6 +77,7 @@ def aggregate(
         envelope: Texts | None = None,
         envelope_every: int | None = None,
         solid_union: bool | None = None,
+        fall_speed: bool | None = None,
         envelope_rays: int | None = None,
         envelope_length: Quantity | None = None,
         permeability: Literal["happel", "kozeny_carman"] | None = None,
@@ -162,6 +163,7 @@ def aggregate(
         envelope: envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, alpha, enclosing_sphere, gyration_sphere (default surface_hull)
         envelope_every: particles between two rows of porosity; alpha, wrap: seconds each (1 to 1e+09; default 1)
         solid_union: measure the volume of the union too, which takes sampling where grains overlap (default True)
+        fall_speed: settling velocity in each row of porosity too, which takes the extent each time (default False)
         envelope_rays: rays of the published envelope (10 to 1e+08; default 10000)
         envelope_length: radius of the ball of the wrap and alpha envelopes, which need it (m; 0 to 1e+06; default 0.0)
         permeability: permeability by porosity and grain size, for the settling velocity that it allows (happel, kozeny_carman; default happel)
