@@ -36,13 +36,14 @@ RUNS = {
     "evolve": ["evolve", "--domain", "box:0,0,0,1mm,1mm,5mm", "--particles", "300", "--curve", "lognormal:20um,8um,9um,50um", "--kernel", "settling",
                "--weight", "9", "--duration", "0.5s", "--rows", "5", "--frames", "1", "--keep", "2", "--out-of-range", "extrapolate"],
     "aggregate": ["aggregate", "--core", DATA / "standin63/grain00.ply", "--core-size", "270um", "--coat", DATA / "standin63/grain01.ply", "--size", "60um",
-                  "--unit", "um", "--replicate", "20", "--repeats", "2", "--rays", "4", "--orientations", "2", "--envelope", "surface_hull"],
+                  "--unit", "um", "--replicate", "10", "--repeats", "2", "--rays", "4", "--orientations", "2", "--envelope", "surface_hull"],
     "shape": ["shape", *sorted((DATA / "standin63").glob("grain0*.ply")), "--unit", "um", "--statistics"],
     "predict": ["predict", "beds.csv"],
     "fit": ["fit", "beds.csv"],
+    "load": ["pack", "--curve", "4mm", "--mass", "2g", "--domain", "cell", "--width", "16mm", "--height", "16mm", "--floor=no", "--gravity", "0",
+             "--fluid-density", "0", "--load-rate", "4/s", "--seed", "3", "--stages", "isotropic 20kPa until rest", "--energy"],
     "study": ["study", "--run", "pack", *(f"--argument={a}" for a in SPHERES), "--argument=--max-steps=3000", "--vary", "seed=1|2"],
 }
-LOAD = ["pack", "--start", "pack", "--domain", "periodic", "--max-steps", "2000"]
 # Tables wider than their place, all parts open: what stands in the first cell, and by how many pixels.
 WIDE = """[...document.querySelectorAll('table')].map(t => [t, t.scrollWidth - t.closest('.scroll, .card, main').clientWidth])
     .filter(([t, over]) => over > 1).map(([t, over]) => `table "${t.rows[0].innerText.slice(0, 60)}" is ${over} px too wide`)"""
@@ -51,8 +52,11 @@ BEYOND = """(() => { const limit = document.documentElement.clientWidth + 1;
     .map(e => `${e.tagName} "${e.innerText.slice(0, 50)}" ends ${Math.round(e.getBoundingClientRect().right - limit)} px beyond the paper`); })()"""
 # Every number with its unit: of cells that end in one, and of columns whose head has one.
 NUMBERS = r"""(() => { const out = [];
-    const own = (text) => { for (const m of text.matchAll(/(-?[\d,]*\.?\d+(?:e[-+]?\d+)?)\s*(m[²³23]?|s|Pa|kg|N|J|g)(?![\w\/·])/g)) out.push([m[1], m[2], text.slice(0, 80)]); };
-    for (const e of document.querySelectorAll('td, .figure b')) own(e.innerText);
+    const own = (text) => { for (const m of text.matchAll(/(-?[\d,]*\.?\d+(?:e[-+]?\d+)?)\s*(m[²³23]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·])/g)) out.push([m[1], m[2], text.slice(0, 80)]); };
+    for (const e of document.querySelectorAll('td, .figure b')) {
+        own(e.innerText);
+        for (const m of e.innerText.matchAll(/[\d.]+\s×\s10\S+\s*(µ|n|f|p|k)?(m[²³]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·])/g)) out.push(['1e-99', m[2], m[0]]);
+    }
     for (const t of document.querySelectorAll('table')) {
         [...(t.rows[0]?.cells ?? [])].forEach((head, k) => {
             const unit = /\(([^()]+)\)\s*$/.exec(head.innerText)?.[1];
@@ -65,7 +69,7 @@ NUMBERS = r"""(() => { const out = [];
     return out; })()"""
 AXE_RUN = """axe.run(document).then(r => r.violations.filter(v => ["serious", "critical"].includes(v.impact))
     .map(v => `axe ${v.id}: ${v.nodes[0].html.slice(0, 160)}`))"""
-PREFIXED = {"m", "s", "Pa", "kg", "N", "J", "g", "m2", "m3", "m\u00b2", "m\u00b3"}
+PREFIXED = {"Pa s", "m", "s", "Pa", "kg", "N", "J", "g", "m2", "m3", "m\u00b2", "m\u00b3"}
 DRAWN = """new Promise(done => { const look = () => clastViews.open.length ? requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())))
     : requestAnimationFrame(look); look(); })"""
 TURNED = """(async (n) => { const v = clastViews.open[0], times = [], gl = v.renderer.getContext(), one = new Uint8Array(4); let coarse = 0;

@@ -24,6 +24,7 @@ import time
 import zlib
 
 from browser import AXE, NO_WEBGL, WEBGL, Browser, axe_source, told
+from picture import difference, pixel, read_png
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BEDS = {"ellipsoids": ["--shapes", "ellipsoid:1,0.7,0.5"], "spheres": ["--shapes", "sphere"]}
@@ -61,46 +62,6 @@ class Page:
         """PNG of the view as rows of (r, g, b)."""
         text = self.ask(f"clastViews.drawPicture({VIEW}, {width}).toDataURL('image/png')")
         return read_png(base64.b64decode(text.split(",")[1]))
-
-
-def unfilter(kind, line, above, step):
-    out = bytearray(line)
-    for i in range(len(out)):
-        left = out[i - step] if i >= step else 0
-        up = above[i]
-        corner = above[i - step] if i >= step else 0
-        if kind == 1:
-            out[i] = (out[i] + left) & 255
-        elif kind == 2:
-            out[i] = (out[i] + up) & 255
-        elif kind == 3:
-            out[i] = (out[i] + (left + up) // 2) & 255
-        elif kind == 4:
-            guess = left + up - corner
-            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
-            out[i] = (out[i] + near[2]) & 255
-    return out
-
-
-def read_png(data):
-    """Width, height, rows of an 8-bit RGBA picture."""
-    width, height = struct.unpack(">II", data[16:24])
-    packed, at = b"", 8
-    while at < len(data):
-        n, kind = struct.unpack(">I4s", data[at:at + 8])
-        packed += data[at + 8:at + 8 + n] if kind == b"IDAT" else b""
-        at += 12 + n
-    raw, step = zlib.decompress(packed), 4
-    above, rows = bytearray(step * width), []
-    for y in range(height):
-        begin = y * (step * width + 1)
-        above = unfilter(raw[begin], raw[begin + 1:begin + 1 + step * width], above, step)
-        rows.append(above)
-    return width, height, rows
-
-
-def pixel(rows, x, y):
-    return tuple(rows[y][4 * x:4 * x + 3])
 
 
 def pour(clast, folder):
@@ -284,11 +245,9 @@ def check_likeness(page, name, renew):
     if renew:
         kept.parent.mkdir(exist_ok=True)
         kept.write_bytes(data)
-    (width, height, got), (wide, high, wanted) = read_png(data), read_png(kept.read_bytes())
-    page.equal((width, height), (wide, high), f"size of picture {name}")
-    off = [max(abs(a - b) for a, b in zip(pixel(got, x, y), pixel(wanted, x, y))) for y in range(min(height, high)) for x in range(min(width, wide))]
-    page.hold(sum(off) / len(off) < 3, f"picture {name} differs from tests/view by {sum(off) / len(off):.1f} of 255 in the mean")
-    page.hold(sum(o > 48 for o in off) < 0.02 * len(off), f"picture {name}: {sum(o > 48 for o in off) / len(off):.1%} of its pixels differ from tests/view")
+    mean, far = difference(data, kept.read_bytes())
+    page.hold(mean < 3, f"picture {name} differs from tests/view by {mean:.1f} of 255 in the mean")
+    page.hold(far < 0.02, f"picture {name}: {far:.1%} of its pixels differ from tests/view")
 
 
 def check_beside(page, pictures):

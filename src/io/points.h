@@ -1,6 +1,6 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
-#include <clast/status.h>
+#include "base/status.h"
 #include <clast/table.h>
 
 /// Some rows of an array.

@@ -122,15 +122,16 @@ static const char *shape_name(const void *assembly, int32_t i)
     return a->shape[i].name;
 }
 
-/// Unit, names of the shapes, and with surfaces how each grain is placed.
-static clast_status put_head(clx_export *e, clx_vtk_array *array, int64_t n_point, int64_t n_cell)
+/// Unit, names of the shapes, and how each grain is placed.
+static clast_status put_head(clx_export *e, clx_vtk_array *array, int64_t n_point, int64_t n_cell,
+                             bool has_poses)
 {
     clast_status status = CLAST_OK;
     clx_vtk_head(&e->file, "UnstructuredGrid");
     (void)clx_file_print(&e->file, "<FieldData>");
     clx_vtk_field_text(&e->file, "unit", e->unit);
     clx_vtk_field_texts(&e->file, "shape_names", e->assembly->n_shape, shape_name, e->assembly);
-    for (size_t k = 0; !e->options->points && k < sizeof of_field / sizeof of_field[0]; ++k) {
+    for (size_t k = 0; has_poses && k < sizeof of_field / sizeof of_field[0]; ++k) {
         CLX_TRY(put_property(e, array, &of_field[k], IN_FIELD));
     }
     (void)clx_file_print(&e->file, "</FieldData>\n");
@@ -198,7 +199,7 @@ clast_status clx_export_vtu_surfaces(clx_export *e)
     clast_status status = CLAST_OK;
     clx_vtk_array array = {0};
     CLX_TRY(clx_vtk_begin(&array));
-    CLX_TRY(put_head(e, &array, e->parts.n_vert, e->parts.n_tri));
+    CLX_TRY(put_head(e, &array, e->parts.n_vert, e->parts.n_tri, true));
     CLX_TRY(put_surface_points(e, &array));
     (void)clx_file_print(&e->file, "<Cells>\n");
     CLX_TRY(put_connectivity(e, &array));
@@ -237,7 +238,7 @@ clast_status clx_export_vtu_points(clx_export *e)
     clx_vtk_array array = {0};
     const int32_t n = e->assembly->n_grain;
     CLX_TRY(clx_vtk_begin(&array));
-    CLX_TRY(put_head(e, &array, n, n));
+    CLX_TRY(put_head(e, &array, n, n, false));
     CLX_TRY(put_grain_points(e, &array));
     CLX_TRY(put_cells(e, &array, n, 1, VTK_VERTEX));
     (void)clx_file_print(&e->file, "<PointData>\n");

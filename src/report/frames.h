@@ -20,6 +20,7 @@ typedef struct clx_frames {
     int32_t n;        ///< kept: at most what a page has room for, evenly spaced
     int32_t n_file;   ///< that the run wrote
     double end;       ///< time of the assembly itself; NaN: not known
+    bool has_turns;   ///< a grain is no ball
     bool lacks_poses; ///< written by a version that put none into them
     clx_frame *frame; ///< [n]
 } clx_frames;

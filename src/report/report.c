@@ -59,7 +59,8 @@ static void put_frames_note(clx_file *file, const clx_frames *frames)
         (void)clx_file_print(file, "<p class=\"note\">The frames are of a version before 0.2, "
                                    "which told no poses: no time slider.</p>\n");
     } else if (frames->n < frames->n_file) {
-        (void)clx_file_print(file, "<p class=\"note\">%d of the run's %d frames are on this page.</p>\n",
+        (void)clx_file_print(file,
+                             "<p class=\"note\">%d of the run's %d frames are on this page.</p>\n",
                              (int)frames->n, (int)frames->n_file);
     }
 }
@@ -115,8 +116,8 @@ static clast_status put_view(clx_file *file, const clx_run *run, const clast_rep
         CLX_TRY(clx_view3d_put(file, state.assembly, NULL, NULL, config->triangles));
         CLX_TRY(put_bodies(file, run, state.assembly, config));
     } else {
-        CLX_TRY(put_assembly(file, run, state.assembly, clast_state_table(&state, "contacts"),
-                             config));
+        CLX_TRY(
+            put_assembly(file, run, state.assembly, clast_state_table(&state, "contacts"), config));
     }
 done:
     if (status == CLAST_E_GEOMETRY) {
