@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, ROOM = 12000000, GRAIN_ROOM = 14 };
 static const int64_t PVD_LIMIT = (int64_t)256 << 20;
@@ -58,20 +59,23 @@ static bool is_frame(const char *name, size_t n)
     return strspn(name + sizeof before - 1, "0123456789") == n_digit;
 }
 
-/// Entries of frames.pvd as clast writes them.
+/// Entries of frames.pvd as clast writes them; those whose file is gone are left out.
 static clast_status list_entries(const clx_run *run, entry **list, int64_t *n)
 {
     static const char time_mark[] = "timestep=\"";
     static const char file_mark[] = "file=\"";
     clast_status status = CLAST_OK;
     char path[PATH_SIZE];
+    char file[PATH_SIZE];
     char *text = NULL;
     int64_t n_byte = 0;
+    int64_t n_entry = 0;
     int64_t room = 0;
     CLX_TRY(clx_run_path(run, "frames.pvd", path, sizeof path));
     CLX_TRY(clx_file_read_all(path, PVD_LIMIT, &text, &n_byte));
     for (const char *at = text; (at = strstr(at, time_mark)) != NULL;) {
         at += sizeof time_mark - 1;
+        ++n_entry;
         const char *name = strstr(at, file_mark);
         const double time = clx_number_read(at, NULL);
         if (name == NULL) {
@@ -80,11 +84,13 @@ static clast_status list_entries(const clx_run *run, entry **list, int64_t *n)
         name += sizeof file_mark - 1;
         const size_t length = strcspn(name, "\"");
         CLX_CHECK(is_frame(name, length) && isfinite(time), CLAST_E_FORMAT,
-                  "%s: entry %lld is no frame of this run", path, (long long)*n + 1);
+                  "%s: entry %lld is no frame of this run", path, (long long)n_entry);
         CLX_TRY(clx_grow(list, &room, *n + 1, sizeof **list));
         (*list)[*n].time = time;
         memcpy((*list)[*n].name, name, length);
-        (*list)[(*n)++].name[length] = '\0';
+        (*list)[*n].name[length] = '\0';
+        CLX_TRY(clx_run_path(run, (*list)[*n].name, file, sizeof file));
+        *n += access(file, R_OK) == 0 ? 1 : 0;
         at = name;
     }
 done:

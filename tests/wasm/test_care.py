@@ -3,8 +3,6 @@ that is kept (a tolerance for other graphics), files of hostile names and conten
 import base64
 import json
 import os
-import pathlib
-import re
 import sys
 import time
 import unittest
@@ -69,21 +67,12 @@ class Care(unittest.TestCase):
             self.browser.value("window.axe ? 0 : (window.eval(" + json.dumps(self.axe) + "), 0)")
             self.assertEqual(self.browser.value(AXE_RUN), [], "dark" if dark else "light")
 
-    def memory(self):
-        """Bytes that Chromium's processes hold."""
-        self.browser.call("HeapProfiler.collectGarbage")
-        parents = {int(p.name): int(p.joinpath("stat").read_text().rsplit(")", 1)[1].split()[1]) for p in pathlib.Path("/proc").iterdir() if p.name.isdigit()}
-        ours = {self.browser.process.pid}
-        for _ in range(4):
-            ours |= {child for child, parent in parents.items() if parent in ours}
-        held = (re.search(r"Pss:\s+(\d+)", pathlib.Path(f"/proc/{pid}/smaps_rollup").read_text()) for pid in ours if pathlib.Path(f"/proc/{pid}").exists())
-        return sum(int(found.group(1)) for found in held if found) * 1024
-
     def test_memory_is_steady_over_ten_runs(self):
         held = []
         for k in range(10):
             self.split(("cluster", "gradient")[k % 2])
-            held.append(self.memory())
+            self.browser.call("HeapProfiler.collectGarbage")
+            held.append(self.browser.memory())
         self.assertLess(max(held[6:]), 1.15 * max(held[2:5]) + 20e6, [round(h / 1e6) for h in held])
 
     def test_hostile_files_are_lines(self):
