@@ -44,7 +44,7 @@ class Browser:
 
     def message(self):
         while b"\0" not in self.buffer:
-            if not select.select([self.inp], [], [], 120)[0]:
+            if not select.select([self.inp], [], [], 300)[0]:
                 sys.exit("browser: chromium does not answer")
             read = os.read(self.inp, 1 << 20)
             if not read:

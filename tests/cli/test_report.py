@@ -152,7 +152,7 @@ class Report(Case):
         self.assertEqual(clast("report", run).code, 0)
         view = json.loads(re.search(r'class="view-data">(.*?)</script>', self.page(os.path.join(run, "report.html")), re.S).group(1))
         self.assertEqual(len(view["frames"]["frame"]), len(listed) - 1)
-        os.truncate(os.path.join(run, listed[1][1]), os.path.getsize(os.path.join(run, listed[1][1])) // 2)
+        os.truncate(os.path.join(run, listed[1][1]), 900)  # within the poses
         damaged = clast("report", run)
         self.assertEqual((damaged.code, damaged.err.count("\n")), (3, 1), damaged.err)
         with open(os.path.join(run, "frames.pvd"), "w", encoding="utf-8") as file:
