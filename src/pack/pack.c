@@ -159,6 +159,7 @@ void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks)
                                 .n_balance = c.n_balance,
                                 .n_migrated = c.n_migrated,
                                 .ghosts = (double)c.n_ghost / steps,
+                                .messages = (double)c.n_message / steps,
                                 .step_bytes = (double)c.step_bytes / steps,
                                 .list_bytes = (double)c.list_bytes / steps,
                                 .imbalance = c.imbalance,
