@@ -10,6 +10,7 @@
 // pose: base64 of float32 [m][10]: position[3], quaternion w x y z [4], scale, size, density [kg/m3];
 // contact: {pair: base64 of uint32 [c][2] (second 0xffffffff: a wall), branch: base64 of float32 [c][3] from the first grain's centroid
 // to the second's or to the wall, force: base64 of float32 [c] in N, or null}. Lengths are in `length` units.
+// values: {speed, force: {bar, of: base64 of float32 [n_shown]}}, what else is known of each grain while it moves (the live page).
 import { Color } from 'three';
 
 export const POSE = 10;
@@ -64,5 +65,6 @@ export function readData(element) {
   data.colours = data.bar.map((c) => new Color(c));
   data.contacts = readContacts(data);
   if (data.contacts) data.coordination = countBar('contacts of a grain', data.contacts.count.reduce((a, b) => Math.max(a, b), 0));
+  for (const [name, { bar, of }] of Object.entries(data.values ?? {})) Object.assign(data, { [name]: { ...bar, values: floats(of) } });
   return data;
 }
