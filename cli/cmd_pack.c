@@ -1,4 +1,4 @@
-// clast pack: pour, shake and calm a bed of grains by the discrete element method.
+// clast pack: pour, shake and damp a bed of grains by the discrete element method.
 #include "command.h"
 #include "resume.h"
 
@@ -281,7 +281,7 @@ static const char details[] =
 const cli_command cli_pack = {
     .name = "pack",
     .arguments = "",
-    .summary = "pour, shake and calm a bed of grains (DEM); its porosity",
+    .summary = "pour, shake and damp a bed of grains (DEM); its porosity",
     .example =
         {"clast pack --curve 4mm --mass 2g --width 30mm --height 0.1m --shaking-time 0",
          "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/",

@@ -103,11 +103,11 @@ CLAST_API extern const clast_field clast_dem_fields[];
 typedef struct clast_dem_grain {
     int32_t shape;
     double scale;
-    double density;        ///< [kg/m3]
-    double position[3];    ///< of the centre of mass [m]
-    double orientation[4]; ///< unit quaternion w, x, y, z
-    double velocity[3];    ///< [m/s]
-    double spin[3];        ///< angular velocity, world axes [1/s]
+    double density;             ///< [kg/m3]
+    double position[3];         ///< of the centre of mass [m]
+    double orientation[4];      ///< unit quaternion w, x, y, z
+    double velocity[3];         ///< [m/s]
+    double angular_velocity[3]; ///< world axes [1/s]
 } clast_dem_grain;
 
 /// What acts on all grains for a while.

@@ -615,7 +615,7 @@ def evolve(
         young: Quantity | None = None,
         poisson: float | None = None,
         structure: bool | None = None,
-        meeting: Literal["auto", "ballistic", "diffusive", "central"] | None = None,
+        meeting: Literal["auto", "ballistic", "diffusive", "central", "reaction"] | None = None,
         walk_step: float | None = None,
         max_tries: int | None = None,
         duration: Quantity | None = None,
@@ -624,6 +624,7 @@ def evolve(
         time_step: Quantity | None = None,
         seed: int | None = None,
         keep: int | None = None,
+        bed_width: Quantity | None = None,
         frames: int | None = None,
         checkpoint_time: Quantity | None = None,
         resume: Text | None = None,
@@ -684,15 +685,16 @@ def evolve(
         young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
         poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
         structure: aggregates keep their grains as they touch; no: drops that merge (default True)
-        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section (auto, ballistic, diffusive, central; default auto)
+        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section; reaction: all contacts alike, as where few touches stick (auto, ballistic, diffusive, central, reaction; default auto)
         walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
-        max_tries: paths tried before a pair is given up, in thousands; of central lines: one by one (1 to 1e+06; default 100)
+        max_tries: paths or contacts tried before a pair is given up, in thousands; central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
         step_error: share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
+        bed_width: width of the column in deposit.h5 (that of its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)

@@ -28,7 +28,7 @@ static int64_t own(void *context, int64_t value)
     return value;
 }
 
-static void keep(void *context, int32_t root, void *bytes, int64_t n)
+static void broadcast_alone(void *context, int32_t root, void *bytes, int64_t n)
 {
     (void)context;
     (void)root;
@@ -70,7 +70,7 @@ const clast_comm *clast_comm_one(void)
                                    .send = send_nowhere,
                                    .take = take_nothing,
                                    .least = own,
-                                   .broadcast = keep,
+                                   .broadcast = broadcast_alone,
                                    .gather = copy,
                                    .sum = keep_sum,
                                    .exchange = keep_bytes};

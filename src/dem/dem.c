@@ -104,9 +104,9 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     clast_status status = CLAST_OK;
     CLX_CHECK(g->shape >= 0 && g->shape < dem->n_body, CLAST_E_USAGE,
               "grain %lld: there is no shape %d", (long long)number, g->shape);
-    CLX_CHECK(all_finite(g->position, 3) && all_finite(g->velocity, 3) && all_finite(g->spin, 3) &&
-                  all_finite(g->orientation, 4) && g->scale > 0.0 && isfinite(g->scale) &&
-                  g->density > 0.0 && isfinite(g->density),
+    CLX_CHECK(all_finite(g->position, 3) && all_finite(g->velocity, 3) &&
+                  all_finite(g->angular_velocity, 3) && all_finite(g->orientation, 4) &&
+                  g->scale > 0.0 && isfinite(g->scale) && g->density > 0.0 && isfinite(g->density),
               CLAST_E_USAGE, "grain %lld: numbers that are not finite, or a size or density of 0",
               (long long)number);
     const double *q = g->orientation;
@@ -151,14 +151,14 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
                      .kind = (int32_t)body->shape.kind};
     v3_copy(g->position, from->position);
     v3_copy(g->velocity, from->velocity);
-    v3_copy(g->omega, from->spin);
+    v3_copy(g->omega, from->angular_velocity);
     *m = (clx_motion){.inertia_factor = from->density * s * s * s * s * s,
                       .volume = volume,
                       .density = from->density};
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
     q_matrix(g->turn, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
-    m3_to_local(in_body, g->turn, from->spin);
+    m3_to_local(in_body, g->turn, from->angular_velocity);
     m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
     m3_to_world(m->angular, g->turn, momentum);
@@ -286,6 +286,6 @@ void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grai
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};
     v3_copy(grain->position, g->position);
     v3_copy(grain->velocity, g->velocity);
-    v3_copy(grain->spin, g->omega);
+    v3_copy(grain->angular_velocity, g->omega);
     memcpy(grain->orientation, m->orientation, sizeof m->orientation);
 }

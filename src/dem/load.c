@@ -245,7 +245,7 @@ static void measure_volume(const clast_dem *dem, clast_dem_load *load)
     }
 }
 
-static clast_status measure(const clast_dem *dem, bool is_whole, clast_dem_load *load)
+static clast_status measure_load(const clast_dem *dem, bool is_whole, clast_dem_load *load)
 {
     clast_status status = CLAST_OK;
     contact *row = NULL;
@@ -278,11 +278,11 @@ done:
 
 clast_status clx_dem_stress(const clast_dem *dem, clast_dem_load *load)
 {
-    return measure(dem, false, load);
+    return measure_load(dem, false, load);
 }
 
 clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load)
 {
     CLX_ARGUMENTS(dem, load);
-    return measure(dem, true, load);
+    return measure_load(dem, true, load);
 }

@@ -186,7 +186,7 @@ static clast_status read_grains(clast_dem *dem, const clx_dem_saved *s)
         clast_dem_grain g = {.shape = s->shape[i], .scale = in[16], .density = in[17]};
         v3_copy(g.position, in);
         v3_copy(g.velocity, in + 3);
-        v3_copy(g.spin, in + 6);
+        v3_copy(g.angular_velocity, in + 6);
         memcpy(g.orientation, in + 9, sizeof g.orientation);
         CLX_TRY(clast_dem_add_grains(dem, 1, &g));
         v3_copy(dem->motion[i].angular, in + 13);

@@ -52,7 +52,7 @@ bool clx_pack_has_load(const clast_pack_config *config)
     return config->energy || config->dem.domain == CLAST_DEM_CELL;
 }
 
-static clast_status add(clast_table *table, int n, const column *c)
+static clast_status append_columns(clast_table *table, int n, const column *c)
 {
     clast_status status = CLAST_OK;
     for (int k = 0; k < n; ++k) {
@@ -70,10 +70,10 @@ clast_status clx_pack_load_table(clast_pack *p)
         return CLAST_OK;
     }
     CLX_TRY(clast_table_init(&p->load.table, "load", 0));
-    CLX_TRY(add(&p->load.table, COUNT(first), first));
-    CLX_TRY(add(&p->load.table, is_cell ? COUNT(of_cell) : 0, of_cell));
-    CLX_TRY(add(&p->load.table, COUNT(of_contacts), of_contacts));
-    CLX_TRY(add(&p->load.table, p->config.energy ? COUNT(of_energy) : 0, of_energy));
+    CLX_TRY(append_columns(&p->load.table, COUNT(first), first));
+    CLX_TRY(append_columns(&p->load.table, is_cell ? COUNT(of_cell) : 0, of_cell));
+    CLX_TRY(append_columns(&p->load.table, COUNT(of_contacts), of_contacts));
+    CLX_TRY(append_columns(&p->load.table, p->config.energy ? COUNT(of_energy) : 0, of_energy));
 done:
     return status;
 }

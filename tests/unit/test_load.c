@@ -139,7 +139,7 @@ static clast_dem *pour(const bed *b)
         grain[i].scale = 1.0;
         for (int k = 0; k < 3; ++k) {
             grain[i].velocity[k] = 0.3 * (2.0 * clx_rng_uniform(&rng) - 1.0);
-            grain[i].spin[k] = 30.0 * (2.0 * clx_rng_uniform(&rng) - 1.0);
+            grain[i].angular_velocity[k] = 30.0 * (2.0 * clx_rng_uniform(&rng) - 1.0);
         }
         grain[i].velocity[2] -= 1.0;
     }
