@@ -4,7 +4,7 @@ force on the floor is compared with the closed form, whose two numbers are measu
 
     m_floor = m_s (1 - exp(-m / m_s)),  m_s = rho_b A D / (4 mu K)
 
-K is the ratio of the mean radial stress at the wall to the mean vertical stress (sums over contacts of the last state), mu the
+All are of the last state, floor_mean_g of the second half of the way. K is the ratio of the mean radial stress at the wall to the mean vertical stress (sums over contacts of the last state), mu the
 ratio of friction to normal force at the wall, rho_b the bulk density of the bed. Nothing is fitted.
 
     CLAST=build/release/clast python3 examples/load/janssen.py janssen/        (needs h5py and numpy; a few minutes)
@@ -37,8 +37,7 @@ def measure(run):
     with open(os.path.join(run, "walls.csv"), encoding="utf-8") as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
     steady = [row for row in rows if row["sides_z_m"] > 1.5e-3]
-    floor = -numpy.mean([row["floor_force_z_N"] for row in steady]) / GRAVITY
-    held = -numpy.mean([row["sides_force_z_N"] for row in steady]) / GRAVITY
+    mean = -numpy.mean([row["floor_force_z_N"] for row in steady]) / GRAVITY
     mass = steady[-1]["mass_kg"]
     with h5py.File(os.path.join(run, "state.h5")) as state:
         c = {column.attrs["name"]: numpy.array(column) for column in state["table/contacts"].values()}
@@ -49,20 +48,21 @@ def measure(run):
     at_side = (c["b"] < 0) & (numpy.abs(normal[:, 2]) < 0.5)
     pressed = numpy.sum(force[at_side] * normal[at_side])
     friction = abs(numpy.sum(force[at_side, 2]))
+    floor = abs(numpy.sum(force[(c["b"] < 0) & ~at_side, 2])) / GRAVITY
     vertical = numpy.sum(c["branch_z_m"] * force[:, 2]) / (numpy.pi * WIDTH ** 2 / 4)  # of stress over height
     height = numpy.quantile(z, 0.98) + 2e-3
-    return {"mass": mass, "floor": floor, "held": held, "K": pressed / (numpy.pi * WIDTH) / vertical, "mu": friction / pressed, "height": height}
+    return {"mass": mass, "floor": floor, "mean": mean, "K": pressed / (numpy.pi * WIDTH) / vertical, "mu": friction / pressed, "height": height}
 
 
 def main(folder):
     os.makedirs(folder, exist_ok=True)
     found = [measure(fill(folder, grams)) for grams in (12, 24, 36, 48, 64)]
-    print("mass_g  height_over_D  K      mu     m_s_g  floor_g  janssen_g")
+    print("mass_g  height_over_D  K      mu     m_s_g  floor_g  janssen_g  floor_mean_g")
     for f in found:
         saturated = f["mass"] / f["height"] * WIDTH / (4 * f["mu"] * f["K"])
         closed = saturated * (1 - numpy.exp(-f["mass"] / saturated))
         print(f"{1e3 * f['mass']:6.2f}  {f['height'] / WIDTH:13.2f}  {f['K']:.3f}  {f['mu']:.3f}  {1e3 * saturated:5.1f}  "
-              f"{1e3 * f['floor']:7.2f}  {1e3 * closed:9.2f}   floor and walls carry {(f['floor'] + f['held']) / f['mass']:.4f} of the weight")
+              f"{1e3 * f['floor']:7.2f}  {1e3 * closed:9.2f}  {1e3 * f['mean']:12.2f}")
 
 
 if __name__ == "__main__":
