@@ -335,8 +335,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
 static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     CLAST_ASSERT(n >= 1 && n <= PIECE);
-    const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0 &&
-                         dem->cell == NULL; // whose images have velocities
+    const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
     const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
