@@ -109,7 +109,7 @@ class WithoutWebGL(page.Live):
         self.run_room()
         self.assertEqual(self.text("pour-error"), "")
         self.assertIn("WebGL", self.text("pour-view"))
-        self.assertEqual(self.browser.value("document.querySelectorAll('#pour-height polyline').length"), 2)
+        self.assertEqual(self.browser.value("document.querySelectorAll('#pour-level polyline').length"), 2)
         self.assertGreater(self.browser.value("document.querySelectorAll('#pour-numbers tr').length"), 5)
 
 
