@@ -5,9 +5,9 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { grow, listen, makeControls, showChains } from './view/controls.js';
 import { makeCut, setCut, turnCap } from './view/cut.js';
-import { readData } from './view/data.js';
+import { isEnd, readData } from './view/data.js';
 import { dropDots, measureSpeed, setLevel, settle, timeDrawing, touch } from './view/dots.js';
-import { makeGrains, meanOf, paintGrains, radiusOf } from './view/grains.js';
+import { extentOf, makeGrains, meanOf, paintGrains, radiusOf } from './view/grains.js';
 import { drawLegend, drawScale, tag } from './view/legend.js';
 import { roomOf } from './view/moments.js';
 import { dropNear, freeNear } from './view/near.js';
@@ -35,10 +35,12 @@ function addLights(scene, camera) {
 
 /// What a view can do with its camera.
 const camera = {
+  /// Shows all grains where they are at this moment.
   frame() {
     const half = (this.camera.fov * Math.PI) / 360;
-    this.camera.position.copy(SIGHT).setLength((1.04 * this.radius) / Math.sin(half * Math.min(1, this.camera.aspect)));
-    this.controls.target.set(0, 0, 0);
+    const { middle, radius } = isEnd(this) ? { middle: new Vector3(), radius: this.radius } : extentOf(this.meshes);
+    this.camera.position.copy(SIGHT).setLength((1.04 * radius) / Math.sin(half * Math.min(1, this.camera.aspect))).add(middle);
+    this.controls.target.copy(middle);
     this.controls.update();
   },
   turn(right, up) {
