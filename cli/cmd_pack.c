@@ -188,6 +188,10 @@ static void print_text(const clast_pack_result *r)
                                              : " (at rest)",
                  (long long)r->dem.step, r->dem.time);
     print_motion(r);
+    if (r->n_left > 0) {
+        (void)printf("%-26s %lld grains, %.6g kg\n", "left by outlets", (long long)r->n_left,
+                     r->mass_left);
+    }
     if (r->n_outside > 0) {
         (void)printf("%-26s %d grain%s left the container\n", "outside", r->n_outside,
                      r->n_outside == 1 ? " has" : "s have");
@@ -256,6 +260,14 @@ static const char details[] =
     "density_kg/m^3,\n"
     "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
     "qw, qx, qy, qz that turns the shape into its place.\n\n"
+    "--wall 'drum drum.stl mm axis 0,1,0 rotate 30rpm' adds a surface that moves; floor, lid, "
+    "sides,\n"
+    "left, right, front and back of the domain may move, too. Without stages they move from the "
+    "start;\n"
+    "with --stages the bed is poured first, then each stage drives walls: 'drum until time 2s',\n"
+    "'lid=10kPa until rest', 'open gate until mass 1g'. --outlet 'z<-10mm' takes grains out. "
+    "walls.csv has\n"
+    "place, force, torque and work of each wall over time, and the mass that left.\n\n"
     "domain cell is periodic in x, y and z: its grains float on a lattice until the stages press "
     "and\n"
     "shear them (--stages 'isotropic 10kPa until rest'; docs/theory/load.md). load.csv then has "

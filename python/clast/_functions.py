@@ -1063,6 +1063,9 @@ def pack(
         still_speed: Quantity | None = None,
         max_steps: int | None = None,
         max_damping_time: Quantity | None = None,
+        wall: Texts | None = None,
+        outlet: Texts | None = None,
+        wall_forces: bool | None = None,
         stages: Texts | None = None,
         load_rate: Quantity | None = None,
         load_tolerance: float | None = None,
@@ -1160,7 +1163,10 @@ def pack(
         still_speed: of the fastest grain (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
-        stages: stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
+        wall: walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2 (no default)
+        outlet: half-spaces whose grains leave and are counted: z<-10mm (no default)
+        wall_forces: force and torque on all walls over time, also where none moves: walls.csv (default False)
+        stages: stages that load a bed, one after the other; between walls: NAME (its motion runs), NAME=10kPa, NAME=5N, NAME=1mm/s (where it presses), open NAME, hold; then until rest, time T, stress P, way D or mass M. In domain cell: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
         load_rate: rate of strain at which a pressure is approached, at most (1/s; 1e-09 to 1e+09; default 1.0)
         load_tolerance: share of a pressure within which it is reached (1e-09 to 1; default 0.01)
         load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)

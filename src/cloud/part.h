@@ -66,6 +66,10 @@ typedef struct clx_ranked {
 /// @param key  [n] from clx_alloc; *key is taken over (NULL afterwards), also on failure
 clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
                              clx_ranked *ranked);
+
+/// The same of keys that are in order already and all here.
+clast_status clx_ranked_of_sorted(uint64_t **key, int64_t n, uint64_t limit, clx_ranked *ranked);
+
 /// First of this rank's keys that is at least `key`: its place.
 int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key);
 void clx_ranked_free(clx_ranked *ranked);

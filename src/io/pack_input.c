@@ -9,6 +9,7 @@
 #include "io/rigid_grain.h"
 #include "io/shape_word.h"
 #include "io/start_file.h"
+#include "io/wall_file.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/form.h>
@@ -34,6 +35,7 @@ void clast_pack_unload(clast_pack_source *source)
     clast_mesh_free(&source->container);
     clast_mesh_free(&source->container_closed);
     clast_assembly_free(&source->start);
+    clx_walls_unload(source->n_wall, source->wall);
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
@@ -329,6 +331,9 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
         made.input.curve = made.curve.n_class > 0 ? &source->curve : NULL;
     }
     CLX_TRY(load_container(config, source, &made));
+    CLX_TRY(clx_walls_load(config, &made.n_wall, &made.wall));
+    made.input.n_wall = made.n_wall;
+    made.input.wall = made.wall;
     *source = made;
     made = (clast_pack_source){0};
 done:
@@ -365,6 +370,9 @@ int32_t clx_pack_n_file(const clast_pack_config *config)
     for (int32_t i = 0; i < config->shapes.n; ++i) {
         n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
     }
+    for (int32_t i = 0; clx_walls_file(config, i) != NULL; ++i) {
+        ++n;
+    }
     return n;
 }
 
@@ -388,5 +396,9 @@ const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char
         return config->start;
     }
     *role = "curve";
-    return curve_file(config->curve);
+    if (curve_file(config->curve) != NULL && i-- == 0) {
+        return curve_file(config->curve);
+    }
+    *role = "wall";
+    return clx_walls_file(config, i);
 }
