@@ -121,6 +121,7 @@ typedef struct clast_export_options {
     bool points; ///< VTU: a point a grain with quaternion and scale instead of surfaces
     clast_colour colour; ///< PLY
     const char *unit;    ///< of the coordinates in STL, OBJ and PLY ("mm"); NULL: the assembly's
+    const clast_table *values; ///< VTU: further numbers of the grains, a row each; NULL: none
 } clast_export_options;
 
 /// What was written.

@@ -141,6 +141,9 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
 {
     CLX_ARGUMENTS(assembly, path);
     CLX_WHOLE(assembly, assembly);
+    if (options != NULL && options->values != NULL) {
+        CLX_WHOLE(table, options->values);
+    }
     static const clast_export_options usual = {.level = 3};
     clast_status status = CLAST_OK;
     const clast_export_options *o = options != NULL ? options : &usual;
@@ -159,6 +162,10 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
                   made.format == CLAST_EXPORT_OBJ || made.format == CLAST_EXPORT_PLY,
               CLAST_E_USAGE, "%s: its unit is %s; one can be chosen for .stl, .obj and .ply", path,
               made.format == CLAST_EXPORT_3MF ? "mm, as the format demands" : own);
+    CLX_CHECK(o->values == NULL ||
+                  (made.format == CLAST_EXPORT_VTU && o->values->n_row == assembly->n_grain),
+              CLAST_E_USAGE, "%s: values are for .vtu, a row for each of its %d grains", path,
+              assembly->n_grain);
     made.unit = made.format == CLAST_EXPORT_3MF ? "mm" : e.unit;
     if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
         CLX_TRY(write_table(assembly, made.format, path));
