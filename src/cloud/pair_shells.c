@@ -6,6 +6,7 @@
 // Integer sums, and sums of numbers in the order of the points and in fixed blocks of cells: the
 // same bytes for any number of threads.
 #include "base/alloc.h"
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "cloud/pair_cells.h"
 #include "cloud/pair_edge.h"
@@ -226,25 +227,31 @@ static void add_rows(walk *p)
     }
 }
 
+/// Products of a point's sums in any two shells; [n_shell] each.
+CLX_FOR_EACH_MACHINE
+static void add_joint(int32_t n_shell, const double *weight, clx_pair_sum *sum)
+{
+    for (int32_t k = 0; k < n_shell; ++k) {
+        const double own = weight[k];
+        for (int32_t l = 0; own > 0.0 && l <= k; ++l) {
+            sum[k].joint[l] += own * weight[l];
+        }
+    }
+}
+
 static void gather_point(const walk *p, clx_pair_sum *sum)
 {
-    int32_t met[CLAST_MAX_SHELL];
     double weight[CLAST_MAX_SHELL];
-    int32_t n_met = 0;
     for (int32_t k = 0; k < p->job->n_shell; ++k) {
-        if (p->count[k] == 0) {
-            continue;
+        weight[k] = p->count[k] > 0 ? p->count[k] + p->extra[k] : 0.0;
+        if (p->count[k] > 0) {
+            sum[k].pairs += p->count[k];
+            sum[k].squares += (int64_t)p->count[k] * p->count[k];
+            sum[k].weight += weight[k];
+            sum[k].weight2 += p->count[k] + p->extra2[k];
         }
-        weight[n_met] = p->count[k] + p->extra[k];
-        met[n_met++] = k;
-        for (int32_t l = 0; l < n_met; ++l) {
-            sum[k].joint[met[l]] += weight[n_met - 1] * weight[l];
-        }
-        sum[k].pairs += p->count[k];
-        sum[k].squares += (int64_t)p->count[k] * p->count[k];
-        sum[k].weight += weight[n_met - 1];
-        sum[k].weight2 += p->count[k] + p->extra2[k];
     }
+    add_joint(p->job->n_shell, weight, sum);
 }
 
 /// A row's points behind those that are there, and some beyond its end, over which the next row

@@ -4,6 +4,8 @@
 #include "io/vtk_array.h"
 #include <clast/mesh.h>
 #include <clast/shape.h>
+#include <clast/state.h>
+#include <clast/table.h>
 #include <inttypes.h>
 
 static void put_tail(clx_file *file)
@@ -116,6 +118,28 @@ done:
     return status;
 }
 
+/// The caller's numbers of the grains, likewise.
+static clast_status put_values(clx_export *e, clx_vtk_array *array, bool per_triangle)
+{
+    clast_status status = CLAST_OK;
+    const clast_table *values = e->options->values;
+    for (int32_t c = 0; values != NULL && c < values->n_column; ++c) {
+        const double *number = values->column[c].number;
+        for (int32_t i = 0; number != NULL && i < e->assembly->n_grain; ++i) {
+            const int32_t shape = e->assembly->shape_id[i];
+            const int32_t n = per_triangle ? e->parts.surface[shape].n_tri : 1;
+            for (int32_t t = 0; t < n; ++t) {
+                CLX_TRY(clx_vtk_add(array, &number[i], sizeof number[i]));
+            }
+        }
+        if (number != NULL) {
+            CLX_TRY(clx_vtk_end(array, &e->file, "Float64", values->column[c].name, 1));
+        }
+    }
+done:
+    return status;
+}
+
 static const char *shape_name(const void *assembly, int32_t i)
 {
     const clast_assembly *a = assembly;
@@ -208,6 +232,7 @@ clast_status clx_export_vtu_surfaces(clx_export *e)
     for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
         CLX_TRY(put_property(e, &array, &common[k], EACH_TRIANGLE));
     }
+    CLX_TRY(put_values(e, &array, true));
     (void)clx_file_print(&e->file, "</CellData>\n");
     put_tail(&e->file);
 done:
@@ -248,6 +273,7 @@ clast_status clx_export_vtu_points(clx_export *e)
     for (size_t k = 0; k < sizeof of_points / sizeof of_points[0]; ++k) {
         CLX_TRY(put_property(e, &array, &of_points[k], ONCE));
     }
+    CLX_TRY(put_values(e, &array, false));
     (void)clx_file_print(&e->file, "</PointData>\n");
     put_tail(&e->file);
 done:

@@ -133,6 +133,7 @@ export function colourAt(colours, t, out) {
 function valueOf(data, by, mesh, i) {
   const g = mesh.userData.grain[i];
   if (by === 'order') return g + 1;
+  if (data[by].values) return data[by].values[g];
   if (by === 'coordination') return data.contacts.count[g] ?? 0;
   return mesh.userData.pose[POSE * i + 8] * data.size.unit;
 }
