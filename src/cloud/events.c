@@ -99,18 +99,20 @@ static clast_status fill_parts(count *n)
     clast_status status = CLAST_OK;
     const clx_sample *m = n->sample;
     const int32_t d = n->cloud->dimension;
+    double held[3];
     for (int64_t i = 0; i < m->n; ++i) {
-        if (m->number[i] < 0) {
+        const int64_t number = clx_sample_number(m, i);
+        if (number < 0) {
             continue;
         }
-        const int32_t c = n->cells->of_point[m->number[i]];
-        const double w = n->cloud->weight != NULL ? n->cloud->weight[m->number[i]] : 1.0;
+        const int32_t c = n->cells->of_point[number];
+        const double w = n->cloud->weight != NULL ? n->cloud->weight[number] : 1.0;
         CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0",
-                  (long long)m->number[i] + 1, w);
+                  "the weight of point %lld is %g; it must be a number > 0", (long long)number + 1,
+                  w);
         const int32_t k = halved(n->cells, c);
         if (k >= 0) {
-            add_weight(&n->half[k << d | half_of(n->cells, c, m->u + i * d, d)], w);
+            add_weight(&n->half[k << d | half_of(n->cells, c, clx_sample_point(m, i, held), d)], w);
         }
         if (n->cloud->weight != NULL) {
             add_weight(&n->cell[c], w);

@@ -311,11 +311,12 @@ static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context
 {
     const code_context *c = context;
     const clx_sample *s = c->w->sample;
-    const int32_t d = c->w->ladder->d;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const bool is_real = s->number[i] >= 0;
-        const uint64_t code = is_real ? code_of(c->w, s->u + i * d) >> c->shift : UINT64_MAX;
+        const bool is_real = clx_sample_number(s, i) >= 0;
+        const uint64_t code =
+            is_real ? code_of(c->w, clx_sample_point(s, i, held)) >> c->shift : UINT64_MAX;
         if (c->keyed != NULL) {
             c->keyed[i] = (clx_keyed){code, (uint64_t)i};
         } else {
@@ -335,7 +336,7 @@ static clast_status order_weighted(ladder_walk *w, clx_keyed *keyed, uint64_t *c
     CLX_TRY(clx_alloc(&w->own, s->n, sizeof *w->own));
     for (int64_t i = 0; i < s->n; ++i) {
         code[i] = keyed[i].key;
-        const int64_t number = s->number[keyed[i].item];
+        const int64_t number = clx_sample_number(s, (int64_t)keyed[i].item);
         w->own[i] = number >= 0 ? w->weight[number] : 0.0;
     }
 done:
@@ -475,10 +476,12 @@ static clast_status order_whole(ladder_walk *w)
     const clx_sample *s = w->sample;
     const int32_t d = w->ladder->d;
     uint64_t *code = NULL;
+    double held[3];
     CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] >= 0) {
-            w->in_grid[w->n_some++] = (clx_keyed){code_of(w, s->u + i * d), (uint64_t)i};
+        if (clx_sample_number(s, i) >= 0) {
+            const uint64_t own = code_of(w, clx_sample_point(s, i, held));
+            w->in_grid[w->n_some++] = (clx_keyed){own, (uint64_t)i};
         }
     }
     CLX_TRY(clx_sort_keyed(w->in_grid, w->n_some));
@@ -487,7 +490,7 @@ static clast_status order_whole(ladder_walk *w)
     for (int64_t i = 0; i < w->n_some; ++i) {
         code[i] = w->in_grid[i].key;
         w->some[i] = (sampled){.code = code[i], .own = 1.0};
-        memcpy(w->some[i].u, s->u + (int64_t)w->in_grid[i].item * d,
+        memcpy(w->some[i].u, clx_sample_point(s, (int64_t)w->in_grid[i].item, held),
                (size_t)d * sizeof *w->some[i].u);
     }
     CLX_TRY(clx_ranked_of_sorted(&code, w->n_some, UINT64_C(1) << bits_below(w, 0), &w->point));
@@ -520,16 +523,19 @@ static clast_status find_sampled(ladder_walk *w)
     const int bits = bits_below(w, 0);
     const int shift = bits > LOOK_UP_BITS ? bits - LOOK_UP_BITS : 0;
     int64_t *first = NULL;
+    double held[3];
     CLX_TRY(clast_comm_agree(
         w->comm, clx_alloc(&first, (INT64_C(1) << LOOK_UP_BITS) + 1, sizeof *first), NULL));
     index_sampled(w, shift, first);
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] < 0) {
+        const int64_t number = clx_sample_number(s, i);
+        if (number < 0) {
             continue;
         }
-        sampled own = {.code = code_of(w, s->u + i * d), .own = 1.0};
-        memcpy(own.u, s->u + i * d, (size_t)d * sizeof *own.u);
-        own.own = w->weight != NULL ? w->weight[s->number[i]] : 1.0;
+        const double *u = clx_sample_point(s, i, held);
+        sampled own = {.code = code_of(w, u), .own = 1.0};
+        memcpy(own.u, u, (size_t)d * sizeof *own.u);
+        own.own = w->weight != NULL ? w->weight[number] : 1.0;
         int64_t at = first[own.code >> shift];
         int64_t end = first[(own.code >> shift) + 1];
         while (at < end) {

@@ -13,12 +13,37 @@ enum { POINTS_A_BLOCK = 16384 };
 
 clx_part clx_part_whole(const double *u, int64_t n, int32_t d)
 {
-    return (clx_part){clast_comm_one(), u, n, n, d};
+    return (clx_part){.comm = clast_comm_one(), .u = u, .n = n, .n_all = n, .d = d};
 }
 
 clx_part clx_part_of(const clast_comm *comm, const double *u, int64_t n, int32_t d)
 {
-    return (clx_part){comm, u, n, clx_comm_total(comm, n), d};
+    return (clx_part){.comm = comm, .u = u, .n = n, .n_all = clx_comm_total(comm, n), .d = d};
+}
+
+typedef struct {
+    const clx_part *part;
+    int64_t begin;
+    double *u;
+} copy_context;
+
+static void copy_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const copy_context *c = context;
+    const int32_t d = c->part->d;
+    double held[3];
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double *place = clx_part_point(c->part, c->begin + i, held);
+        memcpy(c->u + i * d, place, (size_t)d * sizeof *place);
+    }
+}
+
+void clx_part_copy(const clx_part *part, int64_t begin, int64_t n, double *u)
+{
+    copy_context c = {part, begin, u};
+    CLAST_ASSERT(begin >= 0 && begin + n <= part->n);
+    clx_parallel_for(n, POINTS_A_BLOCK, copy_block, &c);
 }
 
 static int by_place(const void *a, const void *b, int32_t d)
@@ -89,8 +114,16 @@ clast_status clx_part_share(const clx_part *part, double **u)
     clast_status status = CLAST_OK;
     clx_gathered all = {0};
     double *made = NULL;
+    double *own = NULL;
     const int64_t size = part->d * (int64_t)sizeof *made;
-    CLX_TRY(clx_comm_share(part->comm, part->u, part->n * size, &all));
+    if (part->u == NULL) {
+        status = clx_alloc(&own, part->n * part->d, sizeof *own);
+    }
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    if (own != NULL) {
+        clx_part_copy(part, 0, part->n, own);
+    }
+    CLX_TRY(clx_comm_share(part->comm, own != NULL ? own : part->u, part->n * size, &all));
     CLAST_ASSERT(all.n == part->n_all * size);
     status = clx_alloc(&made, part->n_all * part->d, sizeof *made);
     if (status == CLAST_OK) {
@@ -101,13 +134,14 @@ clast_status clx_part_share(const clx_part *part, double **u)
     made = NULL;
 done:
     clx_gathered_free(&all);
+    clx_free(own);
     clx_free(made);
     return status;
 }
 
 typedef struct {
-    const double *y;
-    int32_t d, n_sum;
+    const clx_part *part;
+    int32_t n_sum;
     clx_part_terms terms;
     const void *context;
     clx_exact_sum *sum; ///< [workers][n_sum]
@@ -117,18 +151,19 @@ static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const sum_context *c = context;
     clx_exact_sum *own = c->sum + (int64_t)worker * c->n_sum;
+    double held[3];
     for (int64_t i = begin; i < end; ++i) {
-        c->terms(c->y + i * c->d, own, c->context);
+        c->terms(clx_part_point(c->part, i, held), own, c->context);
     }
 }
 
-clast_status clx_part_sum(const clx_part *part, const double *y, clx_part_terms terms,
-                          const void *context, int32_t n_sum, double *value)
+clast_status clx_part_sum(const clx_part *part, clx_part_terms terms, const void *context,
+                          int32_t n_sum, double *value)
 {
     CLAST_ASSERT(n_sum >= 1 && n_sum <= CLX_PART_MOST_SUMS);
     clast_status status = CLAST_OK;
     const int32_t n_worker = clx_parallel_workers();
-    sum_context c = {y, part->d, n_sum, terms, context, NULL};
+    sum_context c = {part, n_sum, terms, context, NULL};
     CLX_TRY(clast_comm_agree(part->comm,
                              clx_alloc(&c.sum, (int64_t)n_worker * n_sum, sizeof *c.sum), NULL));
     clx_parallel_for(part->n, POINTS_A_BLOCK, sum_block, &c);

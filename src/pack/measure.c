@@ -231,6 +231,8 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .n_waited = pack->n_waited,
                            .n_overlap = pack->n_overlap,
                            .deepest_start = pack->deepest,
+                           .n_left = pack->n_left,
+                           .mass_left = pack->mass_left,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .clocked_steps = pack->clocked_steps,

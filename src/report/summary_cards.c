@@ -188,7 +188,7 @@ typedef struct {
     const json_t *value;    ///< the first item's, of `key`
 } item_column;
 
-enum { MAX_COLUMNS = 256, COLUMNS_ACROSS = 7 };
+enum { MAX_COLUMNS = 256, COLUMNS_ACROSS = 6 };
 
 static int list_columns(const json_t *head, item_column column[MAX_COLUMNS])
 {

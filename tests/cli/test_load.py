@@ -147,7 +147,7 @@ class Load(Case):
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--shaking-time", "2s", says=("leave out", "shaking_time"))
         self.assert_fails(2, *CELL, "--stages", "isotropic 0Pa", says=("stage 1", "never reached"))
         self.assert_fails(2, *CELL, "--stages", "hold until stress 1kPa", says=("stage 1", "drive a side"))
-        self.assert_fails(2, *CELL, "--stages", "xz=1/s x=1/s until strain 1", says=("stage 1", "leave out x"))
+        self.assert_fails(2, *CELL, "--stages", "xz=1 until strain 1", says=("stage 1", "no pressure"))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--fluid-viscosity", "1e-3", says=("fluid_viscosity", "domain cell"))
         for option in (("--rule", "speed"), ("--still-speed", "1"), ("--check-time", "1s"), ("--height-change", "1mm"),
                        ("--max-damping-time", "1s"), ("--shake-period", "1s"), ("--no-shake-from-start",), ("--wall-friction", "0.1"),
