@@ -2349,6 +2349,7 @@ clast_workspace_policy._fields_ = [
     ('cells_every', c_int32),
     ('cells_level', c_double),
     ('pairs_every', c_int32),
+    ('pairs_most', c_int32),
 ]
 clast_workspace_calls._fields_ = [
     ('n_call', c_int64),
@@ -2923,7 +2924,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
     'clast_volume_options': (56, {'n': (0, 12), 'type': (12, 4), 'is_big_endian': (16, 1), 'skip': (24, 8), 'edge': (32, 24)}),
     'clast_points': (56, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'stride': (24, 8), 'axis_stride': (32, 8), 'weight': (40, 8), 'weight_stride': (48, 8)}),
-    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4)}),
+    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4), 'pairs_most': (36, 4)}),
     'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
@@ -4559,7 +4560,7 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
     'clast_report_fields': ('title', 'rows', 'view', 'triangles', 'picture_mb'),
     'clast_study_fields': ('run', 'config', 'argument', 'fix', 'vary', 'design', 'table', 'seeds', 'seed', 'keep', 'shard'),
-    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every'),
+    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every', 'pairs_most'),
 }
 
 # Commands that write a run's folder.
