@@ -16,5 +16,5 @@ if [ "${1:-}" = all ]; then exec ctest --test-dir build/mpich -L mpi --output-on
 ctest --test-dir build/mpich -L mpi -R 'comm|cloud' --output-on-failure --no-tests=error
 export PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 CLAST=build/mpich/clast CLAST_MPI=build/mpich/clast-mpi MPIEXEC
 MPIEXEC=$(command -v mpiexec.mpich)
-python3 tests/mpi/test_pack_ranks.py Beds.test_hulls_in_a_periodic_box Beds.test_a_signal_leaves_a_checkpoint
+python3 tests/mpi/test_pack_ranks.py Beds.test_hulls_in_a_periodic_box Beds.test_files_and_checkpoints
 python3 tests/mpi/test_faults.py Faults.test_a_rank_that_hangs Faults.test_a_launcher_of_another_mpi
