@@ -2,6 +2,7 @@
 // bias and how often the 95 % interval covers, of the rest how often the lower bound holds.
 //
 //     bench_resolution [n = 1000] [repeats = 100] [first seed = 1] [density, or all] [place]
+//     bench_resolution list         densities and places alone
 //
 // Place: 2box, 3box, 3cylinder, 3surface; all without it. The estimator is that of CLAST_ESTIMATOR
 // (cells, pairs), auto without it.
@@ -98,8 +99,24 @@ static bool is_place(const char *name, int32_t d, density_place place)
     return name == NULL || (name[0] == (char)('0' + d) && strcmp(name + 1, place_name[place]) == 0);
 }
 
+static void list_scenes(void)
+{
+    (void)printf("density,d,place\n");
+    for (int k = 0; k < N_DENSITY * N_PLACE * 2; ++k) {
+        const density *law = &densities[k / (2 * N_PLACE)];
+        const density_place place = (density_place)(k / 2 % N_PLACE);
+        if (density_fits(law, place, 2 + k % 2)) {
+            (void)printf("%s,%d,%s\n", law->name, 2 + k % 2, place_name[place]);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "list") == 0) {
+        list_scenes();
+        return 0;
+    }
     const double mean_n = argc > 1 ? strtod(argv[1], NULL) : 1e3;
     const int n_repeat = argc > 2 ? (int)strtol(argv[2], NULL, 10) : 100;
     const uint64_t first = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;

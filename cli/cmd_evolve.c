@@ -62,6 +62,10 @@ static void print_text(const clast_evolve_result *r)
         (void)printf("%-26s %d in %s/aggregates, for clast pack --shapes\n", "aggregates",
                      r->n_written, cli_name(r->folder));
     }
+    if (r->bed_width > 0.0) {
+        (void)printf("%-26s %s/deposit.h5, for clast pack --start: %.4g m wide, %.4g m high\n",
+                     "bed", cli_name(r->folder), r->bed_width, r->bed_height);
+    }
     (void)printf("%-26s %.4g s\n", "took", r->wall_s);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
 }
@@ -94,18 +98,22 @@ static const char details[] =
     "Kutta, a quarter of a cell each). In each step the cloud is cut into cells where it is\n"
     "even (D2SD; kept while the tests accept them); in a cell pairs meet at the rate of the\n"
     "kernel and stick by the law of sticking. Each event is one pair: the smaller comes to the\n"
-    "larger and stays where their true surfaces first touch, with the contact of clast aggregate.\n"
+    "larger and stays where their true surfaces first touch, with the contact of clast aggregate;\n"
+    "where few touches stick, at any contact without overlap (--meeting reaction).\n"
     "Mass, moments, porosity (of the ellipsoid of equal moments), collision radius, fall speed\n"
     "and diffusivity are those of the new aggregate from then on.\n\n"
     "Not there: aggregates break, restructure or turn; particles act on the fluid; the field\n"
-    "changes in time; bodies have inertia of their own (kernel ballistic is refused).\n\n"
+    "changes in time; bodies have inertia of their own.\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
     "is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
-    "bodies), particles.csv, state.h5 (the aggregate of most grains),\n"
+    "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start), "
+    "particles.csv,\n"
+    "state.h5 (the aggregate of most grains),\n"
     "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
     "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"
-    "report.html, frames for ParaView with --frames, and checkpoints on the way: --resume RUN\n"
-    "goes on from the newest and ends in the same bytes.";
+    "report.html, frames for ParaView with --frames (with numbers of each grain's body), and "
+    "checkpoints\n"
+    "on the way: --resume RUN goes on from the newest and ends in the same bytes.";
 
 const cli_command cli_evolve = {
     .name = "evolve",

@@ -207,8 +207,8 @@ done:
     return status;
 }
 
-static clast_status make(const cli_common *common, const synthesize_config *config,
-                         clast_run_folder *folder, clast_table *table)
+static clast_status make_grains(const cli_common *common, const synthesize_config *config,
+                                clast_run_folder *folder, clast_table *table)
 {
     CLI_GUARD(cli_results_open(folder, fields, config, &config->synthesize.seed,
                                &(cli_input){NULL, NULL}));
@@ -224,7 +224,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_table table = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(begin_output(common, config, &folder));
-    CLI_TRY(clast_run_folder_end(folder, make(common, config, folder, &table)));
+    CLI_TRY(clast_run_folder_end(folder, make_grains(common, config, folder, &table)));
     if (table.column != NULL) {
         CLI_TRY(common->json ? cli_print_json(table_json(common, &table))
                              : table_words(common, &table));

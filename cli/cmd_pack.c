@@ -1,4 +1,4 @@
-// clast pack: pour, shake and calm a bed of grains by the discrete element method.
+// clast pack: pour, shake and damp a bed of grains by the discrete element method.
 #include "command.h"
 #include "resume.h"
 
@@ -89,7 +89,7 @@ static void print_motion(const clast_pack_result *r)
                      "walls counted\n",
                      "motion", r->dem.max_speed, r->n_loose, r->dem.n_grain);
     }
-    if (r->phase == CLAST_PACK_DONE && r->is_moving && r->load.volume == 0.0) {
+    if (r->phase == CLAST_PACK_DONE && r->is_moving && r->n_stage == 0) {
         (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
                      "still_speed; --rule speed waits until it is\n",
                      "warning");
@@ -130,10 +130,10 @@ static void print_ranks(const clast_pack_ranks *r)
         (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
                      r->n_idle, r->n);
     }
-    (void)printf("%-26s %.4g ghosts and %.4g bytes a step, %.4g bytes for lists; %lld grains moved "
-                 "in %lld partitions\n",
-                 "between ranks", r->ghosts, r->step_bytes, r->list_bytes, (long long)r->n_migrated,
-                 (long long)r->n_balance);
+    (void)printf("%-26s %.4g ghosts, %.4g bytes and %.4g messages a step, %.4g bytes for lists; "
+                 "%lld grains moved in %lld partitions\n",
+                 "between ranks", r->ghosts, r->step_bytes, r->messages, r->list_bytes,
+                 (long long)r->n_migrated, (long long)r->n_balance);
 }
 
 /// What a loaded bed carries; stresses of contacts and motion.
@@ -167,7 +167,6 @@ static void print_energy(const clast_pack_result *r)
 
 static void print_text(const clast_pack_result *r)
 {
-    const bool is_cell = r->load.volume > 0.0;
     print_hulls(r);
     (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
@@ -183,11 +182,15 @@ static void print_text(const clast_pack_result *r)
     }
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->phase != CLAST_PACK_DONE ? ""
-                 : is_cell                   ? " (all stages)"
+                 : r->n_stage > 0            ? " (all stages)"
                  : r->is_moving              ? " (level)"
                                              : " (at rest)",
                  (long long)r->dem.step, r->dem.time);
     print_motion(r);
+    if (r->n_left > 0) {
+        (void)printf("%-26s %lld grains, %.6g kg\n", "left by outlets", (long long)r->n_left,
+                     r->mass_left);
+    }
     if (r->n_outside > 0) {
         (void)printf("%-26s %d grain%s left the container\n", "outside", r->n_outside,
                      r->n_outside == 1 ? " has" : "s have");
@@ -256,6 +259,14 @@ static const char details[] =
     "density_kg/m^3,\n"
     "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
     "qw, qx, qy, qz that turns the shape into its place.\n\n"
+    "--wall 'drum drum.stl mm axis 0,1,0 rotate 30rpm' adds a surface that moves; floor, lid, "
+    "sides,\n"
+    "left, right, front and back of the domain may move, too. Without stages they move from the "
+    "start;\n"
+    "with --stages the bed is poured first, then each stage drives walls: 'drum until time 2s',\n"
+    "'lid=10kPa until rest', 'open gate until mass 1g'. --outlet 'z<-10mm' takes grains out. "
+    "walls.csv has\n"
+    "place, force, torque and work of each wall over time, and the mass that left.\n\n"
     "domain cell is periodic in x, y and z: its grains float on a lattice until the stages press "
     "and\n"
     "shear them (--stages 'isotropic 10kPa until rest'; docs/theory/load.md). load.csv then has "
@@ -281,7 +292,7 @@ static const char details[] =
 const cli_command cli_pack = {
     .name = "pack",
     .arguments = "",
-    .summary = "pour, shake and calm a bed of grains (DEM); its porosity",
+    .summary = "pour, shake and damp a bed of grains (DEM); its porosity",
     .example =
         {"clast pack --curve 4mm --mass 2g --width 30mm --height 0.1m --shaking-time 0",
          "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/",

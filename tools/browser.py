@@ -44,7 +44,7 @@ class Browser:
 
     def message(self):
         while b"\0" not in self.buffer:
-            if not select.select([self.inp], [], [], 120)[0]:
+            if not select.select([self.inp], [], [], 300)[0]:
                 sys.exit("browser: chromium does not answer")
             read = os.read(self.inp, 1 << 20)
             if not read:
@@ -95,6 +95,39 @@ class Browser:
     def picture(self, path):
         shot = self.call("Page.captureScreenshot", format="png")
         path.write_bytes(base64.b64decode(shot["data"]))
+
+    def family(self):
+        """Its processes' numbers."""
+        parent = {}
+        for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            try:
+                parent[int(path.parent.name)] = int(path.read_text().rsplit(")", 1)[1].split()[1])
+            except OSError:
+                continue  # it has just ended
+        ours = {self.process.pid}
+        while more := {child for child, of in parent.items() if of in ours} - ours:
+            ours |= more
+        return ours
+
+    def cpu(self):
+        """CPU seconds of all its processes: what a picture costs, however busy the machine is."""
+        ticks = 0
+        for number in self.family():
+            try:
+                ticks += sum(map(int, pathlib.Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[11:13]))
+            except OSError:
+                continue
+        return ticks / os.sysconf("SC_CLK_TCK")
+
+    def memory(self):
+        """Bytes that its processes hold, shared ones once."""
+        held = 0
+        for number in self.family():
+            try:
+                held += int(pathlib.Path(f"/proc/{number}/smaps_rollup").read_text().split("Pss:")[1].split()[0])
+            except (OSError, IndexError):
+                continue
+        return held * 1024
 
     def close(self):
         self.process.terminate()

@@ -28,6 +28,7 @@ DOUBLE = re.compile(r"%[-+ #0]*[\d*]*(?:\.[\d*]*)?l?[efgaEFGA]")
 INVARIANT = re.compile(r"(?<!define )\bCLAST_ASSERT\(")
 LEAST_ASSERTS = 5  # in 1000 lines of src
 MOST_BEHIND = 10
+BARE_VERB = re.compile(r"^(?:static |inline |CLX_\w+ )+[\w \*]*?\b(take|keep|give|put|make|add|measure|set)\(", re.M)
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -157,11 +158,19 @@ def assert_problems():
                f"state them by CLAST_ASSERT, {LEAST_ASSERTS} in 1000 at least")
 
 
+def bare_verb_problems():
+    """A function's name must be found by grep: a verb with its noun."""
+    for path in sorted([*ROOT.glob("src/**/*.[ch]"), *ROOT.glob("cli/*.[ch]")]):
+        for m in BARE_VERB.finditer(path.read_text()):
+            yield f"{path.relative_to(ROOT)}: function {m.group(1)}(): say what, as in append_contact()"
+
+
 def problems():
     yield from circle_problems()
     yield from header_problems()
     yield from view_problems()
     yield from assert_problems()
+    yield from bare_verb_problems()
     defined = definers()
     for path in sorted(ROOT.glob("src/*/*.[ch]")):
         folder = path.parent.name

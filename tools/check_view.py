@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""The report's 3-D view used as a person would, in headless Chromium: tools/check_view.py [--clast FILE] [--pictures FOLDER]
+"""The report's 3-D view used as a person would, in headless Chromium: tools/check_view.py [--clast FILE] [--pictures FOLDER] [--renew]
 
 Two small beds are poured and reported on one page. Looked at: a cut through a ball is a disc of the radius that geometry gives, in the
 ball's colour; the grain under a point is the nearest one that the cut left, its numbers are those of grains.csv; bars of contacts are
 as many as summary.json says, each grain's too; a PNG has the size that was asked for and shows what the stage shows; linked cameras
-agree; every key does its thing; memory after six second views is what it was; a page without WebGL keeps its words; no message on the
+agree; every key does its thing; the time slider puts each grain where the frame for ParaView has it; dots, the coarse level of detail, cover
+the pixels of the surfaces in their colours; pictures are those of tests/view within a tolerance (--renew makes them anew); memory after six second views is what it was; a page without WebGL keeps its words; no message on the
 console, nothing fetched, no serious finding of axe-core (where it is at hand).
 """
 import argparse
@@ -13,6 +14,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -22,6 +24,7 @@ import time
 import zlib
 
 from browser import AXE, NO_WEBGL, WEBGL, Browser, axe_source, told
+from picture import difference, pixel, read_png
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BEDS = {"ellipsoids": ["--shapes", "ellipsoid:1,0.7,0.5"], "spheres": ["--shapes", "sphere"]}
@@ -40,6 +43,12 @@ class Page:
     def settle(self):
         """Two frames later."""
         self.ask("new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))")
+
+    def rest(self):
+        """Until the camera has come to rest and surfaces are drawn, a minute at the most."""
+        until = time.monotonic() + 60
+        while self.ask(f"{VIEW}.level !== 'surfaces' || {VIEW}.isMoving === true") and time.monotonic() < until:
+            self.settle()
 
     def press(self, key, shift=False):
         self.ask(f"{VIEW}.stage.dispatchEvent(new KeyboardEvent('keydown', {{key: {json.dumps(key)}, shiftKey: {json.dumps(shift)}, bubbles: true}}))")
@@ -61,49 +70,10 @@ class Page:
         return read_png(base64.b64decode(text.split(",")[1]))
 
 
-def unfilter(kind, line, above, step):
-    out = bytearray(line)
-    for i in range(len(out)):
-        left = out[i - step] if i >= step else 0
-        up = above[i]
-        corner = above[i - step] if i >= step else 0
-        if kind == 1:
-            out[i] = (out[i] + left) & 255
-        elif kind == 2:
-            out[i] = (out[i] + up) & 255
-        elif kind == 3:
-            out[i] = (out[i] + (left + up) // 2) & 255
-        elif kind == 4:
-            guess = left + up - corner
-            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
-            out[i] = (out[i] + near[2]) & 255
-    return out
-
-
-def read_png(data):
-    """Width, height, rows of an 8-bit RGBA picture."""
-    width, height = struct.unpack(">II", data[16:24])
-    packed, at = b"", 8
-    while at < len(data):
-        n, kind = struct.unpack(">I4s", data[at:at + 8])
-        packed += data[at + 8:at + 8 + n] if kind == b"IDAT" else b""
-        at += 12 + n
-    raw, step = zlib.decompress(packed), 4
-    above, rows = bytearray(step * width), []
-    for y in range(height):
-        begin = y * (step * width + 1)
-        above = unfilter(raw[begin], raw[begin + 1:begin + 1 + step * width], above, step)
-        rows.append(above)
-    return width, height, rows
-
-
-def pixel(rows, x, y):
-    return tuple(rows[y][4 * x:4 * x + 3])
-
-
 def pour(clast, folder):
     for name, arguments in BEDS.items():
-        subprocess.run([clast, "pack", "--curve", "U1", *arguments, "--mass", "30g", "--width", "40mm", "--shaking-time", "0.05s", "-o", folder / name, "-q"],
+        subprocess.run([clast, "pack", "--curve", "U1", *arguments, "--mass", "30g", "--width", "40mm", "--shaking-time", "0.05s", "--frame-time", "20ms",
+                        "-o", folder / name, "-q"],
                        check=True, stdout=subprocess.DEVNULL)
     subprocess.run([clast, "report", folder / "ellipsoids", folder / "spheres", "-o", folder / "page.html"], check=True, stdout=subprocess.DEVNULL)
 
@@ -200,6 +170,94 @@ def check_growth(page):
     page.ask(f"{VIEW}.parts.grow.value = {n}; {VIEW}.parts.grow.dispatchEvent(new Event('input'))")
 
 
+def field_array(text, name, kind):
+    """Numbers of an array of a frame's field data."""
+    packed = re.search(rf'<DataArray type="\w+" Name="{name}"[^>]*NumberOfTuples[^>]*>\s*([^<\s]+)', text).group(1)
+    n = struct.unpack("<Q", base64.b64decode(packed[:12])[:8])[0]
+    head_size = (3 + n) * 8
+    letters = -(-head_size // 3) * 4
+    sizes = struct.unpack(f"<{3 + n}Q", base64.b64decode(packed[:letters])[:head_size])[3:]
+    blocks, raw = base64.b64decode(packed[letters:]), b""
+    for size in sizes:
+        raw, blocks = raw + zlib.decompress(blocks[:size]), blocks[size:]
+    return struct.unpack(f"<{len(raw) // struct.calcsize(kind)}{kind}", raw)
+
+
+def check_time(page, folder, pictures):
+    frames = re.findall(r'timestep="([^"]*)"[^>]*file="([^"]*)"', (folder / "ellipsoids/frames.pvd").read_text())
+    last = page.ask(f"Number({VIEW}.parts.time.max)")
+    page.equal(last, len(frames), "moments before the end")
+    end = page.ask(f"[...{VIEW}.meshes[0].userData.pose.subarray(0, 3)]")
+    for k in (0, len(frames) // 2):
+        page.ask(f"{VIEW}.parts.time.value = {k}; {VIEW}.parts.time.dispatchEvent(new Event('input'))")
+        text = (folder / "ellipsoids" / frames[k][1]).read_text()
+        place, turn = field_array(text, "position", "d"), field_array(text, "orientation_wxyz", "d")
+        grain, pose = page.ask(f"[[...{VIEW}.meshes[0].userData.grain], [...{VIEW}.meshes[0].userData.pose]]")
+        page.equal(grain, list(field_array(text, "grain", "q")), f"grains of frame {k}")
+        unit, centre, step = page.ask(f"[{VIEW}.data.length, {VIEW}.data.centre, Math.max(...{VIEW}.data.frames.step)]")
+        off = max(abs(pose[10 * i + j] - (place[3 * i + j] - centre[j]) / unit) for i in range(len(grain)) for j in range(3))
+        page.hold(off < 0.6 * step + 1e-6, f"grains of frame {k} are {off:.2g} from their places")
+        off = max(abs(pose[10 * i + 3 + j] - turn[4 * i + j]) for i in range(len(grain)) for j in range(4))
+        page.hold(off < 0.01, f"grains of frame {k} are turned by {off:.2g} from their frame's")
+        page.close_to(float(page.ask(f"{VIEW}.parts.when.textContent").split()[0]), float(frames[k][0]) * 1e3, 1e-3, "time in ms")
+        page.hold(page.ask(f"{VIEW}.parts.chains.disabled"), "force chains of a moment that has none")
+        page.press("0")
+        page.hold(covered(page.picture(240))[0] > 0.02, f"frame {k} is not in sight after key 0")
+        page.settle()
+        if pictures:
+            page.browser.picture(pictures / f"time-{k}.png")
+    page.press(".")
+    page.equal(page.ask(f"{VIEW}.moment"), len(frames) // 2 + 1, "moment after a full stop")
+    page.ask(f"{VIEW}.parts.time.value = {last}; {VIEW}.parts.time.dispatchEvent(new Event('input'))")
+    page.equal(page.ask(f"[...{VIEW}.meshes[0].userData.pose.subarray(0, 3)]"), end, "the first grain at the end again")
+    page.hold("end" in page.ask(f"{VIEW}.parts.when.textContent"), "the last moment is not called the end")
+
+
+def covered(picture):
+    """Share of the picture that is not its corner's colour, and the mean colour there."""
+    width, height, rows = picture
+    back, n, total = pixel(rows, 2, 2), 0, [0, 0, 0]
+    for y in range(0, height, 2):
+        for x in range(0, width, 2):
+            colour = pixel(rows, x, y)
+            if max(abs(a - b) for a, b in zip(colour, back)) > 12:
+                n += 1
+                total = [a + b for a, b in zip(total, colour)]
+    return 4 * n / (width * height), [c / n for c in total]
+
+
+def check_levels(page):
+    """Dots while the camera moves where surfaces are slow, surfaces when it rests; both look alike."""
+    shot = lambda: read_png(base64.b64decode(page.ask(f"(() => {{ const v = {VIEW}; v.render(); return v.renderer.domElement.toDataURL('image/png').split(',')[1]; }})()")))
+    page.ask(f"{VIEW}.frame()")
+    page.rest()
+    page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail at rest")
+    surfaces = covered(shot())
+    page.ask(f"{VIEW}.isSlow = true; {VIEW}.controls.dispatchEvent({{type: 'change'}}); clearTimeout({VIEW}.resting)")  # it never rests
+    page.settle()
+    page.equal(page.ask(f"{VIEW}.level"), "dots", "level of detail in motion")
+    dots = covered(shot())
+    page.close_to(dots[0], surfaces[0], 0.08, "share of the picture that dots cover")
+    for k, colour in enumerate(("red", "green", "blue")):
+        page.hold(abs(dots[1][k] - surfaces[1][k]) < 16, f"dots' mean {colour}: {dots[1][k]:.0f}, surfaces' {surfaces[1][k]:.0f}")
+    page.ask(f"{VIEW}.draw()")
+    page.rest()
+    page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail after a rest")
+    page.ask(f"{VIEW}.isSlow = false")
+
+
+def check_likeness(page, name, renew):
+    """The picture is that of tests/view: few pixels differ much, and all by little in the mean."""
+    kept = ROOT / f"tests/view/{name}.png"
+    data = base64.b64decode(page.ask(f"clastViews.drawPicture({VIEW}, 480).toDataURL('image/png')").split(",")[1])
+    if renew:
+        kept.parent.mkdir(exist_ok=True)
+        kept.write_bytes(data)
+    mean, far = difference(data, kept.read_bytes())
+    page.hold(mean < 3, f"picture {name} differs from tests/view by {mean:.1f} of 255 in the mean")
+    page.hold(far < 0.02, f"picture {name}: {far:.1%} of its pixels differ from tests/view")
+
+
 def check_beside(page, pictures):
     choose = lambda value: page.ask(f"""(() => {{ const s = {VIEW}.box.querySelector('select[aria-label=Beside]'); s.value = {json.dumps(value)};
         s.dispatchEvent(new Event('change')); }})()""")
@@ -246,6 +304,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--clast", default=ROOT / "build/release/clast")
     parser.add_argument("--pictures", type=pathlib.Path)
+    parser.add_argument("--renew", action="store_true")
     asked = parser.parse_args()
     if not shutil.which("chromium"):
         print("view: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
@@ -267,6 +326,9 @@ def main():
         check_contacts(page, folder)
         check_keys(page)
         check_growth(page)
+        check_likeness(page, "ellipsoids", asked.renew)
+        check_time(page, folder, asked.pictures)
+        check_levels(page)
         check_picture(page, asked.pictures)
         check_beside(page, asked.pictures)
         check_axe(page, axe)

@@ -26,6 +26,10 @@ export interface How {{
   files?: Files;
   /** Called while the command runs, at most five times a second. */
   onProgress?: (progress: Progress) => void;
+  /** Called with each file that the run has written whole while it goes on: checkpoints, tables. */
+  onFile?: (path: string, bytes: Uint8Array) => void;
+  /** Of ClastWorkers: ends the run at once, which then rejects with the signal's reason. */
+  signal?: AbortSignal;
 }}
 
 export interface Result {{
@@ -64,7 +68,13 @@ export class Clast {{
   decompose(points: Points, options?: DecomposeOptions, how?: How): Promise<Json & {{ cells: Columns; point_cells: Columns }}>;
 }}
 
+/** Each command line in a worker of its own, at most `most` at a time. */
+export class ClastWorkers extends Clast {{
+  constructor(program: WebAssembly.Module, most: number);
+}}
+
 export function load(source?: BufferSource | Response | WebAssembly.Module): Promise<Clast>;
+export function loadWorkers(source?: BufferSource | Response | WebAssembly.Module, most?: number): Promise<ClastWorkers>;
 export function wordsOf(options?: object): string[];
 export function commandLine(words: string[]): string;
 export function tableOf(points: Points): string | Uint8Array;

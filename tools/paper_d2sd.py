@@ -4,7 +4,11 @@
     CLAST=build/release/clast tools/paper_d2sd.py [--samples 2000] [--power 1000] [--parts frame,power] [-o docs/validation/d2sd.md]
 
 Numbers come from `clast decompose --json`, bench_events, bench_resolution and bench_tests (beside the command, in bench/). Each part is kept in
-build/paper-d2sd under a digest of the programs, this script and the sample sizes, so that a run that was stopped goes on where it was.
+build/paper-d2sd under a digest of the programs, this script and the sample sizes, so that a run that was stopped goes on where it was; the matrix
+row by row, cheap rows first: its table has the rows made so far, and what an earlier rule made of the others.
+
+    tools/paper_d2sd.py --parts matrix --rows 100 --into docs/validation/d2sd.md    100 rows more, and the page's section of them
+
 Standard library alone; seeds are fixed; 8 minutes of one core.
 """
 import argparse
@@ -321,6 +325,11 @@ def table_clouds(_, share):
 MATRIX = ((100, 16), (300, 20), (1000, 24), (3000, 12), (10000, 6), (100000, 1))
 PLACES = (("2", "box"), ("3", "box"), ("3", "cylinder"), ("3", "surface"))
 MATRIX_CSV = pathlib.Path("docs/validation/d2sd_matrix.csv")
+MATRIX_KEPT = pathlib.Path("build/paper-d2sd/matrix_rows.csv")
+RULE = "3"  # of a row: raised by hand when what is called resolved, or its interval, changes
+EARLIER = {"1": "which called more clouds resolved (a fifth of the points need not show the same width) and told narrower intervals of pairs",
+           "2": "which told narrower intervals of pairs and called the same clouds resolved"}
+MOST_ROWS = None  # made anew in this run; None: all
 
 
 def matrix_cell(row):
@@ -357,20 +366,68 @@ def matrix_bad(rows):
             "of their standard errors: " + "; ".join(named) + "."]
 
 
-def table_matrix(_, share):
-    """Densities by places by numbers of points: bench_resolution."""
-    rows = []
-    for k, (n, clouds) in enumerate(MATRIX):
-        rows += bench("bench_resolution", n, max(2, round(clouds * share)), (16 + k) * 100000000, "all")
-    return matrix_lines(rows, MATRIX_CSV if share >= 1 else pathlib.Path("build/d2sd_matrix.csv"))
+def row_name(row):
+    return (row["density"], row["d"], row["place"], row["n"])
 
 
-def matrix_lines(rows, table):
-    """The part's lines; all figures go to `table`, the page's own only where no share of the clouds was left out."""
-    with open(table, "w", newline="") as f:
+def read_rows(path):
+    return list(csv.DictReader(path.read_text().splitlines())) if path.exists() else []
+
+
+def write_rows(rows, path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path.with_suffix(".new"), "w", newline="") as f:
         out = csv.DictWriter(f, rows[0].keys(), lineterminator="\n")
         out.writeheader()
         out.writerows(rows)
+    path.with_suffix(".new").rename(path)
+
+
+def wanted_rows(share):
+    """Arguments of bench_resolution by the row's name, in the order of the table."""
+    scenes = bench("bench_resolution", "list")
+    wanted = {}
+    for k, (n, clouds) in enumerate(MATRIX):
+        for s in scenes:
+            wanted[s["density"], s["d"], s["place"], str(n)] = (n, max(2, round(clouds * share)) if clouds > 1 else 1, (16 + k) * 100000000,
+                                                                  s["density"], s["d"] + s["place"])
+    return wanted
+
+
+def table_matrix(_, share):
+    """Densities by places by numbers of points: bench_resolution, a row at a time: by rule, size and place, closed surfaces last."""
+    table = MATRIX_CSV if share >= 1 else pathlib.Path("build/d2sd_matrix.csv")
+    key = digest("matrix_rows", share)
+    kept = [r for r in read_rows(MATRIX_KEPT) if r["key"] == key]
+    rows = {row_name(r): r for r in read_rows(table)}
+    rows.update({row_name(r): {k: v for k, v in r.items() if k != "key"} for r in kept})
+    wanted = wanted_rows(share)
+    order = {name: (rows.get(name, {}).get("rule", ""), float(name[3]), name[2] == "surface", k) for k, name in enumerate(wanted)}
+    missing = sorted(set(wanted) - {row_name(r) for r in kept}, key=order.get)  # those of the oldest rule first
+    for name in missing[:MOST_ROWS]:
+        row = {**bench("bench_resolution", *wanted[name])[0], "rule": RULE}
+        rows[name] = row
+        kept.append({**row, "key": key})
+        write_rows(kept, MATRIX_KEPT)
+        write_rows([rows[n] for n in wanted if n in rows], table)
+    return matrix_lines([rows[n] for n in wanted if n in rows])
+
+
+def matrix_rules(rows):
+    """Which rows an earlier rule made."""
+    lines = []
+    for rule, what in EARLIER.items():
+        old = [r for r in rows if r["rule"] == rule]
+        by_n = [f"n = {n}: " + ", ".join(f"{r['density']} {r['d']} {r['place']}" for r in old if r["n"] == n)
+                for n in dict.fromkeys(r["n"] for r in old)]
+        if old:
+            lines += [f"{len(old)} rows stand as an earlier rule made them, {what}: " + "; ".join(by_n) + "."]
+    n_new = sum(r["rule"] == RULE for r in rows)
+    return [f"**{n_new} of the {len(rows)} rows are made with the present rule** (docs/theory/pairs.md section 4).", *lines]
+
+
+def matrix_lines(rows):
+    """The part's lines."""
     sizes = sorted({r["n"] for r in rows}, key=float)
     lines = ["## What is called resolved: densities by places by numbers of points, by default", "",
              "Poisson clouds; truth: squared mean number times the exact integral of the squared density (of inertia_01, the points of a",
@@ -388,7 +445,7 @@ def matrix_lines(rows, table):
             cells = [matrix_cell(found[name, d, place, n]) if (name, d, place, n) in found else "" for n in sizes]
             if any(cells):
                 lines.append(f"| {name} | {d} {place} | " + " | ".join(cells) + " |")
-    lines += ["", *matrix_bad(rows)]
+    lines += ["", *matrix_rules(rows), "", *matrix_bad(rows)]
     return lines + ["", "Names: blob, sheet, line: share of the points and standard deviation (tenth_03: a tenth in sd 0.03; no share: all), the rest",
                     "uniform; frame: within 0.20 of the walls, or half within 0.07; plume: sd^2 = 0.02^2 + 0.01 z; power: x^-0.25 along each axis;",
                     "cascade: halvings. The cylinder has diameter and length 1; the surface is the unit cube turned about all axes.", ""]
@@ -433,6 +490,9 @@ def check_programs(parts):
 
 def digest(name, argument):
     made = hashlib.sha256(repr((name, argument)).encode())
+    if name == "matrix_rows":  # the page's words are not what they hang on
+        made.update(repr(MATRIX).encode() + program("bench_resolution").read_bytes())
+        return made.hexdigest()
     data = [*PIPE.glob("half_pipe_*.csv"), pathlib.Path(meshes.__file__)] if name == "pipe" else []
     for path in (program(PROGRAMS.get(name, "clast")), pathlib.Path(__file__), *sorted(data)):
         made.update(path.read_bytes())
@@ -441,6 +501,8 @@ def digest(name, argument):
 
 def part_lines(name, argument):
     """Lines of a part, out of build/paper-d2sd where an earlier run with the same programs made them."""
+    if name == "matrix":
+        return table_matrix(None, argument)  # keeps its rows itself
     kept = pathlib.Path("build/paper-d2sd") / f"{name}.json"
     key = digest(name, argument)
     if kept.exists() and json.loads(kept.read_text())["key"] == key:
@@ -456,20 +518,36 @@ def part_lines(name, argument):
     return lines
 
 
+def replace_section(page, lines):
+    """Puts lines, from a heading on, in the place of what the page has under that heading."""
+    text = page.read_text()
+    begin = text.index(lines[0] + "\n")
+    end = text.find("\n## ", begin)
+    page.write_text(text[:begin] + "\n".join(lines) + (text[end:] if end >= 0 else "\n"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--samples", type=int, default=2000, help="for the sizes")
     parser.add_argument("--power", type=int, default=1000, help="samples for the powers")
     parser.add_argument("--clouds", type=float, default=1.0, help="share of the repeats of clouds of known density")
     parser.add_argument("--parts", help="print these parts instead of writing the page: " + ",".join(PARTS))
+    parser.add_argument("--into", help="with --parts: put them in the place of this page's own")
+    parser.add_argument("--rows", type=int, help="rows of the matrix to make in this run; 0: none, the table as it is")
     parser.add_argument("-o", "--output", default="docs/validation/d2sd.md")
     args = parser.parse_args()
     argument = {"size": args.samples, "change": args.samples, "power": args.power, "clouds": args.clouds, "flat": args.clouds, "matrix": args.clouds}
     parts = args.parts.split(",") if args.parts else list(PARTS)
     check_programs(parts)
+    global MOST_ROWS
+    MOST_ROWS = args.rows
     if args.parts:
         for name in parts:
-            print("\n".join(part_lines(name, argument.get(name))))
+            lines = part_lines(name, argument.get(name))
+            if args.into:
+                replace_section(pathlib.Path(args.into), lines)
+            else:
+                print("\n".join(lines))
         return
     lines = ["# D2SD: paper and reference beside ours", "",
              "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Paper: Martinez",

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What clast links as static libraries for a machine that Debian has no packages for: tools/portable.sh wasm|i386
 # Fetches Debian's source packages once (their digests stand in tools/portable/sources.txt) and builds them into build/portable/MACHINE.
+# Exit code 3: they cannot be fetched.
 set -eu
 cd "$(dirname "$0")/.."
 machine=$1
@@ -8,7 +9,7 @@ prefix=$PWD/build/portable/$machine
 sources=${CLAST_PORTABLE_SOURCES:-$PWD/build/portable/sources}
 mirror=${CLAST_DEBIAN_MIRROR:-http://deb.debian.org/debian}
 case $machine in
-wasm) configure=(emcmake cmake) flags="-O2" ;;
+wasm) configure=(emcmake cmake "-DCMAKE_C_COMPILE_OBJECT=$(em-config LLVM_ROOT)/clang $(emcc --cflags | tail -1) <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>") flags="-O2" ;;
 i386) configure=(cmake) flags="-O1 -m32 -msse2 -mfpmath=sse" ;;
 *) echo "usage: tools/portable.sh wasm|i386" >&2; exit 2 ;;
 esac
@@ -18,7 +19,7 @@ mkdir -p "$sources"
 while read -r name path digest members; do
     file=$sources/$(basename "$path")
     if ! echo "$digest  $file" | sha256sum -c --status 2>/dev/null; then
-        curl -sSfL --retry 3 -o "$file.part" "$mirror/pool/$path" || { echo "portable: cannot fetch $mirror/pool/$path" >&2; exit 1; }
+        curl -sSfL --retry 3 -o "$file.part" "$mirror/pool/$path" || { echo "portable: cannot fetch $mirror/pool/$path" >&2; exit 3; }
         echo "$digest  $file.part" | sha256sum -c --status || { echo "portable: $path is not the file whose digest is known" >&2; exit 1; }
         mv "$file.part" "$file"
     fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols,
-# packages, short fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy packages fuzz docs") shorten it by hand.
+# WebAssembly, packages, short fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy wasm packages fuzz docs") shorten it by hand.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 began=$SECONDS
@@ -29,13 +29,15 @@ tools/check_install.sh
 say "commands of the documents"; python3 tools/check_docs_commands.py build/release/clast
 say "ranks (mpirun), Python"
 ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
+say "ranks with MPICH"; tools/check_mpich.sh | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
+say "WebAssembly"; skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
 say "packages"
 if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
     tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
 fi
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
-say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; }
+say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; python3 tools/check_report.py; }
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log

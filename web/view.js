@@ -3,11 +3,14 @@ import {
   AmbientLight, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { grow, listen, makeControls } from './view/controls.js';
-import { makeCut, turnCap } from './view/cut.js';
-import { readData } from './view/data.js';
-import { makeGrains, paintGrains, radiusOf } from './view/grains.js';
+import { grow, listen, makeControls, showChains } from './view/controls.js';
+import { makeCut, setCut, turnCap } from './view/cut.js';
+import { isEnd, readData } from './view/data.js';
+import { dropDots, measureSpeed, setLevel, settle, timeDrawing, touch } from './view/dots.js';
+import { extentOf, makeGrains, meanOf, paintGrains, radiusOf } from './view/grains.js';
 import { drawLegend, drawScale, tag } from './view/legend.js';
+import { roomOf } from './view/moments.js';
+import { dropNear, freeNear } from './view/near.js';
 import { drawPicture } from './view/picture.js';
 import { grainAt, pick } from './view/pick.js';
 
@@ -32,10 +35,12 @@ function addLights(scene, camera) {
 
 /// What a view can do with its camera.
 const camera = {
+  /// Shows all grains where they are at this moment.
   frame() {
     const half = (this.camera.fov * Math.PI) / 360;
-    this.camera.position.copy(SIGHT).setLength((1.04 * this.radius) / Math.sin(half * Math.min(1, this.camera.aspect)));
-    this.controls.target.set(0, 0, 0);
+    const { middle, radius } = isEnd(this) ? { middle: new Vector3(), radius: this.radius } : extentOf(this.meshes);
+    this.camera.position.copy(SIGHT).setLength((1.04 * radius) / Math.sin(half * Math.min(1, this.camera.aspect))).add(middle);
+    this.controls.target.copy(middle);
     this.controls.update();
   },
   turn(right, up) {
@@ -67,6 +72,7 @@ const camera = {
       other.camera.position.copy(this.camera.position).multiplyScalar(k);
       other.controls.target.copy(this.controls.target).multiplyScalar(k);
       other.camera.lookAt(other.controls.target);
+      touch(other);
       other.draw();
     }
   },
@@ -77,6 +83,8 @@ const drawing = {
     this.scene.background = new Color(this.dark ? BACKGROUND.dark : BACKGROUND.light);
   },
   paint() {
+    dropNear(this);
+    dropDots(this);
     paintGrains(this);
     drawLegend(this);
     this.draw();
@@ -91,13 +99,18 @@ const drawing = {
     turnCap(this);
     this.renderer.render(this.scene, this.camera);
   },
-  /// Draws with the next frame, once.
+  /// Draws with the next frame, once, and again when the camera rests.
   draw() {
+    settle(this);
+    this.drawOnce();
+  },
+  drawOnce() {
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
       if (!this.renderer) return;
+      setLevel(this, false);
       this.render();
       drawScale(this);
     });
@@ -134,7 +147,9 @@ function makeView(source, renderer) {
   view.scene = new Scene();
   view.camera = new PerspectiveCamera(32, 1, 0.01, 100);
   view.camera.up.set(0, 0, 1);
-  view.meshes = makeGrains(data, cut.cap);
+  view.meshes = makeGrains(data, roomOf(data), cut.cap);
+  view.moment = data.frames?.frame.length ?? 0;
+  view.mean = meanOf(view.meshes);
   view.scene.add(...view.meshes);
   view.radius = radiusOf(view.meshes);
   addLights(view.scene, view.camera);
@@ -143,7 +158,7 @@ function makeView(source, renderer) {
   view.background();
   view.controls = new OrbitControls(view.camera, renderer.domElement);
   view.controls.enableDamping = false;
-  view.controls.addEventListener('change', () => { view.draw(); view.share(); });
+  view.controls.addEventListener('change', () => { touch(view); view.draw(); view.share(); });
   view.observer = new ResizeObserver(() => view.fit());
   view.observer.observe(view.stage);
   view.beside = (other) => showBeside(view, other);
@@ -157,6 +172,7 @@ function begin(view) {
   view.frame();
   view.paint();
   grow(view, view.data.n_shown);
+  measureSpeed(view);
 }
 
 function newRenderer() {
@@ -174,6 +190,10 @@ function release(view) {
   open.splice(open.indexOf(view), 1);
   view.observer.disconnect();
   view.controls.dispose();
+  clearTimeout(view.resting);
+  dropDots(view);
+  freeNear(view);
+  view.dotMaterial?.dispose();
   for (const mesh of view.chains ? [...view.meshes, view.chains] : view.meshes) {
     mesh.geometry.dispose();
     mesh.material.dispose();
@@ -262,7 +282,55 @@ for (const source of sources) {
   }
 }
 
-window.addEventListener('beforeprint', () => open.forEach((view) => view.render()));
+/// For the live page: a view in `host` of the data that an element holds, or null without WebGL.
+function show(host, element, name) {
+  start({ host, element, name });
+  return open.find((view) => view.source.host === host) ?? null;
+}
+
+/// For the live page: other grains in an open view; its camera, colours and cut stay. Growth goes on at its end.
+function replace(view, element) {
+  const hasChains = Boolean(view.chains?.visible);
+  dropDots(view);
+  freeNear(view);
+  for (const near of view.near ?? []) if (near) view.scene.remove(near);
+  Object.assign(view, { near: null, fine: [], base: null });
+  for (const mesh of view.chains ? [...view.meshes, view.chains] : view.meshes) {
+    view.scene.remove(mesh);
+    mesh.geometry.dispose();
+    mesh.material.dispose();
+    mesh.dispose();
+  }
+  view.chains = null;
+  view.data = readData(element);
+  view.meshes = makeGrains(view.data, roomOf(view.data), view.cut.cap);
+  view.moment = view.data.frames?.frame.length ?? 0;
+  view.mean = meanOf(view.meshes);
+  view.scene.add(...view.meshes);
+  view.radius = radiusOf(view.meshes);
+  setCut(view, view.cut.axis);
+  Object.assign(view.parts.grow, { max: view.data.n_shown, value: view.data.n_shown });
+  if (view.picked >= view.data.n_shown) pick(view, -1);
+  view.parts.chains.textContent = view.data.contacts?.force ? 'Force chains' : 'Contacts';
+  grow(view, view.data.n_shown);
+  if (hasChains && view.data.contacts) showChains(view, true);
+  view.paint();
+}
+
+/// Paper is white.
+function dress(view, isDark) {
+  view.stage.classList.toggle('dark', isDark);
+  view.scene.background = new Color(isDark ? BACKGROUND.dark : '#ffffff');
+  setLevel(view, true);
+  view.render();
+}
+
+window.addEventListener('beforeprint', () => open.forEach((view) => dress(view, false)));
+window.addEventListener('afterprint', () => open.forEach((view) => {
+  dress(view, view.dark);
+  view.background();
+  view.draw();
+}));
 
 /// For tests and for people at the browser's console: what the page shows, and what it can draw.
-window.clastViews = { open, drawPicture, grainAt, pick };
+window.clastViews = { open, drawPicture, grainAt, pick, timeDrawing, show, replace };

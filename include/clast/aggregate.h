@@ -104,6 +104,7 @@ typedef struct clast_aggregate_params {
     int32_t envelope_rays;
     double envelope_length; ///< radius of the ball of `wrap`
     bool solid_union;       ///< measure the volume of the union
+    bool fall_speed;        ///< the settling velocity in each measured row of the history too
     int32_t permeability;   ///< clast_permeability_law of the settling velocity
 
     double stop_mass;     ///< kg; 0: never

@@ -103,11 +103,11 @@ CLAST_API extern const clast_field clast_dem_fields[];
 typedef struct clast_dem_grain {
     int32_t shape;
     double scale;
-    double density;        ///< [kg/m3]
-    double position[3];    ///< of the centre of mass [m]
-    double orientation[4]; ///< unit quaternion w, x, y, z
-    double velocity[3];    ///< [m/s]
-    double spin[3];        ///< angular velocity, world axes [1/s]
+    double density;             ///< [kg/m3]
+    double position[3];         ///< of the centre of mass [m]
+    double orientation[4];      ///< unit quaternion w, x, y, z
+    double velocity[3];         ///< [m/s]
+    double angular_velocity[3]; ///< world axes [1/s]
 } clast_dem_grain;
 
 /// What acts on all grains for a while.
@@ -160,17 +160,50 @@ typedef struct clast_dem_energy {
     double gravity;     ///< put in by weight less buoyancy
     double shaking;     ///< put in
     double cell;        ///< put in by sides of a cell that move
+    double walls;       ///< put in by walls that move
     double damping[2];  ///< lost in dashpots: between grains, at walls
     double friction[2]; ///< lost by sliding: the same
     double rolling[2];  ///< lost against rolling (what its spring holds with it): the same
     double fluid;       ///< lost to the fluid
     double calming;     ///< lost to the damping of all velocities
+    double left;        ///< gone with grains that were taken out
     double scheme; ///< lost to the scheme, below 0: made by it (contacts that begin and end within
                    ///< a step, tangential springs that sliding stretches anew, bodies that turn;
                    ///< necks that tear)
-    double put_in; ///< made + gravity + shaking + cell
+    double put_in; ///< made + gravity + shaking + cell + walls
     double rest;   ///< put_in less all others: of rounding, unless a force is missed
 } clast_dem_energy;
+
+/// How a wall moves by itself, as a function of its own time t, which runs while it is driven
+/// (clast_dem_drive_wall): a point x0 goes to p + d(t) + R (x0 - p), R the rotation about `axis` by
+///
+///     d = velocity t + amplitude sin(2 pi t / period) + table,
+///     angle = rate t + swing sin(2 pi t / period) + table
+typedef struct clast_dem_wall_motion {
+    double velocity[3];  ///< [m/s]
+    double amplitude[3]; ///< of vibration [m]
+    double period;       ///< of vibration and swing [s]; 0: neither
+    double axis[3];      ///< unit, fixed; zeros: the wall does not turn
+    double pivot[3];     ///< p, on the axis [m]
+    double rate;         ///< [rad/s]
+    double swing;        ///< [rad]
+    int32_t n;           ///< rows of the table: linear between them, at rest before and after
+    double *time;        ///< [n] rising [s]; copied
+    double (*place)[4];  ///< [n] offset [m], angle [rad]; copied
+} clast_dem_wall_motion;
+
+/// A wall as it is now, and what grains do to it; in the order in which walls are numbered: floor,
+/// lid, left (low x), right, front (low y), back, or the cylinder, those that the domain has; then
+/// surfaces in the order in which they were added.
+typedef struct clast_dem_wall {
+    bool is_open;
+    double offset[3], angle;      ///< from where it was added [m], [rad]
+    double velocity[3], omega[3]; ///< in the last step, of the pivot [m/s], [rad/s]
+    double force[3], torque[3];   ///< of grains in the last step; about the pivot [N], [N m]
+    double impulse[3], moment[3]; ///< sums of these over time [N s], [N m s]
+    double work;                  ///< of the wall on grains [J]
+    int64_t n_step;               ///< in which its own motion ran
+} clast_dem_wall;
 
 /// The periodic cell as it is now; zeros in other domains.
 typedef struct clast_dem_cell {
@@ -190,12 +223,13 @@ typedef struct clast_dem_load {
     double kinetic_stress[6]; ///< sum m v v / V, v beside the cell's even motion [Pa]
     double modulus[3]; ///< of the normal springs at even strain, sum k (l n)^2 / V: an upper bound
                        ///< [Pa]
-    double fabric[6];  ///< mean n n of contacts between grains
-    int64_t n_contact; ///< pairs of grains
-    int64_t n_force;   ///< places where grains touch: more, where clumps do
-    double coordination; ///< 2 n_contact / n_grain
-    int32_t n_rattler;   ///< grains with fewer than 2 contacts (4 without friction), left out one
-                         ///< after another
+    double shear_modulus; ///< the same of shear xz: sum k l_z^2 / V, k_t at most k [Pa]
+    double fabric[6];     ///< mean n n of contacts between grains
+    int64_t n_contact;    ///< pairs of grains
+    int64_t n_force;      ///< places where grains touch: more, where clumps do
+    double coordination;  ///< 2 n_contact / n_grain
+    int32_t n_rattler;    ///< grains with fewer than 2 contacts (4 without friction), left out one
+                          ///< after another
     double coordination_held; ///< of the others among themselves
     double unbalanced;        ///< mean force on a grain over the mean force of a contact
     double force_mean;        ///< of a contact [N]
@@ -215,6 +249,37 @@ CLAST_API void clast_dem_destroy(clast_dem *dem); ///< NULL is allowed
 ///
 /// @return CLAST_E_GEOMETRY if no triangle has an area
 CLAST_API clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh);
+
+/// A surface as one more wall, closed or open, which may be moved, watched and opened; before the
+/// first grain. Its number goes to *wall.
+///
+/// @return CLAST_E_GEOMETRY if no triangle has an area
+CLAST_API clast_status clast_dem_add_wall(clast_dem *dem, const clast_mesh *mesh, int32_t *wall);
+
+/// Sums the forces on all walls from the next step on, those of the domain with them, and numbers
+/// them.
+CLAST_API clast_status clast_dem_watch_walls(clast_dem *dem);
+CLAST_API int32_t clast_dem_n_wall(const clast_dem *dem); ///< 0 while none are numbered
+
+/// How a wall moves, before it does.
+///
+/// @return CLAST_E_CONFIG where a plane or cylinder of the domain would not stay one
+CLAST_API clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
+                                                 const clast_dem_wall_motion *motion);
+
+/// From the next step on the wall's own motion runs, or stands; a velocity is added to it [m/s].
+CLAST_API clast_status clast_dem_drive_wall(clast_dem *dem, int32_t wall, bool runs,
+                                            const double velocity[3]);
+
+/// Takes a wall away: an orifice opens.
+CLAST_API clast_status clast_dem_open_wall(clast_dem *dem, int32_t wall);
+CLAST_API void clast_dem_read_wall(const clast_dem *dem, int32_t wall,
+                                   clast_dem_wall *out); ///< as it is now
+
+/// Takes grains out; those after them move up in number. Contacts of the others stay.
+///
+/// @param goes  [clast_dem_n_grain] not 0: this one
+CLAST_API clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes);
 
 /// Adds a copy of a shape; its number goes to *id.
 ///

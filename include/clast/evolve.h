@@ -5,7 +5,6 @@
 
 // A whole run with its folder, checkpoints and going on (clast_evolve_run and clast_evolve_resume)
 // is of libclast_view.
-#include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/field.h>
 #include <clast/grading.h>
@@ -37,7 +36,8 @@ typedef enum {
     CLAST_MEETING_AUTO, ///< by Brownian motion where the kernel is Brownian alone, else on lines
     CLAST_MEETING_BALLISTIC, ///< on lines whose impact parameter is even over the cross-section
     CLAST_MEETING_DIFFUSIVE, ///< by Brownian motion from far away
-    CLAST_MEETING_CENTRAL    ///< on a line through the larger one's centre of mass
+    CLAST_MEETING_CENTRAL,   ///< on a line through the larger one's centre of mass
+    CLAST_MEETING_REACTION ///< of all contacts without overlap each is as likely: few touches stick
 } clast_meeting;
 
 /// Where particles count as evenly spread.
@@ -94,8 +94,9 @@ typedef struct clast_evolve_config {
     double time_step; ///< [s]; 0: by step_error
     uint64_t seed;
 
-    int32_t keep;   ///< largest aggregates of deposit and cloud, written as state files each
-    int32_t frames; ///< for ParaView
+    int32_t keep;     ///< largest aggregates of deposit and cloud, written as state files each
+    double bed_width; ///< of deposit.h5, the bed that clast pack --start settles [m]; 0: none
+    int32_t frames;   ///< for ParaView
     double checkpoint_time;
     char *resume;
     bool force;
@@ -156,8 +157,9 @@ typedef struct clast_evolve_result {
     clast_range_use range;                   ///< collisions against the kernels' ranges
     uint64_t hash;                           ///< of the whole state
     double wall_s;
-    int32_t n_frame, n_written; ///< files written
-    char *folder;               ///< where the run lies; NULL: nowhere
+    int32_t n_frame, n_written;   ///< files written
+    double bed_width, bed_height; ///< of the column in deposit.h5 [m]; 0: not written
+    char *folder;                 ///< where the run lies; NULL: nowhere
 } clast_evolve_result;
 
 /// The numbers now.
@@ -199,7 +201,11 @@ CLAST_API clast_status clast_evolve_aggregate(const clast_evolve *evolve, int64_
 CLAST_API clast_status clast_evolve_largest(const clast_evolve *evolve, int32_t *n, int64_t *node);
 
 /// All grains where they are, in the fluid and on the floor.
-CLAST_API clast_status clast_evolve_assembly(const clast_evolve *evolve, clast_assembly *assembly);
+///
+/// @param values  NULL, or empty: of each of them the node of its body, whether it lies on the
+/// floor (1), and the body's grains, envelope, porosity, speed of falling and mass
+CLAST_API clast_status clast_evolve_assembly(const clast_evolve *evolve, clast_assembly *assembly,
+                                             clast_table *values);
 
 enum { CLAST_N_EVOLVE_SAVED = 6 };
 

@@ -90,7 +90,10 @@ typedef struct clast_pack_config {
     int64_t max_steps;       ///< stop there, whatever the state; 0: never
     double max_damping_time; ///< of the damped phase before giving up [s]
 
-    clast_text_list stages; ///< of a load in domain cell, as text (docs/theory/load.md)
+    clast_text_list wall;   ///< walls that move, are pressed or open, as text (docs/theory/load.md)
+    clast_text_list outlet; ///< half-spaces whose grains leave: z<-10mm
+    bool wall_forces;       ///< forces on all walls, also without those: walls.csv
+    clast_text_list stages; ///< of a load, as text (docs/theory/load.md)
     double load_rate;       ///< of strain by which a stress is approached, at most [1/s]
     double load_tolerance;  ///< share of a stress within which it is reached
     double load_rest;       ///< mean force on a grain over that of a contact, at rest
@@ -108,6 +111,16 @@ typedef struct clast_pack_config {
 /// Fields of clast_pack_config: keys, defaults, ranges and units; ends with a row of zeros.
 CLAST_API extern const clast_field clast_pack_fields[];
 
+/// A wall of option `wall`.
+typedef struct clast_pack_wall {
+    char name[32];
+    int32_t number;               ///< of a wall of the domain; -1: a surface
+    clast_mesh mesh;              ///< of a surface [m]
+    clast_dem_wall_motion motion; ///< with its table
+    double press[3];              ///< unit: where it presses; zeros: it is not pressed
+    double area;                  ///< over which its pressure acts; 0: its own [m2]
+} clast_pack_wall;
+
 /// What a packing is made of, loaded. Borrowed by clast_pack_create.
 typedef struct clast_pack_input {
     const clast_grading *grading;
@@ -117,6 +130,8 @@ typedef struct clast_pack_input {
     const clast_assembly *start; ///< grains to begin with [m]; its shapes are `shape`; or NULL
     const clast_mesh *container; ///< walls [m], or NULL
     const clast_mesh *container_closed; ///< the same with its holes covered (clast_bed_close)
+    int32_t n_wall;
+    const clast_pack_wall *wall; ///< [n_wall] of option `wall`, in its order
 } clast_pack_input;
 
 /// A packing under way. Opaque.
@@ -151,6 +166,7 @@ typedef struct clast_pack_ranks {
     int64_t n_balance;  ///< partitions
     int64_t n_migrated; ///< grains that went to another rank
     double ghosts;      ///< grains that ranks read of others in a step, in the mean
+    double messages;    ///< sent in a step by all ranks, but for the sum that ends it
     double step_bytes;  ///< sent in a step by all ranks
     double list_bytes;  ///< the same for lists and migration, in the mean over steps
     double imbalance;   ///< greatest over mean counted cost of a rank, after the last partition
@@ -199,6 +215,9 @@ typedef struct clast_pack_result {
     double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
     int64_t n_overlap;     ///< of grains that a start brought
     double deepest_start;  ///< of those, over the smaller one's radius
+    int32_t n_stage;       ///< stages that were gone through; 0: none were given
+    int64_t n_left;        ///< grains that left by outlets
+    double mass_left;      ///< [kg]
     clast_dem_cell cell;   ///< zeros in other domains
     clast_dem_load load;
     clast_dem_energy energy; ///< zeros where none is booked
@@ -223,6 +242,11 @@ CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
 /// cell. Borrowed.
 CLAST_API const clast_table *clast_pack_load_table(const clast_pack *pack);
 
+/// Walls over time: where each is, force and torque of grains (means since the row before), work;
+/// grains that left: the table walls.csv of docs/theory/load.md. NULL without walls, outlets and
+/// wall_forces. Borrowed.
+CLAST_API const clast_table *clast_pack_wall_table(const clast_pack *pack);
+
 /// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
 /// @return CLAST_E_USAGE when sizes follow no sieve curve
 CLAST_API clast_status clast_pack_achieved(const clast_pack *pack, clast_table *table);
@@ -237,6 +261,8 @@ typedef struct clast_pack_source {
     clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
     clast_mesh container, container_closed;
     clast_assembly start; ///< none without config->start
+    int32_t n_wall;
+    clast_pack_wall *wall; ///< [n_wall]
     clast_pack_input input;
 } clast_pack_source;
 

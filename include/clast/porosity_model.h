@@ -259,7 +259,7 @@ typedef struct clast_porosity_fit {
 ///
 /// Errors are absolute errors of held-out beds, pooled over folds and averaged over repeats; folds
 /// are a function of (seed, repeat). Steps 2 and 3 are repeated without the beds held out (nested
-/// validation), so that a selection among many candidates gains nothing by luck.
+/// validation), so that a selection among many candidates gains nothing by chance.
 ///
 /// p_value: share of permutations of the porosities, the whole way repeated on each, whose r2 is as
 /// great, (1 + count) / (1 + n_permutation); p_family of a candidate: the same with the greatest

@@ -212,6 +212,14 @@ class clast_dem_energy(Structure):
     """Where the energy has gone since clast_dem_begin_energy [J]: put_in = what is held + what is lost + steps + rest."""
 
 
+class clast_dem_wall_motion(Structure):
+    """How a wall moves by itself, as a function of its own time t, which runs while it is driven (clast_dem_drive_wall): a point x0 goes to p + d(t) + R (x0 - p), R the rotation about `axis` by d = velocity t + amplitude sin(2 pi t / period) + table, angle = rate t + swing sin(2 pi t / period) + table."""
+
+
+class clast_dem_wall(Structure):
+    """A wall as it is now, and what grains do to it; in the order in which walls are numbered: floor, lid, left (low x), right, front (low y), back, or the cylinder, those that the domain has; then surfaces in the order in which they were added."""
+
+
 class clast_dem_cell(Structure):
     """The periodic cell as it is now; zeros in other domains."""
 
@@ -414,6 +422,10 @@ class clast_mesh_simplify_report(Structure):
 
 class clast_pack_config(Structure):
     """clast_pack_config."""
+
+
+class clast_pack_wall(Structure):
+    """A wall of option `wall`."""
 
 
 class clast_pack_input(Structure):
@@ -952,6 +964,7 @@ clast_series._fields_ = [
     ('n', c_int64),
     ('colour', c_int32),
     ('dashed', c_bool),
+    ('width', c_double),
 ]
 clast_axis._fields_ = [
     ('label', c_char_p),
@@ -1208,7 +1221,7 @@ clast_dem_grain._fields_ = [
     ('position', (c_double * 3)),
     ('orientation', (c_double * 4)),
     ('velocity', (c_double * 3)),
-    ('spin', (c_double * 3)),
+    ('angular_velocity', (c_double * 3)),
 ]
 clast_dem_drive._fields_ = [
     ('shake_amplitude', c_double),
@@ -1251,14 +1264,41 @@ clast_dem_energy._fields_ = [
     ('gravity', c_double),
     ('shaking', c_double),
     ('cell', c_double),
+    ('walls', c_double),
     ('damping', (c_double * 2)),
     ('friction', (c_double * 2)),
     ('rolling', (c_double * 2)),
     ('fluid', c_double),
     ('calming', c_double),
+    ('left', c_double),
     ('scheme', c_double),
     ('put_in', c_double),
     ('rest', c_double),
+]
+clast_dem_wall_motion._fields_ = [
+    ('velocity', (c_double * 3)),
+    ('amplitude', (c_double * 3)),
+    ('period', c_double),
+    ('axis', (c_double * 3)),
+    ('pivot', (c_double * 3)),
+    ('rate', c_double),
+    ('swing', c_double),
+    ('n', c_int32),
+    ('time', POINTER(c_double)),
+    ('place', POINTER(c_double)),
+]
+clast_dem_wall._fields_ = [
+    ('is_open', c_bool),
+    ('offset', (c_double * 3)),
+    ('angle', c_double),
+    ('velocity', (c_double * 3)),
+    ('omega', (c_double * 3)),
+    ('force', (c_double * 3)),
+    ('torque', (c_double * 3)),
+    ('impulse', (c_double * 3)),
+    ('moment', (c_double * 3)),
+    ('work', c_double),
+    ('n_step', c_int64),
 ]
 clast_dem_cell._fields_ = [
     ('side', (c_double * 3)),
@@ -1274,6 +1314,7 @@ clast_dem_load._fields_ = [
     ('stress', (c_double * 6)),
     ('kinetic_stress', (c_double * 6)),
     ('modulus', (c_double * 3)),
+    ('shear_modulus', c_double),
     ('fabric', (c_double * 6)),
     ('n_contact', c_int64),
     ('n_force', c_int64),
@@ -1812,6 +1853,9 @@ clast_pack_config._fields_ = [
     ('still_speed', c_double),
     ('max_steps', c_int64),
     ('max_damping_time', c_double),
+    ('wall', clast_text_list),
+    ('outlet', clast_text_list),
+    ('wall_forces', c_bool),
     ('stages', clast_text_list),
     ('load_rate', c_double),
     ('load_tolerance', c_double),
@@ -1827,6 +1871,14 @@ clast_pack_config._fields_ = [
     ('resume', c_char_p),
     ('force', c_bool),
 ]
+clast_pack_wall._fields_ = [
+    ('name', (c_char * 32)),
+    ('number', c_int32),
+    ('mesh', clast_mesh),
+    ('motion', clast_dem_wall_motion),
+    ('press', (c_double * 3)),
+    ('area', c_double),
+]
 clast_pack_input._fields_ = [
     ('grading', c_void_p),
     ('curve', POINTER(clast_curve)),
@@ -1835,6 +1887,8 @@ clast_pack_input._fields_ = [
     ('start', POINTER(clast_assembly)),
     ('container', POINTER(clast_mesh)),
     ('container_closed', POINTER(clast_mesh)),
+    ('n_wall', c_int32),
+    ('wall', POINTER(clast_pack_wall)),
 ]
 clast_pack_ranks._fields_ = [
     ('n', c_int32),
@@ -1842,6 +1896,7 @@ clast_pack_ranks._fields_ = [
     ('n_balance', c_int64),
     ('n_migrated', c_int64),
     ('ghosts', c_double),
+    ('messages', c_double),
     ('step_bytes', c_double),
     ('list_bytes', c_double),
     ('imbalance', c_double),
@@ -1862,6 +1917,8 @@ clast_pack_source._fields_ = [
     ('container', clast_mesh),
     ('container_closed', clast_mesh),
     ('start', clast_assembly),
+    ('n_wall', c_int32),
+    ('wall', POINTER(clast_pack_wall)),
     ('input', clast_pack_input),
 ]
 clast_pairs_config._fields_ = [
@@ -2121,6 +2178,7 @@ clast_export_options._fields_ = [
     ('points', c_bool),
     ('colour', c_int),
     ('unit', c_char_p),
+    ('values', POINTER(clast_table)),
 ]
 clast_export_report._fields_ = [
     ('format', c_int),
@@ -2291,6 +2349,7 @@ clast_workspace_policy._fields_ = [
     ('cells_every', c_int32),
     ('cells_level', c_double),
     ('pairs_every', c_int32),
+    ('pairs_most', c_int32),
 ]
 clast_workspace_calls._fields_ = [
     ('n_call', c_int64),
@@ -2403,6 +2462,7 @@ clast_aggregate_params._fields_ = [
     ('envelope_rays', c_int32),
     ('envelope_length', c_double),
     ('solid_union', c_bool),
+    ('fall_speed', c_bool),
     ('permeability', c_int32),
     ('stop_mass', c_double),
     ('stop_size', c_double),
@@ -2540,6 +2600,7 @@ clast_evolve_config._fields_ = [
     ('time_step', c_double),
     ('seed', c_uint64),
     ('keep', c_int32),
+    ('bed_width', c_double),
     ('frames', c_int32),
     ('checkpoint_time', c_double),
     ('resume', c_char_p),
@@ -2573,6 +2634,8 @@ clast_evolve_result._fields_ = [
     ('wall_s', c_double),
     ('n_frame', c_int32),
     ('n_written', c_int32),
+    ('bed_width', c_double),
+    ('bed_height', c_double),
     ('folder', c_char_p),
 ]
 clast_grains_options._fields_ = [
@@ -2622,6 +2685,8 @@ clast_pack_result._fields_ = [
     ('frame_interval', c_double),
     ('n_overlap', c_int64),
     ('deepest_start', c_double),
+    ('n_left', c_int64),
+    ('mass_left', c_double),
     ('cell', clast_dem_cell),
     ('load', clast_dem_load),
     ('energy', clast_dem_energy),
@@ -2721,7 +2786,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_envelope_options': (40, {'tolerance': (0, 8), 'n_ray': (8, 4), 'seed': (16, 8), 'length': (24, 8), 'n_cell': (32, 4)}),
     'clast_fractal': (56, {'dimension': (0, 8), 'dimension_error': (8, 8), 'prefactor': (16, 8), 'prefactor_error': (24, 8), 'low': (32, 8), 'high': (40, 8), 'n': (48, 4)}),
     'clast_extent': (104, {'length': (0, 8), 'axis': (8, 72), 'width': (80, 24)}),
-    'clast_series': (72, {'kind': (0, 4), 'label': (8, 8), 'x': (16, 8), 'y': (24, 8), 'low': (32, 8), 'high': (40, 8), 'value': (48, 8), 'n': (56, 8), 'colour': (64, 4), 'dashed': (68, 1)}),
+    'clast_series': (80, {'kind': (0, 4), 'label': (8, 8), 'x': (16, 8), 'y': (24, 8), 'low': (32, 8), 'high': (40, 8), 'value': (48, 8), 'n': (56, 8), 'colour': (64, 4), 'dashed': (68, 1), 'width': (72, 8)}),
     'clast_axis': (32, {'label': (0, 8), 'log': (8, 1), 'low': (16, 8), 'high': (24, 8)}),
     'clast_heat': (72, {'n_x': (0, 4), 'n_y': (4, 4), 'value': (8, 8), 'x_low': (16, 8), 'x_high': (24, 8), 'y_low': (32, 8), 'y_high': (40, 8), 'x_name': (48, 8), 'y_name': (56, 8), 'is_signed': (64, 1), 'has_text': (65, 1)}),
     'clast_note': (24, {'x': (0, 8), 'y': (8, 8), 'text': (16, 8)}),
@@ -2743,13 +2808,15 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_cells': (128, {'n': (0, 4), 'low': (8, 8), 'high': (16, 8), 'volume': (24, 8), 'count': (32, 8), 'label': (40, 8), 'pass': (48, 8), 'weight': (56, 8), 'events': (64, 8), 'of_point': (72, 8), 'is_box': (80, 1), 'nb': (84, 12), 'bin_count': (96, 8), 'of_bin': (104, 8), 'key': (112, 8), 'group': (120, 8)}),
     'clast_within_cells': (72, {'is_structured': (0, 1), 'cell': (8, 8), 'even': (16, 8), 'radius': (24, 8), 'n_pair': (32, 8), 'g': (40, 8), 'g_low': (48, 8), 'g_high': (56, 8), 'length': (64, 8)}),
     'clast_dem_config': (208, {'law': (0, 4), 'contact_scheme': (4, 4), 'restitution': (8, 8), 'collision_time': (16, 8), 'poisson': (24, 8), 'young': (32, 8), 'friction': (40, 8), 'wall_friction': (48, 8), 'rolling_friction': (56, 8), 'rolling_model': (64, 4), 'cohesion': (68, 4), 'cohesion_energy': (72, 8), 'surface_energy': (80, 8), 'clip': (88, 1), 'normal_torque': (89, 1), 'gyroscopic': (90, 1), 'clump_contacts': (92, 4), 'time_step': (96, 8), 'gravity': (104, 8), 'fluid_density': (112, 8), 'fluid_viscosity': (120, 8), 'sphere_drag': (128, 4), 'hindrance': (132, 1), 'added_mass': (136, 8), 'wet_restitution': (144, 1), 'domain': (148, 4), 'width': (152, 8), 'depth': (160, 8), 'height': (168, 8), 'floor': (176, 1), 'lid': (177, 1), 'rounding': (184, 8), 'skin': (192, 8), 'verify': (200, 4)}),
-    'clast_dem_grain': (128, {'shape': (0, 4), 'scale': (8, 8), 'density': (16, 8), 'position': (24, 24), 'orientation': (48, 32), 'velocity': (80, 24), 'spin': (104, 24)}),
+    'clast_dem_grain': (128, {'shape': (0, 4), 'scale': (8, 8), 'density': (16, 8), 'position': (24, 24), 'orientation': (48, 32), 'velocity': (80, 24), 'angular_velocity': (104, 24)}),
     'clast_dem_drive': (24, {'shake_amplitude': (0, 8), 'shake_period': (8, 8), 'damping': (16, 8)}),
     'clast_dem_verification': (32, {'n': (0, 8), 'n_off': (8, 8), 'n_bad': (16, 8), 'worst': (24, 8)}),
     'clast_dem_measures': (184, {'step': (0, 8), 'time': (8, 8), 'n_grain': (16, 4), 'mass': (24, 8), 'mean_height': (32, 8), 'top': (40, 8), 'max_speed': (48, 8), 'kinetic_energy': (56, 8), 'potential_energy': (64, 8), 'elastic_energy': (72, 8), 'momentum': (80, 24), 'n_listed': (104, 8), 'n_contact': (112, 8), 'n_wall_contact': (120, 8), 'max_overlap': (128, 8), 'coordination': (136, 8), 'n_refresh': (144, 8), 'verified': (152, 32)}),
-    'clast_dem_energy': (160, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'damping': (72, 16), 'friction': (88, 16), 'rolling': (104, 16), 'fluid': (120, 8), 'calming': (128, 8), 'scheme': (136, 8), 'put_in': (144, 8), 'rest': (152, 8)}),
+    'clast_dem_energy': (176, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'walls': (72, 8), 'damping': (80, 16), 'friction': (96, 16), 'rolling': (112, 16), 'fluid': (128, 8), 'calming': (136, 8), 'left': (144, 8), 'scheme': (152, 8), 'put_in': (160, 8), 'rest': (168, 8)}),
+    'clast_dem_wall_motion': (144, {'velocity': (0, 24), 'amplitude': (24, 24), 'period': (48, 8), 'axis': (56, 24), 'pivot': (80, 24), 'rate': (104, 8), 'swing': (112, 8), 'n': (120, 4), 'time': (128, 8), 'place': (136, 8)}),
+    'clast_dem_wall': (200, {'is_open': (0, 1), 'offset': (8, 24), 'angle': (32, 8), 'velocity': (40, 24), 'omega': (64, 24), 'force': (88, 24), 'torque': (112, 24), 'impulse': (136, 24), 'moment': (160, 24), 'work': (184, 8), 'n_step': (192, 8)}),
     'clast_dem_cell': (96, {'side': (0, 24), 'rate': (24, 24), 'shift': (48, 8), 'shear_rate': (56, 8), 'strain': (64, 24), 'shear_strain': (88, 8)}),
-    'clast_dem_load': (264, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'fabric': (136, 48), 'n_contact': (184, 8), 'n_force': (192, 8), 'coordination': (200, 8), 'n_rattler': (208, 4), 'coordination_held': (216, 8), 'unbalanced': (224, 8), 'force_mean': (232, 8), 'force_below': (240, 24)}),
+    'clast_dem_load': (272, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'shear_modulus': (136, 8), 'fabric': (144, 48), 'n_contact': (192, 8), 'n_force': (200, 8), 'coordination': (208, 8), 'n_rattler': (216, 4), 'coordination_held': (224, 8), 'unbalanced': (232, 8), 'force_mean': (240, 8), 'force_below': (248, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
     'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
     'clast_evolve_source': (656, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 64), 'field': (536, 64), 'input': (600, 56)}),
@@ -2798,11 +2865,12 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
-    'clast_pack_config': (696, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'stages': (576, 16), 'load_rate': (592, 8), 'load_tolerance': (600, 8), 'load_rest': (608, 8), 'max_load_time': (616, 8), 'energy': (624, 1), 'layer': (632, 8), 'cut': (640, 8), 'trim': (648, 8), 'series_time': (656, 8), 'frame_time': (664, 8), 'checkpoint_time': (672, 8), 'resume': (680, 8), 'force': (688, 1)}),
-    'clast_pack_input': (56, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8)}),
-    'clast_pack_ranks': (64, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'step_bytes': (32, 8), 'list_bytes': (40, 8), 'imbalance': (48, 8), 'is_zoltan': (56, 1)}),
+    'clast_pack_config': (736, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'wall': (576, 16), 'outlet': (592, 16), 'wall_forces': (608, 1), 'stages': (616, 16), 'load_rate': (632, 8), 'load_tolerance': (640, 8), 'load_rest': (648, 8), 'max_load_time': (656, 8), 'energy': (664, 1), 'layer': (672, 8), 'cut': (680, 8), 'trim': (688, 8), 'series_time': (696, 8), 'frame_time': (704, 8), 'checkpoint_time': (712, 8), 'resume': (720, 8), 'force': (728, 1)}),
+    'clast_pack_wall': (240, {'name': (0, 32), 'number': (32, 4), 'mesh': (40, 24), 'motion': (64, 144), 'press': (208, 24), 'area': (232, 8)}),
+    'clast_pack_input': (72, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8), 'n_wall': (56, 4), 'wall': (64, 8)}),
+    'clast_pack_ranks': (72, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'messages': (32, 8), 'step_bytes': (40, 8), 'list_bytes': (48, 8), 'imbalance': (56, 8), 'is_zoltan': (64, 1)}),
     'clast_pack_hull': (80, {'shape': (0, 64), 'n_triangle': (64, 4), 'volume_added': (72, 8)}),
-    'clast_pack_source': (288, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'input': (232, 56)}),
+    'clast_pack_source': (320, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'n_wall': (232, 4), 'wall': (240, 8), 'input': (248, 72)}),
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
@@ -2835,7 +2903,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_named_spheres': (32, {'name': (0, 8), 'spheres': (8, 24)}),
     'clast_state': (96, {'assembly': (0, 8), 'n_spheres': (8, 4), 'spheres': (16, 8), 'n_table': (24, 4), 'table': (32, 8), 'config': (40, 8), 'unit': (48, 16), 'version': (64, 32)}),
     'clast_packing_options': (16, {'columns': (0, 8), 'diameter': (8, 8)}),
-    'clast_export_options': (24, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8)}),
+    'clast_export_options': (32, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8), 'values': (24, 8)}),
     'clast_export_report': (32, {'format': (0, 4), 'n_vertex': (8, 8), 'n_triangle': (16, 8), 'unit': (24, 8)}),
     'clast_bootstrap': (24, {'n_resample': (0, 4), 'level': (8, 8), 'seed': (16, 8)}),
     'clast_sample_summary': (184, {'n': (0, 8), 'n_left_out': (8, 8), 'mean': (16, 8), 'deviation': (24, 8), 'deviation_ml': (32, 8), 'skewness': (40, 8), 'kurtosis': (48, 8), 'low': (56, 8), 'high': (64, 8), 'quantile': (72, 56), 'mean_low': (128, 8), 'mean_high': (136, 8), 'deviation_low': (144, 8), 'deviation_high': (152, 8), 'shapiro_w': (160, 8), 'shapiro_p': (168, 8), 'is_constant': (176, 1)}),
@@ -2856,23 +2924,23 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
     'clast_volume_options': (56, {'n': (0, 12), 'type': (12, 4), 'is_big_endian': (16, 1), 'skip': (24, 8), 'edge': (32, 24)}),
     'clast_points': (56, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'stride': (24, 8), 'axis_stride': (32, 8), 'weight': (40, 8), 'weight_stride': (48, 8)}),
-    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4)}),
+    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4), 'pairs_most': (36, 4)}),
     'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
     'clast_spectrum': (200, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'mass_error': (96, 8), 'n_evaluation': (104, 8), 'range': (112, 88)}),
     'clast_agglomerate_config': (488, {'decompose': (0, 144), 'collide': (144, 288), 'kernel': (432, 8), 'duration': (440, 8), 'n_step': (448, 4), 'repeats': (452, 4), 'rebuild': (456, 4), 'change_level': (464, 8), 'fixed': (472, 4), 'depth': (480, 8)}),
     'clast_agglomeration': (208, {'history': (0, 32), 'particles': (32, 32), 'spectrum': (64, 32), 'n_rebuilt': (96, 4), 'n_cell': (100, 4), 'has_exact': (104, 1), 'has_fixed': (105, 1), 'is_gelation': (106, 1), 'n_gelled': (108, 4), 'gel_time': (112, 8), 'range': (120, 88)}),
-    'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
+    'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'fall_speed': (289, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
     'clast_aggregate_result': (520, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'mass': (16, 8), 'solid_sum': (24, 8), 'solid_union': (32, 8), 'solid_union_error': (40, 8), 'n_envelope': (48, 4), 'envelope': (56, 280), 'porosity': (336, 56), 'd_agg': (392, 8), 'density': (400, 8), 'radius_of_gyration': (408, 8), 'settling_velocity': (416, 8), 'settling_velocity_permeable': (424, 8), 'permeable': (432, 4), 'coat_porosity': (440, 8), 'coat_grain': (448, 8), 'permeability': (456, 8), 'drag_permeable': (464, 8), 'max_overlap': (472, 8), 'max_overlap_relative': (480, 8), 'n_lost': (488, 4), 'stop': (492, 4), 'contact_s': (496, 8), 'envelope_s': (504, 8), 'wall_s': (512, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
     'clast_aggregate_source': (208, {'core': (0, 120), 'coat': (120, 8), 'n_coat': (128, 4), 'sizes': (136, 40), 'input': (176, 32)}),
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
-    'clast_evolve_config': (512, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'field': (360, 8), 'field_columns': (368, 8), 'wind_shear': (376, 8), 'eddy_diffusivity': (384, 8), 'brownian': (392, 1), 'fall': (396, 4), 'structure': (400, 1), 'collision_radius': (404, 4), 'meeting': (408, 4), 'walk_step': (416, 8), 'max_tries': (424, 4), 'even': (428, 4), 'change_level': (432, 8), 'duration': (440, 8), 'rows': (448, 4), 'step_error': (456, 8), 'time_step': (464, 8), 'seed': (472, 8), 'keep': (480, 4), 'frames': (484, 4), 'checkpoint_time': (488, 8), 'resume': (496, 8), 'force': (504, 1)}),
-    'clast_evolve_result': (248, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_written': (236, 4), 'folder': (240, 8)}),
+    'clast_evolve_config': (528, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'field': (360, 8), 'field_columns': (368, 8), 'wind_shear': (376, 8), 'eddy_diffusivity': (384, 8), 'brownian': (392, 1), 'fall': (396, 4), 'structure': (400, 1), 'collision_radius': (404, 4), 'meeting': (408, 4), 'walk_step': (416, 8), 'max_tries': (424, 4), 'even': (428, 4), 'change_level': (432, 8), 'duration': (440, 8), 'rows': (448, 4), 'step_error': (456, 8), 'time_step': (464, 8), 'seed': (472, 8), 'keep': (480, 4), 'bed_width': (488, 8), 'frames': (496, 4), 'checkpoint_time': (504, 8), 'resume': (512, 8), 'force': (520, 1)}),
+    'clast_evolve_result': (264, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_written': (236, 4), 'bed_width': (240, 8), 'bed_height': (248, 8), 'folder': (256, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
-    'clast_pack_result': (1032, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'n_overlap': (432, 8), 'deepest_start': (440, 8), 'cell': (448, 96), 'load': (544, 264), 'energy': (808, 160), 'ranks': (968, 64)}),
+    'clast_pack_result': (1080, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'n_overlap': (432, 8), 'deepest_start': (440, 8), 'n_left': (448, 8), 'mass_left': (456, 8), 'cell': (464, 96), 'load': (560, 272), 'energy': (832, 176), 'ranks': (1008, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
@@ -3056,6 +3124,7 @@ VALUES: dict[str, int] = {
     'CLAST_MEETING_BALLISTIC': 1,
     'CLAST_MEETING_DIFFUSIVE': 2,
     'CLAST_MEETING_CENTRAL': 3,
+    'CLAST_MEETING_REACTION': 4,
     'CLAST_EVEN_TREE': 0,
     'CLAST_EVEN_BOXES': 1,
     'CLAST_EVEN_WHOLE': 2,
@@ -3256,6 +3325,11 @@ VALUES: dict[str, int] = {
     'CLAST_EXPORT_CSV': 6,
     'CLAST_EXPORT_DUMP': 7,
     'CLAST_EXPORT_JSON': 8,
+    'CLAST_EXPORT_DATA': 9,
+    'CLAST_EXPORT_TXT': 10,
+    'CLAST_EXPORT_VORO': 11,
+    'CLAST_EXPORT_XYZD': 12,
+    'CLAST_EXPORT_CONF': 13,
     'CLAST_COLOUR_GRAIN': 0,
     'CLAST_COLOUR_ORDER': 1,
     'CLAST_COLOUR_SIZE': 2,
@@ -3386,6 +3460,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_chart_pores': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Draws the share of pore space nearer than delta to a grain.'),
     'clast_chart_porosity_band': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Mean profile over height or radius of several runs with its interval, of clast_porosity_mean_profile.'),
     'clast_chart_stress': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Normal stresses over height, of clast_stress_profile.'),
+    'clast_chart_chains': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Force chains of clast_bed_chains seen along y: lines as thick as their force, in four steps of the mean; contacts that are no link of a chain are grey.'),
     'clast_chart_zingg': (c_int, [POINTER(clast_form_set), c_char_p], 'Zingg diagram: elongation over flatness, with the class borders at 2/3, coloured by size if the set has sizes (log colour where they span more than a factor 5).'),
     'clast_chart_histogram': (c_int, [POINTER(c_double), c_int64, c_char_p, c_char_p], "Histogram of one column as a density, with the normal law of maximum likelihood and, in the legend, its mean and deviation; the title holds Shapiro and Wilk's W and p."),
     'clast_chart_correlation': (c_int, [POINTER(clast_statistics), c_char_p], 'Correlation matrix as a heat map; form factors go by their symbols.'),
@@ -3433,6 +3508,14 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the domain make no sense.'),
     'clast_dem_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_dem_add_container': (c_int, [c_void_p, POINTER(clast_mesh)], 'Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any obstacle.'),
+    'clast_dem_add_wall': (c_int, [c_void_p, POINTER(clast_mesh), POINTER(c_int32)], 'A surface as one more wall, closed or open, which may be moved, watched and opened; before the first grain.'),
+    'clast_dem_watch_walls': (c_int, [c_void_p], 'Sums the forces on all walls from the next step on, those of the domain with them, and numbers them.'),
+    'clast_dem_n_wall': (c_int32, [c_void_p], '0 while none are numbered.'),
+    'clast_dem_set_wall_motion': (c_int, [c_void_p, c_int32, POINTER(clast_dem_wall_motion)], 'How a wall moves, before it does.'),
+    'clast_dem_drive_wall': (c_int, [c_void_p, c_int32, c_bool, POINTER(c_double)], "From the next step on the wall's own motion runs, or stands; a velocity is added to it [m/s]."),
+    'clast_dem_open_wall': (c_int, [c_void_p, c_int32], 'Takes a wall away: an orifice opens.'),
+    'clast_dem_read_wall': (None, [c_void_p, c_int32, POINTER(clast_dem_wall)], '.'),
+    'clast_dem_remove_grains': (c_int, [c_void_p, POINTER(c_uint8)], 'Takes grains out; those after them move up in number.'),
     'clast_dem_add_shape': (c_int, [c_void_p, POINTER(clast_shape), POINTER(c_int32)], 'Adds a copy of a shape; its number goes to *id.'),
     'clast_dem_add_grains': (c_int, [c_void_p, c_int32, POINTER(clast_dem_grain)], 'Adds grains; all or none.'),
     'clast_dem_set_drive': (None, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
@@ -3467,7 +3550,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_evolve_table': (c_int, [c_void_p, c_int, POINTER(clast_table)], 'One of the tables.'),
     'clast_evolve_aggregate': (c_int, [c_void_p, c_int64, POINTER(clast_assembly)], 'The grains of the body that is this node of the tree of events, about its centre of mass, with their contacts: particles at the start are nodes 0 .'),
     'clast_evolve_largest': (c_int, [c_void_p, POINTER(c_int32), POINTER(c_int64)], 'Nodes of the bodies of most grains first, of equal ones the older first: [*n] of at most *n.'),
-    'clast_evolve_assembly': (c_int, [c_void_p, POINTER(clast_assembly)], 'All grains where they are, in the fluid and on the floor.'),
+    'clast_evolve_assembly': (c_int, [c_void_p, POINTER(clast_assembly), POINTER(clast_table)], 'All grains where they are, in the fluid and on the floor.'),
     'clast_evolve_save': (c_int, [c_void_p, POINTER(clast_table)], 'All that is needed to go on, as tables: clast_state keeps them.'),
     'clast_evolve_restore': (c_int, [POINTER(clast_table), c_void_p], 'Goes on from there to the same bits; `evolve` was just created from the same configuration.'),
     'clast_evolve_load': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_source)], "@return the reader's status and line, with the option before it."),
@@ -3638,6 +3721,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_porosity': (clast_porosity_options, [POINTER(clast_pack_config)], '.'),
     'clast_pack_series': (POINTER(clast_table), [c_void_p], 'Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J, max_speed_m/s, n_contact, n_wall_contact, max_overlap_m.'),
     'clast_pack_load_table': (POINTER(clast_table), [c_void_p], 'What the bed carries and where its energy goes, rows as of the series and at the end of each stage: the table load.csv of docs/theory/load.md.'),
+    'clast_pack_wall_table': (POINTER(clast_table), [c_void_p], 'Walls over time: where each is, force and torque of grains (means since the row before), work; grains that left: the table walls.csv of docs/theory/load.md.'),
     'clast_pack_achieved': (c_int, [c_void_p, POINTER(clast_table)], 'Sieve curve achieved beside the wanted one (columns as clast_grading_compare).'),
     'clast_pack_load': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_source)], "@return the reader's status, with the option and the file's name before its message."),
     'clast_pack_unload': (None, [POINTER(clast_pack_source)], 'may be called twice.'),
@@ -3675,6 +3759,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fabric': (c_int, [POINTER(clast_assembly), POINTER(clast_table), POINTER(c_double), POINTER(clast_table)], "How an assembly's contacts and grains are directed: columns name, value, unit, meaning."),
     'clast_stress': (c_int, [POINTER(clast_table), POINTER(clast_bed), POINTER(c_double), POINTER(clast_table)], 'Mean stress between two heights, and what follows from it: columns name, value, unit, meaning.'),
     'clast_stress_profile': (c_int, [POINTER(clast_table), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_table)], 'The same in the slices of a porosity profile: z_low_m, z_high_m, stress_xx_Pa, .'),
+    'clast_bed_fields': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_table), POINTER(clast_table), c_double, POINTER(clast_table)], 'Continuum fields from grains and contacts on a grid [Goldhirsch2010], exact at walls [Weinhart2012]: a row a cell, x fastest, with the mean of each field over the cell.'),
+    'clast_bed_chains': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_table), POINTER(clast_table)], "Contacts as lines from a's centre to b's, or to a wall, and which are links of a force chain: of three grains or more whose greatest principal pressure is above the mean of all, within 45 degrees of its direction."),
     'clast_model_kind_name': (c_char_p, [c_int], '"single_form", "form_mixture", "columns" .'),
     'clast_mixture_feature_name': (c_bool, [c_int32, c_size_t, c_char_p], 'Name of feature 0 .'),
     'clast_mixture_feature_find': (c_int32, [c_char_p], 'Number of the named feature, or -1.'),
@@ -3758,7 +3844,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_state_write_spheres': (c_int, [POINTER(clast_spheres), c_char_p, c_char_p, c_char_p], 'One set of spheres alone.'),
     'clast_state_read_spheres': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres)], 'The named spheres of a state file; `name` NULL: the only ones.'),
     'clast_state_read_table': (c_int, [c_char_p, c_char_p, POINTER(clast_table)], 'The named table of a state file.'),
-    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly)], 'Reads a packing of spheres that another program made, as scaled unit spheres of density 1.'),
+    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly)], 'Reads a packing that another program made; densities are 1 where the file does not tell them.'),
     'clast_export_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("vtu").'),
     'clast_export_format_of_path': (c_int, [c_char_p], "Format by a path's extension (any case), or CLAST_EXPORT_ANY when it is none of ours."),
     'clast_assembly_write': (c_int, [POINTER(clast_assembly), c_char_p, POINTER(clast_export_options), POINTER(clast_export_report)], 'Writes an assembly.'),
@@ -3801,6 +3887,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_table_write_csv': (c_int, [POINTER(clast_table), c_char_p], "Writes RFC 4180 text: a header of the columns' names (which end in their units), ',', lines that end in LF, numbers in the fewest digits that read back as the same double, NaN (what does not exist) as empty cells, infinities as inf."),
     'clast_table_write_csv_note': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'The same below a line "# NOTE", which clast_table_read_csv passes over; the note is one line.'),
     'clast_table_write_json': (c_int, [POINTER(clast_table), c_char_p], 'Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON does not have, become null.'),
+    'clast_table_write_vti': (c_int, [POINTER(clast_table), c_char_p], 'Writes rows that are cells of an even grid, x fastest, as a VTK image (.vti) for ParaView: columns x, y, z (middles) and dx, dy, dz (sides), each perhaps with a unit behind it (x_m); the other columns of numbers are its cell data, by their names.'),
+    'clast_table_write_vtp': (c_int, [POINTER(clast_table), c_char_p], 'Writes rows that are lines as VTK polydata (.vtp): columns x0, y0, z0, x1, y1, z1, as above.'),
     'clast_voxels_alloc': (c_int, [POINTER(c_int32), c_double, POINTER(clast_voxels)], 'Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.'),
     'clast_voxels_free': (None, [POINTER(clast_voxels)], '.'),
     'clast_voxels_labels': (c_int, [POINTER(clast_voxels), POINTER(POINTER(clast_voxel_label)), POINTER(c_int32)], 'The labels other than 0, rising.'),
@@ -3995,6 +4083,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'envelope': ('texts', 'surface_hull', '-', None, None, None, 'envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, alpha, enclosing_sphere, gyration_sphere'),
         'envelope_every': ('integer', 1.0, '-', 1.0, 1000000000.0, None, 'particles between two rows of porosity; alpha, wrap: seconds each'),
         'solid_union': ('flag', True, '-', None, None, None, 'measure the volume of the union too, which takes sampling where grains overlap'),
+        'fall_speed': ('flag', False, '-', None, None, None, 'settling velocity in each row of porosity too, which takes the extent each time'),
         'envelope_rays': ('integer', 10000.0, '-', 10.0, 100000000.0, None, 'rays of the published envelope'),
         'envelope_length': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'radius of the ball of the wrap and alpha envelopes, which need it'),
         'permeability': ('choice', 'happel', '-', None, None, 'happel|kozeny_carman', 'permeability by porosity and grain size, for the settling velocity that it allows'),
@@ -4104,7 +4193,10 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'still_speed': ('number', 0.001, 'm/s', 0.0, 1000000.0, None, 'of the fastest grain'),
         'max_steps': ('integer', 0.0, '-', 0.0, 9000000000000000.0, None, 'stop after so many time steps as it is; 0: never'),
         'max_damping_time': ('number', 20.0, 's', 0.0, 1000000000.0, None, 'give up when the bed is not still by then'),
-        'stages': ('texts', '', '-', None, None, None, 'stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T'),
+        'wall': ('texts', '', '-', None, None, None, 'walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2'),
+        'outlet': ('texts', '', '-', None, None, None, 'half-spaces whose grains leave and are counted: z<-10mm'),
+        'wall_forces': ('flag', False, '-', None, None, None, 'force and torque on all walls over time, also where none moves: walls.csv'),
+        'stages': ('texts', '', '-', None, None, None, 'stages that load a bed, one after the other; between walls: NAME (its motion runs), NAME=10kPa, NAME=5N, NAME=1mm/s (where it presses), open NAME, hold; then until rest, time T, stress P, way D or mass M. In domain cell: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T'),
         'load_rate': ('number', 1.0, '1/s', 1e-09, 1000000000.0, None, 'rate of strain at which a pressure is approached, at most'),
         'load_tolerance': ('number', 0.01, '-', 1e-09, 1.0, None, 'share of a pressure within which it is reached'),
         'load_rest': ('number', 0.001, '-', 1e-12, 1.0, None, 'a loaded bed rests when the mean force on a grain over that of a contact is below this'),
@@ -4132,6 +4224,8 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'local': ('flag', False, '-', None, None, None, 'porosity around each grain too, by radical Voronoi cells of equal-volume spheres'),
         'rings': ('integer', 0.0, '-', 0.0, 100000.0, None, 'porosity over the radius of a cylinder too, in this many rings'),
         'pores': ('integer', 0.0, '-', 0.0, 100000000.0, None, 'sizes of pores too, from this many even points of the bed'),
+        'fields': ('text', '0', '-', None, None, None, 'coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide (its standard deviation, as 3mm), in cells as wide; 0: not'),
+        'chains': ('flag', False, '-', None, None, None, 'force chains too (chains.vtp, .csv, .svg), of runs that know their forces'),
         'columns': ('text', '', '-', None, None, None, "spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed over); none: by their names"),
         'diameter': ('text', '0', '-', None, None, None, "spheres: diameter of all, in place of the file's; 0: the file's"),
         'force': ('flag', False, '-', None, None, None, "replace an earlier run in the results' folder, once the new one has succeeded"),
@@ -4365,15 +4459,16 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'young': ('number', 0.0, 'Pa', 0.0, 1000000000000000.0, None, "contact: Young's modulus of the particles"),
         'poisson': ('number', 0.25, '-', -0.999, 0.5, None, "contact: Poisson's ratio of the particles"),
         'structure': ('flag', True, '-', None, None, None, 'aggregates keep their grains as they touch; no: drops that merge'),
-        'meeting': ('choice', 'auto', '-', None, None, 'auto|ballistic|diffusive|central', 'how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section'),
+        'meeting': ('choice', 'auto', '-', None, None, 'auto|ballistic|diffusive|central|reaction', 'how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section; reaction: all contacts alike, as where few touches stick'),
         'walk_step': ('number', 0.1, '-', 0.0001, 1.0, None, 'diffusive: least step of the walk, in radii of the smallest thrown grain'),
-        'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths tried before a pair is given up, in thousands; of central lines: one by one'),
+        'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths or contacts tried before a pair is given up, in thousands; central lines: one by one'),
         'duration': ('number', 0.0, 's', 0.0, 1e+300, None, 'time that passes at most'),
         'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
         'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step"),
         'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
         'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
         'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
+        'bed_width': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width of the column in deposit.h5 (that of its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none'),
         'frames': ('integer', 0.0, '-', 0.0, 1000000.0, None, 'a frame for ParaView at each so many rows; 0: none'),
         'checkpoint_time': ('number', 60.0, 's', 0.0, 1000000000.0, None, 'between checkpoints, of the clock'),
         'resume': ('text', '', '-', None, None, None, 'run folder to go on with'),
@@ -4452,20 +4547,20 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
 TABLES: dict[str, tuple[str, ...]] = {
     'clast_spectrum_fields': ('solver', 'initial', 'concentration', 'initial_mean', 'initial_sd', 'particles', 'size_min', 'size_max', 'per_octave', 'breakage_rate', 'breakage_exponent', 'fragments', 'fragment_exponent', 'source', 'source_size', 'settling_depth', 'tolerance'),
     'clast_agglomerate_fields': ('kernel', 'duration', 'n_step', 'repeats', 'collisions', 'leap', 'block', 'self_collisions', 'out_of_range', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'radius_law', 'monomer_radius', 'fractal_dimension', 'fractal_prefactor', 'constant', 'additive', 'product', 'temperature', 'viscosity', 'density', 'particle_density', 'mean_free_path', 'shear', 'shear_constant', 'dissipation', 'speed_rms', 'gravity', 'efficiency', 'settling_law', 'rebuild', 'change_level', 'fixed', 'depth'),
-    'clast_aggregate_fields': ('mode', 'core', 'core_size', 'core_meaning', 'core_density', 'coat', 'coat_weight', 'class_limit', 'coat_density', 'core_spheres', 'coat_spheres', 'fill_spheres', 'fill', 'unit', 'accept_faults', 'sizes', 'size_column', 'size_unit', 'size', 'size_law', 'size_mean', 'size_deviation', 'size_shape', 'size_low', 'size_high', 'n_particle', 'size_draw', 'size_by_mass', 'replicate', 'size_meaning', 'order', 'cone', 'rays', 'orientations', 'axis', 'origin', 'target', 'start', 'max_tries', 'approach', 'walk_step', 'contact', 'flavour', 'march_coarse', 'march_fine', 'march_steps', 'march_vertices', 'envelope', 'envelope_every', 'solid_union', 'envelope_rays', 'envelope_length', 'permeability', 'stop_mass', 'stop_size', 'stop_porosity', 'fit', 'observed_size', 'observed_size_error', 'observed_density', 'observed_density_error', 'observed_velocity', 'observed_velocity_error', 'fit_packing', 'fit_repeats', 'fit_replicate_max', 'pick', 'n_final', 'repeats', 'confidence', 'seed', 'checkpoint_every', 'picture', 'printable', 'neck', 'spacing', 'force', 'resume'),
+    'clast_aggregate_fields': ('mode', 'core', 'core_size', 'core_meaning', 'core_density', 'coat', 'coat_weight', 'class_limit', 'coat_density', 'core_spheres', 'coat_spheres', 'fill_spheres', 'fill', 'unit', 'accept_faults', 'sizes', 'size_column', 'size_unit', 'size', 'size_law', 'size_mean', 'size_deviation', 'size_shape', 'size_low', 'size_high', 'n_particle', 'size_draw', 'size_by_mass', 'replicate', 'size_meaning', 'order', 'cone', 'rays', 'orientations', 'axis', 'origin', 'target', 'start', 'max_tries', 'approach', 'walk_step', 'contact', 'flavour', 'march_coarse', 'march_fine', 'march_steps', 'march_vertices', 'envelope', 'envelope_every', 'solid_union', 'fall_speed', 'envelope_rays', 'envelope_length', 'permeability', 'stop_mass', 'stop_size', 'stop_porosity', 'fit', 'observed_size', 'observed_size_error', 'observed_density', 'observed_density_error', 'observed_velocity', 'observed_velocity_error', 'fit_packing', 'fit_repeats', 'fit_replicate_max', 'pick', 'n_final', 'repeats', 'confidence', 'seed', 'checkpoint_every', 'picture', 'printable', 'neck', 'spacing', 'force', 'resume'),
     'clast_decompose_fields': ('domain', 'outside', 'variant', 'mesh', 'events', 'level', 'votes', 'tests', 'statistic', 'paper', 'ghost_samples', 'crossfit', 'lower', 'strict', 'max_pass', 'beta_dt', 'tree_level', 'tree_root_level', 'variable_tolerance', 'tree_least', 'tree_refine', 'extrapolate', 'pairs', 'pairs_radius', 'estimator', 'seed'),
     'clast_dem_fields': ('domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify'),
-    'clast_evolve_fields': ('shapes', 'shape_weight', 'density', 'unit', 'curve', 'particles', 'weight', 'release', 'points', 'diameter_column', 'domain', 'floor', 'sides', 'open_top', 'wind', 'field', 'field_columns', 'wind_shear', 'eddy_diffusivity', 'brownian', 'fall', 'temperature', 'viscosity', 'fluid_density', 'mean_free_path', 'gravity', 'kernel', 'shear', 'dissipation', 'speed_rms', 'efficiency', 'constant', 'additive', 'product', 'out_of_range', 'collision_radius', 'even', 'change_level', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'structure', 'meeting', 'walk_step', 'max_tries', 'duration', 'rows', 'step_error', 'time_step', 'seed', 'keep', 'frames', 'checkpoint_time', 'resume', 'force'),
+    'clast_evolve_fields': ('shapes', 'shape_weight', 'density', 'unit', 'curve', 'particles', 'weight', 'release', 'points', 'diameter_column', 'domain', 'floor', 'sides', 'open_top', 'wind', 'field', 'field_columns', 'wind_shear', 'eddy_diffusivity', 'brownian', 'fall', 'temperature', 'viscosity', 'fluid_density', 'mean_free_path', 'gravity', 'kernel', 'shear', 'dissipation', 'speed_rms', 'efficiency', 'constant', 'additive', 'product', 'out_of_range', 'collision_radius', 'even', 'change_level', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'structure', 'meeting', 'walk_step', 'max_tries', 'duration', 'rows', 'step_error', 'time_step', 'seed', 'keep', 'bed_width', 'frames', 'checkpoint_time', 'resume', 'force'),
     'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
     'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
     'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
-    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
     'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
     'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
     'clast_report_fields': ('title', 'rows', 'view', 'triangles', 'picture_mb'),
     'clast_study_fields': ('run', 'config', 'argument', 'fix', 'vary', 'design', 'table', 'seeds', 'seed', 'keep', 'shard'),
-    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every'),
+    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every', 'pairs_most'),
 }
 
 # Commands that write a run's folder.

@@ -77,6 +77,7 @@ def aggregate(
         envelope: Texts | None = None,
         envelope_every: int | None = None,
         solid_union: bool | None = None,
+        fall_speed: bool | None = None,
         envelope_rays: int | None = None,
         envelope_length: Quantity | None = None,
         permeability: Literal["happel", "kozeny_carman"] | None = None,
@@ -162,6 +163,7 @@ def aggregate(
         envelope: envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, alpha, enclosing_sphere, gyration_sphere (default surface_hull)
         envelope_every: particles between two rows of porosity; alpha, wrap: seconds each (1 to 1e+09; default 1)
         solid_union: measure the volume of the union too, which takes sampling where grains overlap (default True)
+        fall_speed: settling velocity in each row of porosity too, which takes the extent each time (default False)
         envelope_rays: rays of the published envelope (10 to 1e+08; default 10000)
         envelope_length: radius of the ball of the wrap and alpha envelopes, which need it (m; 0 to 1e+06; default 0.0)
         permeability: permeability by porosity and grain size, for the settling velocity that it allows (happel, kozeny_carman; default happel)
@@ -613,7 +615,7 @@ def evolve(
         young: Quantity | None = None,
         poisson: float | None = None,
         structure: bool | None = None,
-        meeting: Literal["auto", "ballistic", "diffusive", "central"] | None = None,
+        meeting: Literal["auto", "ballistic", "diffusive", "central", "reaction"] | None = None,
         walk_step: float | None = None,
         max_tries: int | None = None,
         duration: Quantity | None = None,
@@ -622,6 +624,7 @@ def evolve(
         time_step: Quantity | None = None,
         seed: int | None = None,
         keep: int | None = None,
+        bed_width: Quantity | None = None,
         frames: int | None = None,
         checkpoint_time: Quantity | None = None,
         resume: Text | None = None,
@@ -682,15 +685,16 @@ def evolve(
         young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
         poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
         structure: aggregates keep their grains as they touch; no: drops that merge (default True)
-        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section (auto, ballistic, diffusive, central; default auto)
+        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section; reaction: all contacts alike, as where few touches stick (auto, ballistic, diffusive, central, reaction; default auto)
         walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
-        max_tries: paths tried before a pair is given up, in thousands; of central lines: one by one (1 to 1e+06; default 100)
+        max_tries: paths or contacts tried before a pair is given up, in thousands; central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
         step_error: share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
+        bed_width: width of the column in deposit.h5 (that of its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)
@@ -1059,6 +1063,9 @@ def pack(
         still_speed: Quantity | None = None,
         max_steps: int | None = None,
         max_damping_time: Quantity | None = None,
+        wall: Texts | None = None,
+        outlet: Texts | None = None,
+        wall_forces: bool | None = None,
         stages: Texts | None = None,
         load_rate: Quantity | None = None,
         load_tolerance: float | None = None,
@@ -1156,7 +1163,10 @@ def pack(
         still_speed: of the fastest grain (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
-        stages: stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
+        wall: walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2 (no default)
+        outlet: half-spaces whose grains leave and are counted: z<-10mm (no default)
+        wall_forces: force and torque on all walls over time, also where none moves: walls.csv (default False)
+        stages: stages that load a bed, one after the other; between walls: NAME (its motion runs), NAME=10kPa, NAME=5N, NAME=1mm/s (where it presses), open NAME, hold; then until rest, time T, stress P, way D or mass M. In domain cell: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
         load_rate: rate of strain at which a pressure is approached, at most (1/s; 1e-09 to 1e+09; default 1.0)
         load_tolerance: share of a pressure within which it is reached (1e-09 to 1; default 0.01)
         load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)

@@ -127,6 +127,8 @@ const clast_field clast_aggregate_fields[] = {
           "particles between two rows of porosity; alpha, wrap: seconds each"),
     {FIELD(BOOL, params., solid_union), 1, 0, 1, "-",
      "measure the volume of the union too, which takes sampling where grains overlap", NULL},
+    {FIELD(BOOL, params., fall_speed), 0, 0, 1, "-",
+     "settling velocity in each row of porosity too, which takes the extent each time", NULL},
     COUNT(params., envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(params., envelope_length, 0, 0, 1e6, "m",
            "radius of the ball of the wrap and alpha envelopes, which need it"),

@@ -41,6 +41,9 @@ static clast_status add_columns(clast_aggregate *a)
         (void)snprintf(name, sizeof name, "%s_m3", clast_envelope_name(a->kind[k]));
         CLX_TRY(clx_history_column(&a->history, name, "m^3"));
     }
+    if (a->params->fall_speed) {
+        CLX_TRY(clx_history_column(&a->history, "settling_velocity_m/s", "m/s"));
+    }
 done:
     return status;
 }
@@ -86,6 +89,23 @@ static void fill_row(const clast_aggregate *a, double mass, double solid,
     }
 }
 
+/// The settling velocity of these grains, into the row's last column.
+static clast_status fill_speed(const clast_aggregate *a, const clast_assembly *grains, double *row)
+{
+    clast_status status = CLAST_OK;
+    const double *at = &row[CLX_HISTORY_FIXED];
+    clast_extent extent;
+    clast_drag drag;
+    if (!a->params->fall_speed) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_assembly_extent(grains, &extent));
+    CLX_TRY(
+        clx_aggregate_fall_speed(extent.width, at[0], at[1], &drag, &row[a->history.n_column - 1]));
+done:
+    return status;
+}
+
 /// Rows that are not asked for hold no envelope.
 static bool is_measured(clast_aggregate *a, double *row)
 {
@@ -105,6 +125,7 @@ clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row)
     if (is_measured(a, row)) {
         CLX_TRY(clx_envelope_tracker_now(a->tracker, &a->assembly, envelope));
         fill_row(a, a->mass, a->volume, envelope, row);
+        CLX_TRY(fill_speed(a, &a->assembly, row));
     }
 done:
     a->envelope_s += clx_clock() - begun;
@@ -173,6 +194,7 @@ clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster
         CLX_TRY(view(a, cluster, &grains));
         CLX_TRY(measure_envelope(a, &grains, ROW_TOLERANCE, envelope));
         fill_row(a, cluster->mass, cluster->volume, envelope, row);
+        CLX_TRY(fill_speed(a, &grains, row));
     }
 done:
     free_view(&grains);

@@ -4,7 +4,6 @@
 // where there is none: clusters). Its grain size is Sauter's mean of the placed grains.
 #include "aggregate/state.h"
 
-#include <clast/settling.h>
 #include <math.h>
 #include <string.h>
 
@@ -104,18 +103,28 @@ done:
     return status;
 }
 
+clast_status clx_aggregate_fall_speed(const double width[3], double diameter, double density,
+                                      clast_drag *drag, double *velocity)
+{
+    clast_status status = CLAST_OK;
+    clast_settling settling;
+    const clast_fluid air = clast_fluid_air();
+    CLX_TRY(
+        clast_drag_of_form(width[0], width[1], width[2], diameter, density / air.density, drag));
+    CLX_TRY(clast_terminal_velocity(diameter, density, drag, &air, &settling));
+    *velocity = settling.velocity;
+done:
+    return status;
+}
+
 clast_status clx_aggregate_measure_settling(const clast_aggregate *a, const clast_assembly *grains,
                                             const double width[3], clast_aggregate_result *r)
 {
     clast_status status = CLAST_OK;
     clast_drag drag;
-    clast_settling settling;
     const clast_fluid air = clast_fluid_air();
     r->permeability = r->drag_permeable = r->settling_velocity_permeable = (double)NAN;
-    CLX_TRY(clast_drag_of_form(width[0], width[1], width[2], r->d_agg, r->density / air.density,
-                               &drag));
-    CLX_TRY(clast_terminal_velocity(r->d_agg, r->density, &drag, &air, &settling));
-    r->settling_velocity = settling.velocity;
+    CLX_TRY(clx_aggregate_fall_speed(width, r->d_agg, r->density, &drag, &r->settling_velocity));
     CLX_TRY(permeable(a, grains, &drag, &air, r));
 done:
     return status;

@@ -89,22 +89,11 @@ static double settling(const clast_medium *m, const clast_collider *a, const cla
            fabs(clx_settling_speed_of(m, a) - clx_settling_speed_of(m, b));
 }
 
-/// Velocity variance of a particle: its own, or the fluid's damped by its Stokes response time,
-/// U^2 / (1 + 1.5 tau eps / U^2).                                          [Abrahamson1975]
-static double variance(const clast_medium *m, const clast_collider *a)
-{
-    if (a->speed_rms > 0.0) {
-        return a->speed_rms * a->speed_rms;
-    }
-    const double u2 = m->speed_rms * m->speed_rms;
-    const double tau = clx_response_time(m, a);
-    return u2 > 0.0 ? u2 / (1.0 + 1.5 * tau * m->dissipation / u2) : 0.0;
-}
-
 static double inertial(const clast_medium *m, const clast_collider *a, const clast_collider *b)
 {
     const double r = contact(a, b);
-    return sqrt(8.0 * CLAST_PI * (variance(m, a) + variance(m, b))) * r * r;
+    return sqrt(8.0 * CLAST_PI * (clx_velocity_variance(m, a) + clx_velocity_variance(m, b))) * r *
+           r;
 }
 
 static double ballistic(const clast_medium *m, const clast_collider *a, const clast_collider *b)

@@ -6,9 +6,11 @@
 // Integer sums, and sums of numbers in the order of the points and in fixed blocks of cells: the
 // same bytes for any number of threads.
 #include "base/alloc.h"
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "cloud/pair_cells.h"
 #include "cloud/pair_edge.h"
+#include <clast/cloud.h>
 #include <clast/pairs.h>
 #include <float.h>
 #include <math.h>
@@ -163,6 +165,20 @@ static void measure_steps(double side, double part, double square[WIDTH])
     }
 }
 
+/// clx_pair_edge_weight, in a box without a call.
+static inline double edge_weight(const clast_domain *d, const double *x, const double *y)
+{
+    double weight = 1.0;
+    if (d->kind != CLAST_DOMAIN_BOX) {
+        return clx_pair_edge_weight(d, x, y);
+    }
+    for (int32_t j = 0; j < d->dimension; ++j) {
+        const double image = x[j] + x[j] - y[j];
+        weight *= image < d->low[j] || image > d->high[j] ? 2.0 : 1.0;
+    }
+    return weight;
+}
+
 static void weigh_pair(walk *p, int32_t k, double r2)
 {
     const job *w = p->job;
@@ -172,8 +188,7 @@ static void weigh_pair(walk *p, int32_t k, double r2)
         y[j] = p->lanes.x[j][k];
     }
     const double *x = p->lanes.at;
-    const double h =
-        0.5 * (clx_pair_edge_weight(w->domain, x, y) + clx_pair_edge_weight(w->domain, y, x));
+    const double h = 0.5 * (edge_weight(w->domain, x, y) + edge_weight(w->domain, y, x));
     p->extra[shell] += h - 1.0;
     p->extra2[shell] += h * h - 1.0;
 }
@@ -226,25 +241,31 @@ static void add_rows(walk *p)
     }
 }
 
+/// Products of a point's sums in any two shells; [n_shell] each.
+CLX_FOR_EACH_MACHINE
+static void add_joint(int32_t n_shell, const double *weight, clx_pair_sum *sum)
+{
+    for (int32_t k = 0; k < n_shell; ++k) {
+        const double own = weight[k];
+        for (int32_t l = 0; own > 0.0 && l <= k; ++l) {
+            sum[k].joint[l] += own * weight[l];
+        }
+    }
+}
+
 static void gather_point(const walk *p, clx_pair_sum *sum)
 {
-    int32_t met[CLAST_MAX_SHELL];
     double weight[CLAST_MAX_SHELL];
-    int32_t n_met = 0;
     for (int32_t k = 0; k < p->job->n_shell; ++k) {
-        if (p->count[k] == 0) {
-            continue;
+        weight[k] = p->count[k] > 0 ? p->count[k] + p->extra[k] : 0.0;
+        if (p->count[k] > 0) {
+            sum[k].pairs += p->count[k];
+            sum[k].squares += (int64_t)p->count[k] * p->count[k];
+            sum[k].weight += weight[k];
+            sum[k].weight2 += p->count[k] + p->extra2[k];
         }
-        weight[n_met] = p->count[k] + p->extra[k];
-        met[n_met++] = k;
-        for (int32_t l = 0; l < n_met; ++l) {
-            sum[k].joint[met[l]] += weight[n_met - 1] * weight[l];
-        }
-        sum[k].pairs += p->count[k];
-        sum[k].squares += (int64_t)p->count[k] * p->count[k];
-        sum[k].weight += weight[n_met - 1];
-        sum[k].weight2 += p->count[k] + p->extra2[k];
     }
+    add_joint(p->job->n_shell, weight, sum);
 }
 
 /// A row's points behind those that are there, and some beyond its end, over which the next row

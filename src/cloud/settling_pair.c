@@ -11,6 +11,16 @@ double clx_response_time(const clast_medium *m, const clast_collider *a)
            (6.0 * CLAST_PI * m->viscosity * a->radius);
 }
 
+double clx_velocity_variance(const clast_medium *m, const clast_collider *a)
+{
+    if (a->speed_rms > 0.0) {
+        return a->speed_rms * a->speed_rms;
+    }
+    const double u2 = m->speed_rms * m->speed_rms;
+    const double tau = clx_response_time(m, a);
+    return u2 > 0.0 ? u2 / (1.0 + 1.5 * tau * m->dissipation / u2) : 0.0;
+}
+
 double clast_kernel_settling_speed(const clast_medium *m, const clast_collider *a)
 {
     if (m == NULL || a == NULL) {

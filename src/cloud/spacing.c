@@ -319,7 +319,8 @@ done:
 }
 
 /// Least of all ranks' distances, on each of them.
-static clast_status measure(const clx_part *part, const asked *query, int64_t n, double **best)
+static clast_status measure_distances(const clx_part *part, const asked *query, int64_t n,
+                                      double **best)
 {
     clast_status status = CLAST_OK;
     double *own = NULL;
@@ -378,7 +379,7 @@ static clast_status test(const clx_part *part, clast_spacing *result)
         stride = stride / 2 > 1 ? stride / 2 : 1;
         CLX_TRY(choose(part, stride, &query, &n));
     }
-    CLX_TRY(measure(part, query, n, &best));
+    CLX_TRY(measure_distances(part, query, n, &best));
     compare(part, query, n, best, result);
 done:
     clx_free(query);

@@ -26,7 +26,7 @@ static void ellipsoid_support(const double axes[3], const double d[3], double x[
     v3_set(x, axes[0] * s[0] * inverse, axes[1] * s[1] * inverse, axes[2] * s[2] * inverse);
 }
 
-static void put(const clx_seen *body, const double local[3], double x[3])
+static void seen_to_world(const clx_seen *body, const double local[3], double x[3])
 {
     v3_copy(x, local);
     if (body->is_turned) {
@@ -42,8 +42,8 @@ void clx_mink_of(const clx_gjk_pair *pair, int32_t vert_a, int32_t vert_b, clx_m
     double a[3], b[3];
     v3_scale(a, pair->a.scale, pair->a.core->vert[vert_a]);
     v3_scale(b, pair->b.scale, pair->b.core->vert[vert_b]);
-    put(&pair->a, a, a);
-    put(&pair->b, b, out->b);
+    seen_to_world(&pair->a, a, a);
+    seen_to_world(&pair->b, b, out->b);
     v3_sub(out->w, a, out->b);
     out->vert[0] = vert_a;
     out->vert[1] = vert_b;
@@ -65,7 +65,7 @@ static int32_t body_support(clx_seen *body, const double d[3], double x[3])
     } else {
         ellipsoid_support(body->semi_axes, own, local);
     }
-    put(body, local, x);
+    seen_to_world(body, local, x);
     return vert;
 }
 

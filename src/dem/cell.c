@@ -190,10 +190,13 @@ void clx_cell_end_step(clast_dem *dem)
         cell->side[c] += dt * cell->rate[c];
         cell->inverse[c] = 1.0 / cell->side[c];
     }
+    // of the shift's speed, what strains x alone is no shear
+    cell->sheared +=
+        dt * (cell->shear - cell->rate[0] * (cell->shift * cell->inverse[0])) * cell->inverse[2];
     cell->shift += dt * cell->shear;
-    cell->sheared += dt * cell->shear * cell->inverse[2];
-    if (fabs(cell->shift) > 0.5 * cell->side[0]) {
-        cell->shift -= copysign(cell->side[0], cell->shift); // the same images, counted anew
+    if (fabs(cell->shift) > 0.5 * cell->side[0]) { // the same images, counted anew
+        cell->shear -= copysign(1.0, cell->shift) * cell->rate[0];
+        cell->shift -= copysign(cell->side[0], cell->shift);
     }
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         wrap_grain(dem, i);

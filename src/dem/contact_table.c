@@ -13,7 +13,7 @@ static const struct {
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
 /// Numbers of one contact, from copies, so that its history stays; false if it is none.
-static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N_COLUMN])
+static bool measure_contact(const clast_dem *dem, const clx_dem_pair *pair, double out[N_COLUMN])
 {
     clx_dem_pair copy = *pair;
     const clx_contact_history *own = clx_pair_history(dem, pair);
@@ -57,7 +57,7 @@ clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
     int64_t row = 0;
     for (int64_t k = 0; k < dem->list.n_pair; ++k) {
         double value[N_COLUMN];
-        if (measure(dem, &dem->list.pair[k], value)) {
+        if (measure_contact(dem, &dem->list.pair[k], value)) {
             for (int c = 0; c < N_COLUMN; ++c) {
                 made.column[c].number[row] = value[c];
             }

@@ -252,6 +252,7 @@ CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
     const clx_grain *grain = dem->grain;
     const double *travel = dem->travel;
     const bool has_container = dem->container != NULL;
+    const double of_walls = dem->walls.path;
     clx_active_pair *to = active;
     uint16_t *end[CLX_N_BATCH];
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
@@ -266,7 +267,7 @@ CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
         }
         const bool is_plain = (is_packed || dem->item == NULL) && pair->b >= 0;
         const clx_batch_kind kind = is_plain ? kind_of(grain, pair) : CLX_BATCH_ANY;
-        const double other = pair->b >= 0 ? travel[grain_of(dem, is_packed, pair->b)] : 0.0;
+        const double other = pair->b >= 0 ? travel[grain_of(dem, is_packed, pair->b)] : of_walls;
         const double path = travel[grain_of(dem, is_packed, pair->a)] + other;
         const int is_contained = !is_packed && has_container && clx_pair_is_container(dem, pair);
         const int is_active = !(path < pair->active_from) & !is_contained;
@@ -336,7 +337,7 @@ static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     CLAST_ASSERT(n >= 1 && n <= PIECE);
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0 &&
-                         dem->cell == NULL; // whose images have velocities
+                         !clx_walls_move(dem); // those have velocities
     const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {

@@ -6,23 +6,76 @@
 #include "dem/dem.h"
 #include "dem/pair_force.h"
 #include "geom/whole.h"
+#include <string.h>
 
 /// Contacts whose normals are closer than this cosine are one (25 degrees, as in
 /// convex/wall_mesh.c).
 static const double SAME_NORMAL = 0.9;
 
+void clx_container_destroy(clx_container *container)
+{
+    if (container != NULL) {
+        clx_free(container->tri);
+        clx_free(container->owner);
+        clx_free(container);
+    }
+}
+
+/// Takes a surface over as the last wall: its triangles follow those that are there.
+static clast_status append(clast_dem *dem, clx_wall_mesh **mesh)
+{
+    clast_status status = CLAST_OK;
+    clx_walls *walls = &dem->walls;
+    clx_container *all = dem->container;
+    const int64_t n = (int64_t)all->n_tri + (*mesh)->n_tri;
+    CLX_CHECK(n < INT32_MAX - dem->n_wall - 1, CLAST_E_LIMIT, "walls of %lld triangles",
+              (long long)n);
+    CLX_TRY(clx_realloc(&all->tri, n, sizeof *all->tri));
+    CLX_TRY(clx_realloc(&all->owner, n, sizeof *all->owner));
+    CLX_TRY(clx_realloc(&walls->body, walls->n + 1, sizeof *walls->body));
+    clx_wall_body *body = &walls->body[walls->n];
+    *body = (clx_wall_body){.mesh = *mesh, .first = all->n_tri};
+    for (int k = 0; k < 3; ++k) {
+        body->turn[k][k] = 1.0;
+    }
+    for (int32_t i = all->n_tri; i < n; ++i) {
+        all->tri[i] = body->mesh->tri[i - body->first];
+        all->owner[i] = walls->n - dem->n_wall;
+    }
+    all->n_tri = (int32_t)n;
+    ++walls->n;
+    *mesh = NULL;
+done:
+    return status;
+}
+
+clast_status clast_dem_add_wall(clast_dem *dem, const clast_mesh *mesh, int32_t *wall)
+{
+    CLX_ARGUMENTS(dem, mesh, wall);
+    CLX_WHOLE(mesh, mesh);
+    clast_status status = CLAST_OK;
+    clx_wall_mesh *made = NULL;
+    CLX_CHECK(dem->n_grain == 0, CLAST_E_USAGE, "walls are added before the first grain");
+    CLX_CHECK(dem->cell == NULL, CLAST_E_CONFIG, "domain cell has no walls");
+    CLX_TRY(clx_walls_begin(dem));
+    CLX_TRY(clx_wall_mesh_create(mesh, &made));
+    if (dem->container == NULL) {
+        CLX_TRY(clx_alloc(&dem->container, 1, sizeof *dem->container));
+    }
+    CLX_TRY(append(dem, &made));
+    *wall = dem->walls.n - 1;
+done:
+    clx_wall_mesh_destroy(made);
+    return status;
+}
+
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 {
     CLX_ARGUMENTS(dem, mesh);
-    CLX_WHOLE(mesh, mesh);
-    clast_status status = CLAST_OK;
-    CLX_CHECK(dem->container == NULL && dem->n_grain == 0, CLAST_E_USAGE,
-              "a container is given once, before the first grain");
-    CLX_TRY(clx_wall_mesh_create(mesh, &dem->container));
-    CLX_CHECK(dem->container->n_tri < INT32_MAX - dem->n_wall - 1, CLAST_E_LIMIT,
-              "a container of %d triangles", dem->container->n_tri);
-done:
-    return status;
+    int32_t wall = 0;
+    return dem->container != NULL || dem->n_grain > 0
+               ? clx_fail(CLAST_E_USAGE, "a container is given once, before the first grain")
+               : clast_dem_add_wall(dem, mesh, &wall);
 }
 
 int64_t clx_container_end(const clast_dem *dem, int32_t i)
@@ -157,7 +210,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     candidates p = {.n = 0};
     clx_convex ball;
     const clx_placed body = place(dem, i, &ball);
-    const double travel = dem->travel[clx_item_grain(dem, i)];
+    const double travel = dem->travel[clx_item_grain(dem, i)] + dem->walls.path;
     const double near = 0.1 * clx_item_radius(dem, i);
     for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
         clx_dem_pair *pair = &dem->list.pair[k];
@@ -195,14 +248,27 @@ clast_status clx_container_find(clast_dem *dem, int32_t i)
     CLAST_ASSERT(dem->container != NULL && dem->list.is_stale[i] != 0);
     clast_status status = CLAST_OK;
     clx_neighbour_list *l = &dem->list;
-    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;
-    const double *x = l->anchor[i].position;
-    const int32_t n = clx_wall_mesh_near(dem->container, x, cutoff, 0, NULL);
-    CLX_TRY(clx_grow(&l->triangle, &l->triangle_capacity, n, sizeof *l->triangle));
-    (void)clx_wall_mesh_near(dem->container, x, cutoff, n, l->triangle);
-    CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
-    for (int32_t k = 0; k < n; ++k) {
-        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->triangle[k]};
+    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin + dem->walls.margin;
+    for (int32_t w = dem->n_wall; w < dem->walls.n; ++w) {
+        const clx_wall_body *wall = &dem->walls.body[w];
+        double x[3];
+        double arm[3];
+        v3_copy(x, l->anchor[i].position);
+        if (wall->runs || wall->clock > 0 || v3_norm2(wall->offset) > 0.0 || wall->motion.n > 0) {
+            double turn[3][3];
+            memcpy(turn, wall->turn, sizeof turn);
+            v3_sub(arm, x, wall->pivot);
+            m3_to_local(x, turn, arm);
+            v3_add(x, x, wall->motion.pivot);
+        }
+        const int32_t n = wall->is_open ? 0 : clx_wall_mesh_near(wall->mesh, x, cutoff, 0, NULL);
+        CLX_TRY(clx_grow(&l->triangle, &l->triangle_capacity, n, sizeof *l->triangle));
+        (void)clx_wall_mesh_near(wall->mesh, x, cutoff, n, l->triangle);
+        CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
+        for (int32_t k = 0; k < n; ++k) {
+            l->found[l->n_found++] =
+                (clx_found){.a = i, .b = -1 - dem->n_wall - wall->first - l->triangle[k]};
+        }
     }
 done:
     return status;

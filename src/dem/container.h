@@ -6,6 +6,15 @@
 
 enum { CLX_CONTAINER_TOUCHES = 16 };
 
+/// The triangles of all surfaces, where they are now.
+typedef struct clx_container {
+    int32_t n_tri;
+    clx_wall_triangle *tri; ///< [n_tri]
+    int32_t *owner;         ///< [n_tri] surface of each: dem->walls.body[n_wall + owner]
+} clx_container;
+
+void clx_container_destroy(clx_container *container); ///< NULL is allowed
+
 typedef struct clx_container_touch {
     clx_dem_touch touch;
     int64_t pair;

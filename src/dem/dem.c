@@ -2,6 +2,7 @@
 #include <clast/dem.h>
 
 #include "base/alloc.h"
+#include "dem/container.h"
 #include "dem/dem.h"
 #include "dem/energy.h"
 #include "dem/fluid.h"
@@ -40,7 +41,8 @@ void clast_dem_destroy(clast_dem *dem)
     }
     clx_ranks_destroy(dem->ranks);
     clx_neighbour_list_free(&dem->list);
-    clx_wall_mesh_destroy(dem->container);
+    clx_container_destroy(dem->container);
+    clx_walls_free(&dem->walls);
     clx_inner_free(&dem->inner);
     clx_sweeping_free(&dem->sweeping);
     clx_free(dem->body);
@@ -91,6 +93,9 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     }
     for (int32_t w = 0; w < dem->n_wall; ++w) {
         double normal[3];
+        if (dem->walls.n > 0 && dem->walls.body[w].is_open) {
+            continue;
+        }
         CLX_CHECK(clx_wall_distance(&dem->wall[w], g->position, normal) > 0.0, CLAST_E_GEOMETRY,
                   "grain %lld begins outside of the domain, at %g, %g, %g m", (long long)number,
                   g->position[0], g->position[1], g->position[2]);
@@ -104,9 +109,9 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     clast_status status = CLAST_OK;
     CLX_CHECK(g->shape >= 0 && g->shape < dem->n_body, CLAST_E_USAGE,
               "grain %lld: there is no shape %d", (long long)number, g->shape);
-    CLX_CHECK(all_finite(g->position, 3) && all_finite(g->velocity, 3) && all_finite(g->spin, 3) &&
-                  all_finite(g->orientation, 4) && g->scale > 0.0 && isfinite(g->scale) &&
-                  g->density > 0.0 && isfinite(g->density),
+    CLX_CHECK(all_finite(g->position, 3) && all_finite(g->velocity, 3) &&
+                  all_finite(g->angular_velocity, 3) && all_finite(g->orientation, 4) &&
+                  g->scale > 0.0 && isfinite(g->scale) && g->density > 0.0 && isfinite(g->density),
               CLAST_E_USAGE, "grain %lld: numbers that are not finite, or a size or density of 0",
               (long long)number);
     const double *q = g->orientation;
@@ -151,14 +156,14 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
                      .kind = (int32_t)body->shape.kind};
     v3_copy(g->position, from->position);
     v3_copy(g->velocity, from->velocity);
-    v3_copy(g->omega, from->spin);
+    v3_copy(g->omega, from->angular_velocity);
     *m = (clx_motion){.inertia_factor = from->density * s * s * s * s * s,
                       .volume = volume,
                       .density = from->density};
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
     q_matrix(g->turn, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
-    m3_to_local(in_body, g->turn, from->spin);
+    m3_to_local(in_body, g->turn, from->angular_velocity);
     m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
     m3_to_world(m->angular, g->turn, momentum);
@@ -212,8 +217,8 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 //   5. contacts         gap and normal of each active pair, its contact law, force and torques
 //   6. motion           sums, then velocities, positions and orientations; who has used up what
 // 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
-// contacts share their stiffness, a container has triangles, contacts are verified, or their energy
-// is booked.
+// contacts share their stiffness, walls have triangles or are watched, contacts are verified, or
+// their energy is booked.
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
@@ -237,7 +242,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         if (dem->cell != NULL) { // after the lists, which hold from before its images move
             clx_cell_begin_step(dem);
         }
+        clx_walls_begin_step(dem);
         CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
+        clx_walls_end_step(dem);
         if (dem->cell != NULL) {
             clx_cell_end_step(dem);
         }
@@ -286,6 +293,6 @@ void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grai
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};
     v3_copy(grain->position, g->position);
     v3_copy(grain->velocity, g->velocity);
-    v3_copy(grain->spin, g->omega);
+    v3_copy(grain->angular_velocity, g->omega);
     memcpy(grain->orientation, m->orientation, sizeof m->orientation);
 }

@@ -39,10 +39,11 @@ struct clast_dem {
     double stride; ///< share of its radius that a grain may move in a step: clx_law_speed, greatest
     int32_t n_wall;
     clx_wall wall[CLX_MAX_WALL];
-    double period[2];         ///< widths of a periodic domain, else 0
-    double inverse_period[2]; ///< 1 over them, else 0
-    clx_periodic_cell *cell;  ///< of a domain that is periodic in three directions, or NULL
-    clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
+    double period[2];                ///< widths of a periodic domain, else 0
+    double inverse_period[2];        ///< 1 over them, else 0
+    clx_periodic_cell *cell;         ///< of a domain that is periodic in three directions, or NULL
+    struct clx_container *container; ///< or NULL; its triangle t is item -1 - n_wall - t
+    clx_walls walls;                 ///< as bodies, where they move or are watched
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
     bool has_items;     ///< some shape is a clump or rigid grain: items are not grains

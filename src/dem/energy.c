@@ -78,11 +78,17 @@ static double translation_of(const clast_dem *dem, int32_t i, const double veloc
     return 0.5 * dem->grain[i].mass * clx_heavier(dem, &dem->motion[i]) * v3_norm2(velocity);
 }
 
-/// Relative velocity of the image of b, by the cell that moves.
+/// Velocity of b's surface beside that of its grain: of its image, by the cell that moves; of a
+/// wall.
 static void image_velocity(const clast_dem *dem, const clx_dem_pair *pair, const clx_dem_touch *t,
                            double out[3])
 {
     v3_set(out, 0.0, 0.0, 0.0);
+    if (pair->b < 0 && clx_walls_move(dem)) {
+        double x[3];
+        v3_add(x, dem->grain[clx_item_grain(dem, pair->a)].position, t->arm_a);
+        clx_wall_velocity(clx_wall_of(dem, pair->b), x, out);
+    }
     if (dem->cell != NULL && pair->b >= 0) {
         clx_cell_velocity(dem->cell, &dem->grain[clx_item_grain(dem, pair->a)],
                           &dem->grain[clx_item_grain(dem, pair->b)], t->arm_a, t->arm_b, out);
@@ -258,7 +264,8 @@ static void book_grain(const clast_dem *dem, int32_t i, double shake, double sum
 typedef struct {
     double velocity[3];
     double apart; ///< along the normal
-    double work, rolling, cell;
+    double work, rolling;
+    double cell; ///< of the image's motion, or of the wall's
 } moved;
 
 static moved move_of(const clast_dem *dem, const clx_dem_pair *pair, const clx_dem_touch *t,
@@ -296,6 +303,11 @@ static moved move_of(const clast_dem *dem, const clx_dem_pair *pair, const clx_d
         v3_cross(torque, t->arm_b, turning);
         v3_sub(torque, f->torque_b, torque);
         v3_sub(w, b->omega, a->omega);
+        if (pair->b < 0 && clx_walls_move(dem)) {
+            const clx_wall_body *wall = clx_wall_of(dem, pair->b);
+            v3_add(w, w, wall->omega);
+            out.cell += dt * v3_dot(torque, wall->omega);
+        }
         out.rolling = dt * v3_dot(torque, w);
     }
     return out;
@@ -337,7 +349,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     sum[CLX_WORK_NORMAL] += spring;
     sum[CLX_WORK_PULL] += pull;
     sum[CLX_WORK_TANGENTIAL] += across;
-    sum[CLX_WORK_CELL] -= by.cell;
+    sum[pair->b < 0 ? CLX_WORK_WALLS : CLX_WORK_CELL] -= by.cell;
     sum[CLX_LOST_DAMPING + wall] -= normal - spring - pull;
     sum[CLX_LOST_ROLLING + wall] -= by.rolling;
     if (v3_norm2(slip) > SLIDES * SLIDES * v3_norm2(trial)) {
@@ -460,6 +472,8 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
                           .gravity = sum[CLX_WORK_GRAVITY],
                           .shaking = sum[CLX_WORK_SHAKING],
                           .cell = sum[CLX_WORK_CELL],
+                          .walls = sum[CLX_WORK_WALLS],
+                          .left = sum[CLX_LEFT],
                           .fluid = sum[CLX_LOST_FLUID],
                           .calming = sum[CLX_LOST_CALM]};
     double lost = 0.0;
@@ -471,8 +485,8 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
     }
     e.scheme = sum[CLX_LOST_SLIDING] - e.friction[0] - e.friction[1] - sum[CLX_WORK_NORMAL] -
                sum[CLX_WORK_TANGENTIAL] - now.normal - now.tangential - sum[CLX_MADE_BY_TURNING];
-    e.put_in = e.made + e.gravity + e.shaking + e.cell;
+    e.put_in = e.made + e.gravity + e.shaking + e.cell + e.walls;
     e.rest = e.put_in - (e.translation + e.rotation + e.normal_springs + e.tangential_springs +
-                         e.attraction + lost + e.fluid + e.calming + e.scheme);
+                         e.attraction + lost + e.fluid + e.calming + e.left + e.scheme);
     *energy = e;
 }

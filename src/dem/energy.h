@@ -21,6 +21,8 @@ typedef enum {
     CLX_LOST_FLUID,
     CLX_LOST_CALM,
     CLX_MADE_BY_TURNING, ///< of bodies that are no spheres, in finite steps
+    CLX_WORK_WALLS,      ///< of walls that move
+    CLX_LEFT,            ///< of grains that were taken out
     CLX_N_WORK
 } clx_work;
 

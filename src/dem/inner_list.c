@@ -97,7 +97,8 @@ static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context
         inner->begin[i] = n;
         for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
             const clx_dem_pair *pair = pair_now(dem, k, &old);
-            const double other = pair->b >= 0 ? inner->until[clx_item_grain(dem, pair->b)] : 0.0;
+            const double other =
+                pair->b >= 0 ? inner->until[clx_item_grain(dem, pair->b)] : dem->walls.until;
             const bool may_be_active = pair->active_from <= own + other;
             to[n] = (int32_t)k;
             n += may_be_active ? 1 : 0;
@@ -319,6 +320,7 @@ clast_status clx_inner_find(clast_dem *dem)
         clx_grow_lines(&inner->total, &inner->total_capacity, n_grain + 1, sizeof *inner->total));
     memset(inner->total, 0, (size_t)n_grain * sizeof *inner->total);
     clx_dem_for(dem, n_grain, BLOCK, set_until, dem);
+    clx_walls_look_ahead(dem);
     CLX_TRY(pick(dem));
     CLX_TRY(assign_slots(dem));
     if (inner->is_packed) {

@@ -100,6 +100,7 @@ static void sum_contacts(int64_t n, const contact *row, clast_dem_load *load)
             const double along = c->branch[i] * c->normal[i];
             load->modulus[i] += c->stiffness * along * along;
         }
+        load->shear_modulus += c->stiffness * c->branch[2] * c->branch[2];
         load->n_contact += c->is_first && c->b >= 0 ? 1 : 0;
         load->n_force += c->b >= 0 ? 1 : 0;
     }
@@ -243,9 +244,10 @@ static void measure_volume(const clast_dem *dem, clast_dem_load *load)
     for (int i = 0; i < 3; ++i) {
         load->modulus[i] /= load->volume;
     }
+    load->shear_modulus /= load->volume;
 }
 
-static clast_status measure(const clast_dem *dem, bool is_whole, clast_dem_load *load)
+static clast_status measure_load(const clast_dem *dem, bool is_whole, clast_dem_load *load)
 {
     clast_status status = CLAST_OK;
     contact *row = NULL;
@@ -269,6 +271,7 @@ static clast_status measure(const clast_dem *dem, bool is_whole, clast_dem_load 
         memset(made.stress, 0, sizeof made.stress);
         memset(made.kinetic_stress, 0, sizeof made.kinetic_stress);
         memset(made.modulus, 0, sizeof made.modulus);
+        made.shear_modulus = 0.0;
     }
     *load = made;
 done:
@@ -278,11 +281,11 @@ done:
 
 clast_status clx_dem_stress(const clast_dem *dem, clast_dem_load *load)
 {
-    return measure(dem, false, load);
+    return measure_load(dem, false, load);
 }
 
 clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load)
 {
     CLX_ARGUMENTS(dem, load);
-    return measure(dem, true, load);
+    return measure_load(dem, true, load);
 }

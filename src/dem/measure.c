@@ -236,6 +236,13 @@ uint64_t clast_dem_hash(const clast_dem *dem)
             h = dem->law.has_history ? mix(h, dem->list.history[k].roll, 4) : h;
         }
     }
+    for (int32_t i = 0; i < dem->walls.n && dem->walls.is_watched; ++i) {
+        const clx_wall_body *w = &dem->walls.body[i];
+        h = mix(h, w->pivot, 3);
+        h = mix(h, &w->angle, 1);
+        h = mix(h, w->impulse, 3);
+        h = mix(h, w->moment, 3);
+    }
     return h;
 }
 

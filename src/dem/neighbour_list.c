@@ -80,11 +80,19 @@ static void set_anchor(clast_dem *dem, int32_t i)
 void clx_neighbour_list_mark(clast_dem *dem)
 {
     clx_neighbour_list *l = &dem->list;
+    clx_walls *walls = &dem->walls;
+    const double margin = clx_walls_margin(dem);
+    const bool have_moved =
+        walls->path - walls->searched > fmin(walls->margin, margin) || margin > walls->margin;
+    if (have_moved) { // all search them anew
+        walls->margin = margin;
+        walls->searched = walls->path;
+    }
     for (int32_t i = 0; i < dem->n_item; ++i) {
         if (clx_are_ghosts(dem, i, i)) {
             continue; // its rank marks it
         }
-        const bool is_within = i < l->n_known && dem->cell == NULL &&
+        const bool is_within = i < l->n_known && dem->cell == NULL && !have_moved &&
                                clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
         l->is_stale[i] = is_within ? 0 : 1;
         if (l->is_stale[i] != 0) {
@@ -117,7 +125,8 @@ static clast_status find_walls(clast_dem *dem, int32_t i)
     for (int32_t w = dem->n_wall - 1; w >= 0; --w) {
         double normal[3];
         const double d = clx_wall_distance(&dem->wall[w], at->position, normal);
-        if (d < clx_item_radius(dem, i) + at->margin) {
+        const bool is_open = dem->walls.n > 0 && dem->walls.body[w].is_open;
+        if (!is_open && d < clx_item_radius(dem, i) + at->margin + dem->walls.margin) {
             CLX_TRY(add_found(&dem->list, (clx_found){.a = i, .b = -1 - w}));
         }
     }

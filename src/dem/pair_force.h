@@ -147,6 +147,19 @@ static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *
     return of_a * of_b / (of_a + of_b);
 }
 
+/// What the motion of a wall adds to a meeting.
+static inline void clx_meet_wall(const clx_wall_body *wall, const clx_grain *a,
+                                 const clx_dem_touch *t, clx_meeting *m)
+{
+    double x[3];
+    double u[3];
+    v3_add(x, a->position, t->arm_a);
+    clx_wall_velocity(wall, x, u);
+    v3_add(m->velocity, m->velocity, u);
+    v3_add(m->roll, m->roll, wall->omega);
+    m->twirl += 0.5 * v3_dot(wall->omega, t->normal);
+}
+
 /// A pair that touches as the law sees it, but for what exact steps limit (clx_hold_pair).
 static inline void clx_meet_pair(const clast_dem *dem, const clx_dem_pair *p,
                                  clx_contact_history *history, const clx_dem_touch *t,
@@ -165,6 +178,9 @@ static inline void clx_meet_pair(const clast_dem *dem, const clx_dem_pair *p,
         double image[3];
         clx_cell_velocity(dem->cell, a, b, t->arm_a, t->arm_b, image);
         v3_add(m->velocity, m->velocity, image);
+    }
+    if (p->b < 0 && clx_walls_move(dem)) {
+        clx_meet_wall(clx_wall_of(dem, p->b), a, t, m);
     }
     if (p->b >= 0) {
         m->mass = a->mass * b->mass / (a->mass + b->mass);

@@ -18,6 +18,9 @@ static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
     if (verifies) {
         clx_verify(dem);
     }
+    if (dem->walls.is_watched) {
+        clx_walls_add_forces(dem);
+    }
     if (dem->energy != NULL) {
         clx_energy_forces(dem);
     }
@@ -32,7 +35,8 @@ done:
 clast_status clx_contacts_and_motion(clast_dem *dem, bool *is_fine)
 {
     const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
-    return verifies || dem->item != NULL || dem->container != NULL || dem->energy != NULL
+    return verifies || dem->item != NULL || dem->container != NULL || dem->energy != NULL ||
+                   dem->walls.is_watched
                ? step_in_passes(dem, verifies, is_fine)
                : clx_sweep(dem, is_fine);
 }

@@ -33,6 +33,8 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLX_CHECK(dem->cell == NULL && dem->energy == NULL, CLAST_E_CONFIG,
               "a cell that repeats in three directions and the energy book are of one process: run "
               "it on one rank");
+    CLX_CHECK(!dem->walls.is_watched, CLAST_E_CONFIG,
+              "walls that move, open or are watched are of one process: run it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
@@ -56,6 +58,7 @@ void clx_ranks_destroy(clx_ranks *r)
         r->local->body = NULL;
         r->local->n_body = 0;
         r->local->container = NULL;
+        r->local->walls = (clx_walls){0};
         r->local->slabs = (clx_slabs){0};
         clast_dem_destroy(r->local);
     }
@@ -86,6 +89,7 @@ static void share_setting(clast_dem *whole)
     local->stride = whole->stride;
     local->step = whole->step;
     local->container = whole->container;
+    local->walls = whole->walls;
     local->body = whole->body;
     local->n_body = whole->n_body;
     local->has_items = whole->has_items;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/lines.h"
+#include "dem/container.h"
 #include "dem/dem.h"
 #include "dem/energy.h"
 #include <string.h>
@@ -19,6 +20,7 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->history);
     clx_free(s->cell);
     clx_free(s->energy);
+    clx_free(s->wall);
     clx_free(s->id);
     clx_free(s->pair);
     clx_free(s->warm_start);
@@ -77,6 +79,81 @@ static void read_cell(const double x[CLX_SAVED_CELL], clx_periodic_cell *cell)
     }
 }
 
+/// Walls as plain numbers, and back.
+static clast_status save_walls(const clast_dem *dem, clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    const clx_walls *all = &dem->walls;
+    if (!all->is_watched) {
+        return CLAST_OK;
+    }
+    s->n_wall = all->n + 1;
+    CLX_TRY(clx_alloc(&s->wall, s->n_wall * CLX_SAVED_WALL, sizeof *s->wall));
+    for (int32_t i = 0; i < all->n; ++i) {
+        const clx_wall_body *w = &all->body[i];
+        double *x = s->wall + (int64_t)i * CLX_SAVED_WALL;
+        x[0] = (double)w->clock;
+        x[1] = w->runs ? 1.0 : 0.0;
+        x[2] = w->is_open ? 1.0 : 0.0;
+        v3_copy(x + 3, w->offset);
+        v3_copy(x + 6, w->drift);
+        v3_copy(x + 9, w->force);
+        v3_copy(x + 12, w->torque);
+        v3_copy(x + 15, w->impulse);
+        v3_copy(x + 18, w->moment);
+        v3_copy(x + 21, w->velocity);
+        v3_copy(x + 24, w->omega);
+        x[27] = w->work;
+    }
+    double *last = s->wall + (int64_t)all->n * CLX_SAVED_WALL;
+    last[0] = all->path;
+    last[1] = isfinite(all->searched) ? all->searched : -1.0;
+    last[2] = all->margin;
+    last[3] = all->can_move ? 1.0 : 0.0;
+done:
+    return status;
+}
+
+static clast_status restore_walls(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_walls *all = &dem->walls;
+    CLX_CHECK(all->is_watched == (s->wall != NULL) && (s->wall == NULL || s->n_wall == all->n + 1),
+              CLAST_E_FORMAT, "the checkpoint's walls are of another configuration");
+    for (int64_t k = 0; k < s->n_wall * CLX_SAVED_WALL; ++k) {
+        CLX_CHECK(isfinite(s->wall[k]), CLAST_E_FORMAT, "wall %lld of the checkpoint is not finite",
+                  (long long)(k / CLX_SAVED_WALL));
+    }
+    for (int32_t i = 0; s->wall != NULL && i < all->n; ++i) {
+        clx_wall_body *w = &all->body[i];
+        const double *x = s->wall + (int64_t)i * CLX_SAVED_WALL;
+        CLX_CHECK(x[0] >= 0.0 && x[0] < 9e15, CLAST_E_FORMAT,
+                  "wall %d of the checkpoint has no time", i);
+        w->clock = (int64_t)x[0];
+        w->runs = x[1] != 0.0;
+        w->is_open = x[2] != 0.0;
+        v3_copy(w->offset, x + 3);
+        v3_copy(w->drift, x + 6);
+        v3_copy(w->force, x + 9);
+        v3_copy(w->torque, x + 12);
+        v3_copy(w->impulse, x + 15);
+        v3_copy(w->moment, x + 18);
+        v3_copy(w->velocity, x + 21);
+        v3_copy(w->omega, x + 24);
+        w->work = x[27];
+        clx_wall_place(dem, i);
+    }
+    if (s->wall != NULL) {
+        const double *last = s->wall + (int64_t)all->n * CLX_SAVED_WALL;
+        all->path = last[0];
+        all->searched = last[1] >= 0.0 ? last[1] : -(double)INFINITY;
+        all->margin = last[2];
+        all->can_move = last[3] != 0.0;
+    }
+done:
+    return status;
+}
+
 /// The cell and the energy book, which few simulations have.
 static clast_status save_extras(const clast_dem *dem, clx_dem_saved *s)
 {
@@ -90,6 +167,7 @@ static clast_status save_extras(const clast_dem *dem, clx_dem_saved *s)
         CLX_TRY(clx_alloc(&s->energy, CLX_N_WORK, sizeof *s->energy));
         memcpy(s->energy, dem->energy->sum, sizeof dem->energy->sum);
     }
+    CLX_TRY(save_walls(dem, s));
 done:
     return status;
 }
@@ -115,6 +193,7 @@ static clast_status restore_extras(clast_dem *dem, const clx_dem_saved *s)
     if (s->energy != NULL) {
         memcpy(dem->energy->sum, s->energy, sizeof dem->energy->sum);
     }
+    CLX_TRY(restore_walls(dem, s));
 done:
     return status;
 }
@@ -186,7 +265,7 @@ static clast_status read_grains(clast_dem *dem, const clx_dem_saved *s)
         clast_dem_grain g = {.shape = s->shape[i], .scale = in[16], .density = in[17]};
         v3_copy(g.position, in);
         v3_copy(g.velocity, in + 3);
-        v3_copy(g.spin, in + 6);
+        v3_copy(g.angular_velocity, in + 6);
         memcpy(g.orientation, in + 9, sizeof g.orientation);
         CLX_TRY(clast_dem_add_grains(dem, 1, &g));
         v3_copy(dem->motion[i].angular, in + 13);

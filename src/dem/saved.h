@@ -9,7 +9,8 @@ enum {
     CLX_SAVED_ID = 5,
     CLX_SAVED_PAIR = 4,
     CLX_SAVED_HISTORY = 4,
-    CLX_SAVED_CELL = 13
+    CLX_SAVED_CELL = 13,
+    CLX_SAVED_WALL = 28
 };
 
 typedef struct clx_dem_saved {
@@ -29,8 +30,11 @@ typedef struct clx_dem_saved {
                   ///< NULL
     double *energy; ///< [n_energy] sums of the energy book, or NULL
     int64_t n_energy;
-    int32_t *id;              ///< [n_pair][5] a, b, image in x and y, flags
-    double *pair;             ///< [n_pair][4] active_from, slide
+    double *wall;   ///< [n_wall][28] of walls that are watched: clock, runs, open, offset, drift,
+                    ///< force, torque, impulse, moment, velocity, omega, work; or NULL
+    int64_t n_wall; ///< one more: the last row is path, searched, margin
+    int32_t *id;    ///< [n_pair][5] a, b, image in x and y, flags
+    double *pair;   ///< [n_pair][4] active_from, slide
     int32_t warm_start_width; ///< bytes of a warm start
     uint8_t *warm_start;      ///< [n_pair][warm_start_width], or NULL while all items are spheres
 } clx_dem_saved;

@@ -15,8 +15,10 @@ static const double SAME_WALL = 0.9;
 static bool is_same_pair(const clast_dem *dem, const clx_dem_pair *p, const clx_dem_pair *q)
 {
     if (clx_pair_is_container(dem, p) && clx_pair_is_container(dem, q)) {
-        return fabs(v3_dot(clx_pair_triangle(dem, p)->normal, clx_pair_triangle(dem, q)->normal)) >
-               SAME_WALL;
+        const int32_t *owner = dem->container->owner;
+        return owner[-1 - p->b - dem->n_wall] == owner[-1 - q->b - dem->n_wall] &&
+               fabs(v3_dot(clx_pair_triangle(dem, p)->normal, clx_pair_triangle(dem, q)->normal)) >
+                   SAME_WALL;
     }
     if (p->b < 0 || q->b < 0) {
         return p->b == q->b;

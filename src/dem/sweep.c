@@ -18,7 +18,8 @@
 /// Grains of a block, whose pair forces stay in the first-level cache.
 enum { BLOCK = CLX_SWEEP_BLOCK };
 
-CLX_INLINE void add(clx_force_torque *to, const double force[4], const double torque[4])
+CLX_INLINE void add_force_torque(clx_force_torque *to, const double force[4],
+                                 const double torque[4])
 {
     lanes_store(to->force, lanes_load(to->force) + lanes_load(force));
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
@@ -67,7 +68,7 @@ CLX_INLINE void add_forces_of(clast_dem *dem, block in, bool has_deferred)
         if (has_deferred && clx_is_deferred(s, b, first)) {
             defer(dem, in.chunk, b, force->force, force->torque_b);
         } else {
-            add(&total[b], force->force, force->torque_b);
+            add_force_torque(&total[b], force->force, force->torque_b);
         }
     }
     for (int64_t g = in.begin; g < in.end; ++g) {
@@ -75,7 +76,7 @@ CLX_INLINE void add_forces_of(clast_dem *dem, block in, bool has_deferred)
         if (has_deferred && clx_is_deferred(s, g, first)) {
             defer(dem, in.chunk, (int32_t)g, to_add->force, to_add->torque);
         } else {
-            add(&total[g], to_add->force, to_add->torque);
+            add_force_torque(&total[g], to_add->force, to_add->torque);
         }
     }
 }
@@ -170,7 +171,8 @@ static void add_contributions(clast_dem *dem, int32_t begin, int32_t end)
         for (int64_t k = from; k < from + n; ++k) {
             const int32_t g = s->contribution_to[k];
             if (g >= begin && g < end) {
-                add(&dem->inner.total[g], s->contribution[k].force, s->contribution[k].torque);
+                add_force_torque(&dem->inner.total[g], s->contribution[k].force,
+                                 s->contribution[k].torque);
             }
         }
     }

@@ -142,13 +142,15 @@ const clast_field clast_evolve_fields[] = {
 
     FLAG(structure, 1, "aggregates keep their grains as they touch; no: drops that merge",
          .group = "aggregates"),
-    CHOICE(meeting, 0, "auto|ballistic|diffusive|central",
-           "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
-           "lines over the cross-section"),
+    CHOICE(
+        meeting, 0, "auto|ballistic|diffusive|central|reaction",
+        "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
+        "lines over the cross-section; reaction: all contacts alike, as where few touches stick"),
     NUMBER(walk_step, 0.1, 1e-4, 1, "-",
            "diffusive: least step of the walk, in radii of the smallest thrown grain"),
     COUNT(max_tries, 100, 1, 1e6,
-          "paths tried before a pair is given up, in thousands; of central lines: one by one"),
+          "paths or contacts tried before a pair is given up, in thousands; central lines: one by "
+          "one"),
 
     NUMBER(duration, 0, 0, 1e300, "s", "time that passes at most", .common = true, .group = "time"),
     COUNT(rows, 50, 1, 1e6, "rows of the tables over it"),
@@ -161,6 +163,10 @@ const clast_field clast_evolve_fields[] = {
     COUNT(keep, 20, 0, 1e6,
           "aggregates of most grains, each written as a state.h5 for clast pack --shapes",
           .group = "files"),
+    NUMBER(
+        bed_width, 0, 0, 1e6, "m",
+        "width of the column in deposit.h5 (that of its widest body at least), where all bodies of "
+        "the floor wait for clast pack --start, those that came first below; 0: none"),
     COUNT(frames, 0, 0, 1e6, "a frame for ParaView at each so many rows; 0: none"),
     NUMBER(checkpoint_time, 60, 0, 1e9, "s", "between checkpoints, of the clock"),
     TEXT(resume, "", "run folder to go on with"),
@@ -187,10 +193,10 @@ clast_status clx_evolve_collide(const clast_evolve_config *c, clast_collide_conf
     collide->medium.particle_density = 0.0; // that of the particles, once they are there
     collide->medium.shear_constant = 0.0;
     CLX_TRY(clast_kernel_parse(c->kernel, &collide->kernel));
-    CLX_CHECK((clast_kernel_needs(collide->kernel) & CLAST_NEEDS_VELOCITY) == 0, CLAST_E_CONFIG,
-              "kernel %s needs velocities of their own, which bodies that follow the fluid do not "
-              "have",
-              c->kernel);
+    CLX_CHECK((collide->kernel >> CLAST_KERNEL_BALLISTIC & 1U) == 0 || c->medium.gravity > 0.0 ||
+                  c->medium.speed_rms > 0.0,
+              CLAST_E_CONFIG,
+              "kernel ballistic: no body has a velocity of its own (gravity 0, speed_rms 0)");
     CLX_CHECK((collide->kernel >> CLAST_KERNEL_INERTIAL & 1U) == 0 || c->medium.speed_rms > 0.0,
               CLAST_E_CONFIG, "kernel inertial needs speed_rms above 0");
     if (!(collide->medium.shear > 0.0)) {
@@ -229,8 +235,12 @@ static bool is_of_motion(const char *key)
 static clast_status check_used(const clast_evolve_config *c, const clast_collide_config *collide)
 {
     clast_status status = CLAST_OK;
+    clast_collide_config seen = *collide;
+    if ((collide->kernel >> CLAST_KERNEL_BALLISTIC & 1U) != 0 && c->medium.speed_rms > 0.0) {
+        seen.kernel |= 1U << CLAST_KERNEL_INERTIAL; // bodies take their velocities from turbulence
+    }
     for (const clast_field *f = clast_evolve_fields; f->name != NULL; ++f) {
-        const char *const by = clast_collide_idle(collide, f->name);
+        const char *const by = clast_collide_idle(&seen, f->name);
         char word[256] = "";
         if (f->type != CLAST_FIELD_F64 || by == NULL || is_of_motion(f->name) ||
             *(const double *)((const char *)c + f->offset) == f->value) {

@@ -189,6 +189,33 @@ static void weigh_all(clast_evolve *e)
     }
 }
 
+/// Height of the domain.
+static double height_of(const clast_domain *d)
+{
+    return d->kind == CLAST_DOMAIN_BOX ? d->high[2] - d->low[2] : cbrt(clast_domain_volume(d));
+}
+
+/// Refuses a step in which the mean mass falls onto the floor from wherever it is, and meets
+/// nobody.
+static clast_status check_time_step(const clast_evolve *e)
+{
+    clast_status status = CLAST_OK;
+    const clast_evolve_config *c = e->config;
+    const double height = height_of(e->input->domain);
+    double mass = 0.0, fall = 0.0;
+    for (int32_t i = 0; i < e->n_start; ++i) {
+        mass += e->body[i].mass;
+        fall += e->body[i].mass * fabs(e->body[i].speed);
+    }
+    CLX_CHECK(c->floor != CLAST_BORDER_DEPOSIT || c->time_step * fall <= height * mass,
+              CLAST_E_CONFIG,
+              "time_step: in %g s the mean mass falls %.3g m, through the whole height of %.3g m; "
+              "take less than %.3g s, or 0: step_error then chooses it",
+              c->time_step, c->time_step * fall / mass, height, height * mass / fall);
+done:
+    return status;
+}
+
 clast_status clast_evolve_create(const clast_evolve_config *config, const clast_evolve_input *input,
                                  clast_evolve **evolve)
 {
@@ -207,6 +234,7 @@ clast_status clast_evolve_create(const clast_evolve_config *config, const clast_
     CLX_TRY(prepare_cells(e));
     CLX_TRY(place_all(e));
     weigh_all(e);
+    CLX_TRY(check_time_step(e));
     clx_evolve_list(e);
     CLX_TRY(clast_kernel_check(e->collide.kernel, &e->collide.medium));
     CLX_TRY(clx_collide_config_check(&e->collide));
@@ -294,12 +322,6 @@ static clast_status meet(clast_evolve *e, double dt)
     CLX_TRY(meet_all(e, made->cells.n, made->cells.volume, dt));
 done:
     return status;
-}
-
-/// Height of the domain.
-static double height_of(const clast_domain *d)
-{
-    return d->kind == CLAST_DOMAIN_BOX ? d->high[2] - d->low[2] : cbrt(clast_domain_volume(d));
 }
 
 /// How long the next step may be: the mean particle meets, and the mean mass falls and spreads,

@@ -67,7 +67,7 @@ done:
     return status;
 }
 
-/// Axes tried on central lines, lines over the cross-section, or walks.
+/// Axes tried on central lines, lines over the cross-section, walks, or contacts.
 static int32_t tries_of(const clast_evolve *e)
 {
     enum { LINES_A_TRY = 1000 };
@@ -85,6 +85,9 @@ static clast_status search(const clast_evolve *e, const clx_evolve_body *large,
     CLAST_ASSERT(e->meeting != CLAST_MEETING_AUTO && e->n_event < UINT32_MAX);
     clast_status status = CLAST_OK;
     const int32_t tries = tries_of(e);
+    if (e->meeting == CLAST_MEETING_REACTION) {
+        return clx_evolve_react(e, scene, group, tries, landing);
+    }
     clx_search s = {.kit = &e->kit,
                     .group = group,
                     .scale = 1.0,

@@ -10,22 +10,48 @@
 #include "evolve/state.h"
 
 #include "cloud/kernel_range.h"
+#include "cloud/settling_pair.h"
 #include <math.h>
 
-static clast_collider collider_of(const clx_evolve_body *body)
+/// Whose velocity a pair is seen with: as drawn for the step, or for a bound on the rate.
+typedef enum { AS_DRAWN, AT_MOST_UP, AT_MOST_DOWN } velocity_seen;
+
+/// Velocity of a body against the fluid where it is: it falls, and of the turbulence takes what its
+/// response time lets it, drawn anew for each step.
+static void add_velocity(const clast_evolve *e, int32_t i, velocity_seen seen, clast_collider *c)
 {
-    return (clast_collider){.monomers = body->n,
-                            .radius = body->radius,
-                            .mass = body->mass,
-                            .settling_speed = body->speed};
+    static const double MOST = 3.0; ///< standard deviations
+    const double sd = sqrt(clx_velocity_variance(&e->collide.medium, c));
+    clx_rng rng = clx_rng_at(e->config->seed, CLX_STREAM_EVOLVE_VELOCITY,
+                             (e->step << 32) | (uint64_t)(uint32_t)i);
+    for (int k = 0; k < 3 && sd > 0.0 && seen == AS_DRAWN; ++k) {
+        c->velocity[k] = sd * clx_rng_normal(&rng);
+    }
+    if (seen != AS_DRAWN) {
+        c->velocity[2] = seen == AT_MOST_UP ? MOST * sd : -MOST * sd;
+    }
+    c->velocity[2] -= e->body[i].speed;
+}
+
+static clast_collider collider_of(const clast_evolve *e, int32_t i, velocity_seen seen)
+{
+    const clx_evolve_body *body = &e->body[i];
+    clast_collider c = {.monomers = body->n,
+                        .radius = body->radius,
+                        .mass = body->mass,
+                        .settling_speed = body->speed};
+    if ((clast_kernel_needs(e->collide.kernel) & CLAST_NEEDS_VELOCITY) != 0) {
+        add_velocity(e, i, seen, &c);
+    }
+    return c;
 }
 
 /// Volume swept per time that ends in a joint.
-static double sticking_rate(const clast_evolve *e, int32_t i, int32_t j)
+static double sticking_rate(const clast_evolve *e, const clast_collider pair[2])
 {
     const clast_collide_config *c = &e->collide;
-    const clast_collider a = collider_of(&e->body[i]);
-    const clast_collider b = collider_of(&e->body[j]);
+    const clast_collider a = pair[0];
+    const clast_collider b = pair[1];
     const double beta = c->alpha * clast_kernel_value(c->kernel, &c->medium, &a, &b);
     return c->sticking.law == CLAST_STICKING_CONSTANT || !(beta > 0.0)
                ? beta
@@ -48,7 +74,11 @@ static double greatest_rate(const clast_evolve *e, const int32_t *member, int64_
     }
     for (int a = 0; a < N_EXTREME; ++a) {
         for (int b = a; b < N_EXTREME; ++b) {
-            most = fmax(most, sticking_rate(e, extreme[a], extreme[b]));
+            const bool is_faster = e->body[extreme[a]].speed > e->body[extreme[b]].speed;
+            const clast_collider pair[2] = {
+                collider_of(e, extreme[a], is_faster ? AT_MOST_DOWN : AT_MOST_UP),
+                collider_of(e, extreme[b], is_faster ? AT_MOST_UP : AT_MOST_DOWN)};
+            most = fmax(most, sticking_rate(e, pair));
         }
     }
     return most;
@@ -64,10 +94,9 @@ static void shuffle(int32_t *member, int64_t n, clx_rng *rng)
     }
 }
 
-static void hold_to_ranges(clast_evolve *e, int32_t i, int32_t j)
+static void hold_to_ranges(clast_evolve *e, const clast_collider pair[2])
 {
     if (e->ranges != 0) {
-        const clast_collider pair[2] = {collider_of(&e->body[i]), collider_of(&e->body[j])};
         clx_range_add(e->ranges, &e->collide, &e->collide.medium, pair, 1.0, &e->range);
     }
 }
@@ -80,9 +109,11 @@ static clast_status deal(clast_evolve *e, int32_t *member, int64_t *n, double sc
     int64_t left = 0;
     shuffle(member, *n, rng);
     for (int64_t m = 0; m + 1 < *n; m += 2) {
-        const double x = scale * sticking_rate(e, member[m], member[m + 1]);
+        const clast_collider pair[2] = {collider_of(e, member[m], AS_DRAWN),
+                                        collider_of(e, member[m + 1], AS_DRAWN)};
+        const double x = scale * sticking_rate(e, pair);
         if (clx_rng_uniform(rng) < -expm1(-x)) {
-            hold_to_ranges(e, member[m], member[m + 1]);
+            hold_to_ranges(e, pair);
             CLX_TRY(clx_evolve_join(e, member[m], member[m + 1], time, rng));
         }
     }

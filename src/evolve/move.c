@@ -14,11 +14,11 @@
 #include "evolve/state.h"
 
 #include "base/parallel.h"
-#include "cloud/surface.h"
+#include "evolve/walls.h"
 #include "math/vec3.h"
 #include <math.h>
 
-enum { BODIES_A_BLOCK = 1024, BISECTIONS = 48 };
+enum { BODIES_A_BLOCK = 1024 };
 
 static const double CELLS_A_STEP = 0.25; ///< of a user's field
 static const double MOST_PARTS = 1e6;    ///< of a step of a body
@@ -188,25 +188,6 @@ static void in_box(const leg *l, clx_evolve_body *b, double to[3])
     }
 }
 
-/// The last point of a path inside of the domain, and its share of the path.
-static double leave(const clast_domain *d, const double from[3], const double to[3], double at[3])
-{
-    double u[3];
-    double inside = 0.0;
-    double outside = 1.0;
-    for (int k = 0; k < BISECTIONS; ++k) {
-        const double middle = 0.5 * (inside + outside);
-        for (int j = 0; j < 3; ++j) {
-            at[j] = from[j] + middle * (to[j] - from[j]);
-        }
-        *(clast_domain_map(d, at, u) ? &inside : &outside) = middle;
-    }
-    for (int j = 0; j < 3; ++j) {
-        at[j] = from[j] + inside * (to[j] - from[j]);
-    }
-    return inside;
-}
-
 /// Whether straight down leads out of the domain there.
 static bool is_floor(const clast_domain *d, const double at[3])
 {
@@ -221,79 +202,62 @@ static int32_t border_at(const clast_evolve *e, const double at[3])
     return is_floor(e->input->domain, at) ? e->config->floor : e->config->sides;
 }
 
-/// Distance of a point of a cylinder or sphere (its own frame) from wall w, and the wall's point.
-static double wall_of(const clast_domain *d, const double x[3], int w, double at[3])
-{
-    static const double INSIDE = 1.0 - 1e-9;
-    v3_copy(at, x);
-    if (w > 0) { // an end
-        at[2] = d->length * (w == 1 ? 1.0 - INSIDE : INSIDE);
-        return w == 1 ? x[2] : d->length - x[2];
-    }
-    const bool is_sphere = d->kind == CLAST_DOMAIN_SPHERE;
-    const double r = hypot(hypot(x[0], x[1]), is_sphere ? x[2] : 0.0);
-    for (int k = 0; r > 0.0 && k < (is_sphere ? 3 : 2); ++k) {
-        at[k] = x[k] * (INSIDE * d->radius / r);
-    }
-    return d->radius - r;
-}
-
-/// Whether a path that stays inside of a cylinder or sphere at both ends has met a wall that keeps
-/// it, by the bridge beside the wall's plane; `at`: where.
+/// Whether a path that stays inside of a domain has met a wall that keeps it, by the bridge beside
+/// the wall's plane; `at`: where.
 static bool touches(const leg *l, const clx_evolve_body *b, const double to[3], double at[3])
 {
     const clast_domain *d = l->e->input->domain;
-    const bool is_cylinder = d->kind == CLAST_DOMAIN_CYLINDER;
-    double from[3];
-    double end[3];
     double near[3];
-    if (b->diffusivity <= 0.0 || !(is_cylinder || d->kind == CLAST_DOMAIN_SPHERE)) {
-        return false;
-    }
-    v3_copy(from, b->x);
-    v3_copy(end, to);
-    if (d->is_placed) {
-        clx_domain_to_local(d, b->x, from);
-        clx_domain_to_local(d, to, end);
-    }
-    for (int w = 0; w < (is_cylinder ? 3 : 1); ++w) {
-        const double h0 = fmax(wall_of(d, from, w, near), 0.0);
-        const double h1 = fmax(wall_of(d, end, w, near), 0.0);
-        if (clx_rng_uniform(l->rng) >= exp(-h0 * h1 / (b->diffusivity * l->dt))) {
-            continue;
-        }
-        v3_copy(at, near);
-        if (d->is_placed) {
-            v3_copy(at, d->centre);
-            for (int k = 0; k < 3; ++k) {
-                v3_axpy(at, at, near[k], d->axes[k]);
-            }
-        }
-        if (border_at(l->e, at) == CLAST_BORDER_DEPOSIT) {
+    for (int32_t w = 0; b->diffusivity > 0.0 && w < clx_walls_count(d); ++w) {
+        const double h0 = clx_walls_distance(d, b->x, w, near);
+        const double h1 = clx_walls_distance(d, to, w, near);
+        if (clx_rng_uniform(l->rng) < exp(-h0 * h1 / (b->diffusivity * l->dt)) &&
+            border_at(l->e, near) == CLAST_BORDER_DEPOSIT) {
+            v3_copy(at, near);
             return true;
         }
     }
     return false;
 }
 
-/// In a domain that is no box: what leaves stops at the surface, or (reflect) stays where it is.
+/// The end of a path as a mirror at the wall has it; at the wall where its normal is not known.
+static void mirror(const clx_exit *wall, double to[3])
+{
+    double beyond[3];
+    v3_sub(beyond, to, wall->at);
+    const double depth = v3_dot(beyond, wall->inward);
+    v3_axpy(to, to, -2.0 * fmin(depth, 0.0), wall->inward);
+    if (v3_norm2(wall->inward) == 0.0) {
+        v3_copy(to, wall->at);
+    }
+}
+
+/// In a domain that is no box: to the wall that keeps it, or mirrored at walls that do not.
 static void in_surface(const leg *l, clx_evolve_body *b, double to[3])
 {
+    enum { MOST_BOUNCES = 100 };
     const clast_evolve *e = l->e;
     const clast_domain *d = e->input->domain;
     double u[3];
-    double at[3];
-    if (clast_domain_map(d, to, u)) {
-        if (isfinite(clx_evolve_width(e)) && touches(l, b, to, at)) {
-            v3_copy(to, at);
-            end_at(b, CLX_BODY_ON_FLOOR, l->time + 0.5 * l->dt);
+    double from[3];
+    double passed = 0.0;
+    clx_exit wall;
+    v3_copy(from, b->x);
+    for (int k = 0; k < MOST_BOUNCES && clx_walls_exit(d, from, to, &wall); ++k) {
+        passed += wall.share * (1.0 - passed);
+        v3_copy(from, wall.at);
+        if (border_at(e, wall.at) == CLAST_BORDER_DEPOSIT) {
+            v3_copy(to, wall.at);
+            end_at(b, CLX_BODY_ON_FLOOR, l->time + passed * l->dt);
+            return;
         }
-        return;
+        mirror(&wall, to);
     }
-    const double share = leave(d, b->x, to, at);
-    v3_copy(to, at);
-    if (border_at(e, at) == CLAST_BORDER_DEPOSIT) {
-        end_at(b, CLX_BODY_ON_FLOOR, l->time + share * l->dt);
+    if (!clast_domain_map(d, to, u)) { // in a corner, by rounding
+        v3_copy(to, from);
+    } else if (isfinite(clx_evolve_width(e)) && touches(l, b, to, from)) {
+        v3_copy(to, from);
+        end_at(b, CLX_BODY_ON_FLOOR, l->time + 0.5 * l->dt);
     }
 }
 
@@ -324,18 +288,17 @@ double clx_evolve_width(const clast_evolve *e)
     }
 }
 
-/// Share of the width that a part may spread: planes are exact one by one, curved walls nearly so,
-/// others are seen at the ends of parts alone.
+/// Share of the width that a part may spread: planes are exact one by one, curved walls nearly so;
+/// a caller's map is seen at the ends of parts alone.
 static double spread_of(const clast_domain *d)
 {
     switch (d->kind) {
     case CLAST_DOMAIN_BOX:
         return 1.0 / 20.0;
-    case CLAST_DOMAIN_CYLINDER:
-    case CLAST_DOMAIN_SPHERE:
-        return 1.0 / 50.0;
-    default:
+    case CLAST_DOMAIN_MAP:
         return 1.0 / 100.0;
+    default:
+        return 1.0 / 50.0;
     }
 }
 

@@ -6,107 +6,160 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const clock_column[][2] = {
-    {"time", "s"},         {"step", "-"},         {"row", "-"},           {"rate", "-"},
-    {"n_cut", "-"},        {"n_test", "-"},       {"n_cell", "-"},        {"mass_error", "-"},
-    {"number_error", "-"}, {"range_n", "-"},      {"range_outside", "-"}, {"range_row", "-"},
-    {"range_value", "-"},  {"range_excess", "-"}, {"n_start", "-"}};
-static const char *const grain_column[][2] = {
-    {"kind", "-"}, {"next", "-"}, {"scale", "-"}, {"x", "m"},  {"y", "m"},
-    {"z", "m"},    {"qw", "-"},   {"qx", "-"},    {"qy", "-"}, {"qz", "-"}};
-static const char *const body_column[][2] = {
-    {"first", "-"},    {"last", "-"}, {"n", "-"},    {"state", "-"}, {"node", "-"},
-    {"x", "m"},        {"y", "m"},    {"z", "m"},    {"time", "s"},  {"mass", "kg"},
-    {"volume", "m^3"}, {"xx", "m^2"}, {"yy", "m^2"}, {"zz", "m^2"},  {"yz", "m^2"},
-    {"xz", "m^2"},     {"xy", "m^2"}, {"reach", "m"}};
-static const char *const event_column[][2] = {
-    {"time", "s"},       {"node_a", "-"},   {"node_b", "-"}, {"body", "-"},  {"n", "-"},
-    {"touched", "-"},    {"arriving", "-"}, {"px", "m"},     {"py", "m"},    {"pz", "m"},
-    {"x", "m"},          {"y", "m"},        {"z", "m"},      {"mass", "kg"}, {"gyration", "m"},
-    {"envelope", "m^3"}, {"speed", "m/s"}};
+typedef enum { REAL, SMALL, LARGE } member_type; ///< double, int32_t, int64_t
+
+/// A member of a struct as a column of a table; a whole one lies in [low, n_start * each + high].
+typedef struct {
+    const char *name, *unit;
+    size_t offset;
+    member_type type;
+    double low, each, high;
+} member;
+
+typedef struct clast_evolve evolution;
+typedef clx_evolve_grain grain;
+typedef clx_evolve_body body;
+typedef clx_evolve_event event;
+
+#define WHOLE(of, name, unit, at, type, ...)                                                       \
+    {                                                                                              \
+        name, unit, offsetof(of, at), type, __VA_ARGS__                                            \
+    }
+#define NUMBER(of, name, unit, at) WHOLE(of, name, unit, at, REAL, 0.0, 0.0, 0.0)
+
+static const member clock_member[] = {
+    NUMBER(evolution, "time", "s", time),
+    WHOLE(evolution, "step", "-", step, LARGE, 0, 0, 4294967295.0),
+    WHOLE(evolution, "row", "-", row, SMALL, 0, 0, 1e6),
+    NUMBER(evolution, "rate", "-", rate),
+    WHOLE(evolution, "n_cut", "-", n_cut, LARGE, 0, 0, 1e15),
+    WHOLE(evolution, "n_test", "-", n_test, LARGE, 0, 0, 1e15),
+    WHOLE(evolution, "n_cell", "-", n_cell, SMALL, 0, 0, 2e9),
+    NUMBER(evolution, "mass_error", "-", mass_error),
+    WHOLE(evolution, "number_error", "-", number_error, LARGE, 0, 0, 1e15),
+    NUMBER(evolution, "range_n", "-", range.n),
+    NUMBER(evolution, "range_outside", "-", range.outside),
+    WHOLE(evolution, "range_row", "-", range.row, SMALL, 0, 0, CLAST_N_KERNEL_RANGE),
+    NUMBER(evolution, "range_value", "-", range.value),
+    NUMBER(evolution, "range_excess", "-", range.excess),
+    WHOLE(evolution, "n_start", "-", n_start, SMALL, 0, 1, 0),
+};
+static const member grain_member[] = {
+    WHOLE(grain, "kind", "-", kind, SMALL, 0, 0, 2e9),
+    WHOLE(grain, "next", "-", next, SMALL, -1, 1, -1),
+    NUMBER(grain, "scale", "-", scale),
+    NUMBER(grain, "x", "m", position[0]),
+    NUMBER(grain, "y", "m", position[1]),
+    NUMBER(grain, "z", "m", position[2]),
+    NUMBER(grain, "qw", "-", orientation[0]),
+    NUMBER(grain, "qx", "-", orientation[1]),
+    NUMBER(grain, "qy", "-", orientation[2]),
+    NUMBER(grain, "qz", "-", orientation[3]),
+};
+static const member body_member[] = {
+    WHOLE(body, "first", "-", first, SMALL, 0, 1, -1),
+    WHOLE(body, "last", "-", last, SMALL, 0, 1, -1),
+    WHOLE(body, "n", "-", n, SMALL, 1, 1, 0),
+    WHOLE(body, "state", "-", state, SMALL, 0, 0, CLX_BODY_MERGED),
+    WHOLE(body, "node", "-", node, LARGE, 0, 2, 0),
+    NUMBER(body, "x", "m", x[0]),
+    NUMBER(body, "y", "m", x[1]),
+    NUMBER(body, "z", "m", x[2]),
+    NUMBER(body, "time", "s", time),
+    NUMBER(body, "mass", "kg", mass),
+    NUMBER(body, "volume", "m^3", volume),
+    NUMBER(body, "xx", "m^2", second[0]),
+    NUMBER(body, "yy", "m^2", second[1]),
+    NUMBER(body, "zz", "m^2", second[2]),
+    NUMBER(body, "yz", "m^2", second[3]),
+    NUMBER(body, "xz", "m^2", second[4]),
+    NUMBER(body, "xy", "m^2", second[5]),
+    NUMBER(body, "reach", "m", reach),
+};
+static const member event_member[] = {
+    NUMBER(event, "time", "s", time),
+    WHOLE(event, "node_a", "-", node[0], LARGE, 0, 2, 0),
+    WHOLE(event, "node_b", "-", node[1], LARGE, 0, 2, 0),
+    WHOLE(event, "body", "-", body, SMALL, 0, 1, -1),
+    WHOLE(event, "n", "-", n, SMALL, 2, 1, 0),
+    WHOLE(event, "touched", "-", contact[0], SMALL, -1, 1, -1),
+    WHOLE(event, "arriving", "-", contact[1], SMALL, -1, 1, -1),
+    NUMBER(event, "px", "m", point[0]),
+    NUMBER(event, "py", "m", point[1]),
+    NUMBER(event, "pz", "m", point[2]),
+    NUMBER(event, "x", "m", x[0]),
+    NUMBER(event, "y", "m", x[1]),
+    NUMBER(event, "z", "m", x[2]),
+    NUMBER(event, "mass", "kg", mass),
+    NUMBER(event, "gyration", "m", gyration),
+    NUMBER(event, "envelope", "m^3", envelope),
+    NUMBER(event, "speed", "m/s", speed),
+};
+
+/// A table of structs.
+typedef struct {
+    const char *name;
+    int32_t n_member;
+    const member *member; ///< [n_member]
+    size_t size;          ///< of a struct
+} layout;
+
+#define LAYOUT(name, members, of)                                                                  \
+    {                                                                                              \
+        name, sizeof(members) / sizeof *(members), members, sizeof(of)                             \
+    }
 
 enum { CLOCK, GRAINS, BODIES, EVENTS, BALANCE, SPECTRUM };
 
-#define ROWS(columns)                                                                              \
-    (clx_rows)                                                                                     \
-    {                                                                                              \
-        .n_column = sizeof(columns) / sizeof *(columns), .column = (columns)                       \
-    }
+static const layout layouts[] = {
+    [CLOCK] = LAYOUT("clock", clock_member, evolution),
+    [GRAINS] = LAYOUT("grains", grain_member, grain),
+    [BODIES] = LAYOUT("bodies", body_member, body),
+    [EVENTS] = LAYOUT("events", event_member, event),
+};
 
-static clast_status add(clx_rows *rows, const double *value)
+static double read_member(const member *m, const void *item)
 {
-    double *row = NULL;
-    const clast_status status = clx_rows_add(rows, &row);
-    if (status == CLAST_OK) {
-        memcpy(row, value, (size_t)rows->n_column * sizeof *value);
+    const char *at = (const char *)item + m->offset;
+    switch (m->type) {
+    case SMALL:
+        return *(const int32_t *)(const void *)at;
+    case LARGE:
+        return (double)*(const int64_t *)(const void *)at;
+    default:
+        return *(const double *)(const void *)at;
     }
-    return status;
 }
 
-static clast_status save_clock(const clast_evolve *e, clast_table *table)
+static void write_member(const member *m, double value, void *item)
 {
-    clast_status status = CLAST_OK;
-    clx_rows rows = ROWS(clock_column);
-    const double value[] = {e->time,        (double)e->step,  e->row,
-                            e->rate,        (double)e->n_cut, (double)e->n_test,
-                            e->n_cell,      e->mass_error,    (double)e->number_error,
-                            e->range.n,     e->range.outside, e->range.row,
-                            e->range.value, e->range.excess,  e->n_start};
-    CLX_TRY(add(&rows, value));
-    CLX_TRY(clx_rows_table(&rows, "clock", table));
-done:
-    clx_rows_free(&rows);
-    return status;
+    char *at = (char *)item + m->offset;
+    if (m->type == SMALL) {
+        *(int32_t *)(void *)at = (int32_t)value;
+    } else if (m->type == LARGE) {
+        *(int64_t *)(void *)at = (int64_t)value;
+    } else {
+        *(double *)(void *)at = value;
+    }
 }
 
-static clast_status save_grains(const clast_evolve *e, clast_table *table)
+static clast_status save(const layout *l, const void *item, int64_t n, clast_table *table)
 {
     clast_status status = CLAST_OK;
-    clx_rows rows = ROWS(grain_column);
-    for (int32_t i = 0; i < e->n_start; ++i) {
-        const clx_evolve_grain *g = &e->grain[i];
-        const double *x = g->position;
-        const double *q = g->orientation;
-        CLX_TRY(add(&rows, (const double[]){g->kind, g->next, g->scale, x[0], x[1], x[2], q[0],
-                                            q[1], q[2], q[3]}));
+    clast_table made = {0};
+    CLX_TRY(clast_table_init(&made, l->name, n));
+    for (int32_t c = 0; c < l->n_member; ++c) {
+        const member *m = &l->member[c];
+        double *number = NULL;
+        CLX_TRY(clast_table_add_number(&made, m->name, m->unit, &number));
+        for (int64_t i = 0; i < n; ++i) {
+            number[i] = read_member(m, (const char *)item + (size_t)i * l->size);
+        }
     }
-    CLX_TRY(clx_rows_table(&rows, "grains", table));
+    *table = made;
+    made = (clast_table){0};
 done:
-    clx_rows_free(&rows);
-    return status;
-}
-
-static clast_status save_bodies(const clast_evolve *e, clast_table *table)
-{
-    clast_status status = CLAST_OK;
-    clx_rows rows = ROWS(body_column);
-    for (int32_t i = 0; i < e->n_start; ++i) {
-        const clx_evolve_body *b = &e->body[i];
-        const double *s = b->second;
-        CLX_TRY(add(&rows, (const double[]){b->first, b->last, b->n, b->state, (double)b->node,
-                                            b->x[0], b->x[1], b->x[2], b->time, b->mass, b->volume,
-                                            s[0], s[1], s[2], s[3], s[4], s[5], b->reach}));
-    }
-    CLX_TRY(clx_rows_table(&rows, "bodies", table));
-done:
-    clx_rows_free(&rows);
-    return status;
-}
-
-static clast_status save_events(const clast_evolve *e, clast_table *table)
-{
-    clast_status status = CLAST_OK;
-    clx_rows rows = ROWS(event_column);
-    for (int64_t k = 0; k < e->n_event; ++k) {
-        const clx_evolve_event *v = &e->event[k];
-        CLX_TRY(add(&rows, (const double[]){v->time, (double)v->node[0], (double)v->node[1],
-                                            v->body, v->n, v->contact[0], v->contact[1],
-                                            v->point[0], v->point[1], v->point[2], v->x[0], v->x[1],
-                                            v->x[2], v->mass, v->gyration, v->envelope, v->speed}));
-    }
-    CLX_TRY(clx_rows_table(&rows, "events", table));
-done:
-    clx_rows_free(&rows);
+    clast_table_free(&made);
     return status;
 }
 
@@ -115,10 +168,10 @@ clast_status clast_evolve_save(const clast_evolve *e, clast_table table[CLAST_N_
     CLX_ARGUMENTS(e, table);
     clast_status status = CLAST_OK;
     clast_table made[CLAST_N_EVOLVE_SAVED] = {{0}};
-    CLX_TRY(save_clock(e, &made[CLOCK]));
-    CLX_TRY(save_grains(e, &made[GRAINS]));
-    CLX_TRY(save_bodies(e, &made[BODIES]));
-    CLX_TRY(save_events(e, &made[EVENTS]));
+    CLX_TRY(save(&layouts[CLOCK], e, 1, &made[CLOCK]));
+    CLX_TRY(save(&layouts[GRAINS], e->grain, e->n_start, &made[GRAINS]));
+    CLX_TRY(save(&layouts[BODIES], e->body, e->n_start, &made[BODIES]));
+    CLX_TRY(save(&layouts[EVENTS], e->event, e->n_event, &made[EVENTS]));
     CLX_TRY(clx_rows_table(&e->balance, "balance", &made[BALANCE]));
     CLX_TRY(clx_rows_table(&e->spectrum, "spectrum", &made[SPECTRUM]));
     memcpy(table, made, sizeof made);
@@ -130,61 +183,59 @@ done:
     return status;
 }
 
-/// A whole number of a saved table within [low, high].
-static clast_status whole(double value, double low, double high, const char *what, int64_t *out)
-{
-    if (!(value == floor(value) && value >= low && value <= high)) {
-        return clx_fail(CLAST_E_FORMAT, "the saved %s %g is out of range", what, value);
-    }
-    *out = (int64_t)value;
-    return CLAST_OK;
-}
-
-static clast_status take_clock(const clx_rows *rows, clast_evolve *e)
+/// The rows of a table into n structs.
+static clast_status load(const layout *l, const clast_table *table, int32_t n_start, int64_t n,
+                         void *item)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(rows->n == 1, CLAST_E_FORMAT, "the saved clock has %lld rows", (long long)rows->n);
-    const double *v = rows->value;
-    int64_t n = 0;
-    CLX_TRY(whole(v[14], e->n_start, e->n_start, "number of particles", &n));
-    CLX_TRY(whole(v[1], 0.0, 4294967295.0, "step", &n));
-    e->step = (uint64_t)n;
-    CLX_TRY(whole(v[2], 0.0, e->config->rows, "row", &n));
-    e->row = (int32_t)n;
-    CLX_TRY(whole(v[4], 0.0, 1e15, "n_cut", &e->n_cut));
-    CLX_TRY(whole(v[5], 0.0, 1e15, "n_test", &e->n_test));
-    CLX_TRY(whole(v[6], 0.0, 2e9, "n_cell", &n));
-    e->n_cell = (int32_t)n;
-    CLX_TRY(whole(v[8], 0.0, 1e15, "number_error", &e->number_error));
-    CLX_TRY(whole(v[11], 0.0, CLAST_N_KERNEL_RANGE, "range_row", &n));
-    CLX_CHECK(isfinite(v[0]) && v[0] >= 0.0 && isfinite(v[3]) && v[3] >= 0.0, CLAST_E_FORMAT,
-              "the saved time %g or rate %g cannot be", v[0], v[3]);
-    e->time = v[0];
-    e->rate = v[3];
-    e->mass_error = v[7];
-    e->range = (clast_range_use){
-        .n = v[9], .outside = v[10], .row = (int32_t)n, .value = v[12], .excess = v[13]};
+    CLX_CHECK(table->n_row == n, CLAST_E_FORMAT, "%lld saved %s of %lld", (long long)table->n_row,
+              l->name, (long long)n);
+    for (int32_t c = 0; c < l->n_member; ++c) {
+        const member *m = &l->member[c];
+        const double high = m->each * n_start + m->high;
+        const double *number = clast_table_numbers(table, m->name);
+        CLX_CHECK(number != NULL, CLAST_E_FORMAT, "the saved table %s has no column %s", l->name,
+                  m->name);
+        for (int64_t i = 0; i < n; ++i) {
+            const double v = number[i];
+            CLX_CHECK(m->type == REAL || (v == floor(v) && v >= m->low && v <= high),
+                      CLAST_E_FORMAT, "the saved %s: %s %g of row %lld is out of range", l->name,
+                      m->name, v, (long long)i + 1);
+            write_member(m, v, (char *)item + (size_t)i * l->size);
+        }
+    }
 done:
     return status;
 }
 
-static clast_status take_grains(const clx_rows *rows, clast_evolve *e)
+static clast_status load_clock(const clast_table *table, clast_evolve *e)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(rows->n == e->n_start, CLAST_E_FORMAT, "%lld saved grains of %d", (long long)rows->n,
-              e->n_start);
+    clast_evolve seen = *e;
+    CLX_TRY(load(&layouts[CLOCK], table, e->n_start, 1, &seen));
+    CLX_CHECK(seen.n_start == e->n_start && seen.row <= e->config->rows, CLAST_E_FORMAT,
+              "saved row %d of %d particles does not belong to %d rows of %d", seen.row,
+              seen.n_start, e->config->rows, e->n_start);
+    CLX_CHECK(isfinite(seen.time) && seen.time >= 0.0 && isfinite(seen.rate) && seen.rate >= 0.0,
+              CLAST_E_FORMAT, "the saved time %g or rate %g cannot be", seen.time, seen.rate);
+    *e = seen;
+done:
+    return status;
+}
+
+static clast_status load_grains(const clast_table *table, clast_evolve *e)
+{
+    clast_status status = CLAST_OK;
+    grain *seen = NULL;
+    CLX_TRY(clx_alloc(&seen, e->n_start, sizeof *seen));
+    CLX_TRY(load(&layouts[GRAINS], table, e->n_start, e->n_start, seen));
     for (int32_t i = 0; i < e->n_start; ++i) {
-        const double *v = &rows->value[(int64_t)i * rows->n_column];
-        clx_evolve_grain *g = &e->grain[i];
-        int64_t n = 0;
-        CLX_TRY(whole(v[0], g->kind, g->kind, "kind of a grain", &n));
-        CLX_TRY(whole(v[1], -1.0, e->n_start - 1, "grain after another", &n));
-        CLX_CHECK(v[2] == g->scale, CLAST_E_FORMAT, "grain %d has another size than saved", i + 1);
-        g->next = (int32_t)n;
-        memcpy(g->position, &v[3], sizeof g->position);
-        memcpy(g->orientation, &v[6], sizeof g->orientation);
+        CLX_CHECK(seen[i].kind == e->grain[i].kind && seen[i].scale == e->grain[i].scale,
+                  CLAST_E_FORMAT, "grain %d has another shape or size than saved", i + 1);
+        e->grain[i] = seen[i];
     }
 done:
+    clx_free(seen);
     return status;
 }
 
@@ -210,31 +261,12 @@ done:
     return status;
 }
 
-static clast_status take_bodies(const clx_rows *rows, clast_evolve *e)
+static clast_status load_bodies(const clast_table *table, clast_evolve *e)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(rows->n == e->n_start, CLAST_E_FORMAT, "%lld saved bodies of %d", (long long)rows->n,
-              e->n_start);
+    CLX_TRY(load(&layouts[BODIES], table, e->n_start, e->n_start, e->body));
     for (int32_t i = 0; i < e->n_start; ++i) {
-        const double *v = &rows->value[(int64_t)i * rows->n_column];
-        clx_evolve_body *b = &e->body[i];
-        int64_t n[5] = {0};
-        for (int k = 0; k < 4; ++k) {
-            const double high[] = {e->n_start - 1, e->n_start - 1, e->n_start, CLX_BODY_MERGED};
-            CLX_TRY(whole(v[k], k == 2 ? 1.0 : 0.0, high[k], body_column[k][0], &n[k]));
-        }
-        CLX_TRY(whole(v[4], 0.0, 2.0 * e->n_start, "node", &n[4]));
-        b->first = (int32_t)n[0];
-        b->last = (int32_t)n[1];
-        b->n = (int32_t)n[2];
-        b->state = (int32_t)n[3];
-        b->node = n[4];
-        memcpy(b->x, &v[5], sizeof b->x);
-        b->time = v[8];
-        b->mass = v[9];
-        b->volume = v[10];
-        memcpy(b->second, &v[11], sizeof b->second);
-        b->reach = v[17];
+        body *b = &e->body[i];
         CLX_CHECK(b->mass > 0.0 && b->volume > 0.0 && isfinite(b->mass + b->volume + b->reach),
                   CLAST_E_FORMAT, "the saved body %d has no mass or volume", i + 1);
         clx_evolve_update(e, b);
@@ -244,35 +276,23 @@ done:
     return status;
 }
 
-static clast_status take_events(const clx_rows *rows, clast_evolve *e)
+static clast_status load_events(const clast_table *table, clast_evolve *e)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(rows->n < e->n_start, CLAST_E_FORMAT, "%lld saved events of %d particles",
-              (long long)rows->n, e->n_start);
-    CLX_TRY(clx_grow(&e->event, &e->event_room, rows->n, sizeof *e->event));
-    for (int64_t k = 0; k < rows->n; ++k) {
-        const double *v = &rows->value[k * rows->n_column];
-        int64_t n[6] = {0};
-        const double least = e->config->structure ? 0.0 : -1.0;
-        CLX_TRY(whole(v[1], 0.0, (double)(e->n_start + k - 1), "node_a", &n[0]));
-        CLX_TRY(whole(v[2], 0.0, (double)(e->n_start + k - 1), "node_b", &n[1]));
-        CLX_TRY(whole(v[3], 0.0, e->n_start - 1, "body", &n[2]));
-        CLX_TRY(whole(v[4], 2.0, e->n_start, "n", &n[3]));
-        CLX_TRY(whole(v[5], least, e->n_start - 1, "touched", &n[4]));
-        CLX_TRY(whole(v[6], least, e->n_start - 1, "arriving", &n[5]));
-        e->event[k] = (clx_evolve_event){.time = v[0],
-                                         .node = {n[0], n[1]},
-                                         .body = (int32_t)n[2],
-                                         .n = (int32_t)n[3],
-                                         .contact = {(int32_t)n[4], (int32_t)n[5]},
-                                         .point = {v[7], v[8], v[9]},
-                                         .x = {v[10], v[11], v[12]},
-                                         .mass = v[13],
-                                         .gyration = v[14],
-                                         .envelope = v[15],
-                                         .speed = v[16]};
+    const int64_t n = table->n_row;
+    CLX_CHECK(n < e->n_start, CLAST_E_FORMAT, "%lld saved events of %d particles", (long long)n,
+              e->n_start);
+    CLX_TRY(clx_grow(&e->event, &e->event_room, n, sizeof *e->event));
+    CLX_TRY(load(&layouts[EVENTS], table, e->n_start, n, e->event));
+    for (int64_t k = 0; k < n; ++k) {
+        const event *v = &e->event[k];
+        const int32_t least = e->config->structure ? 0 : -1;
+        CLX_CHECK(v->node[0] < e->n_start + k && v->node[1] < e->n_start + k &&
+                      v->contact[0] >= least && v->contact[1] >= least,
+                  CLAST_E_FORMAT, "the saved event %lld joins nodes or grains that are none",
+                  (long long)k + 1);
     }
-    e->n_event = rows->n;
+    e->n_event = n;
 done:
     return status;
 }
@@ -281,21 +301,13 @@ clast_status clast_evolve_restore(const clast_table table[CLAST_N_EVOLVE_SAVED],
 {
     CLX_ARGUMENTS(table, e);
     clast_status status = CLAST_OK;
-    clx_rows rows[] = {ROWS(clock_column), ROWS(grain_column), ROWS(body_column),
-                       ROWS(event_column)};
-    for (int k = 0; k < BALANCE; ++k) {
-        CLX_TRY(clx_rows_read(&table[k], &rows[k]));
-    }
-    CLX_TRY(take_clock(&rows[CLOCK], e));
-    CLX_TRY(take_grains(&rows[GRAINS], e));
-    CLX_TRY(take_bodies(&rows[BODIES], e));
-    CLX_TRY(take_events(&rows[EVENTS], e));
+    CLX_TRY(load_clock(&table[CLOCK], e));
+    CLX_TRY(load_grains(&table[GRAINS], e));
+    CLX_TRY(load_bodies(&table[BODIES], e));
+    CLX_TRY(load_events(&table[EVENTS], e));
     CLX_TRY(clx_rows_read(&table[BALANCE], &e->balance));
     CLX_TRY(clx_rows_read(&table[SPECTRUM], &e->spectrum));
     clx_evolve_list(e);
 done:
-    for (int k = 0; k < BALANCE; ++k) {
-        clx_rows_free(&rows[k]);
-    }
     return status;
 }

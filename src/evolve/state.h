@@ -1,8 +1,9 @@
 #pragma once
 // The inside of an evolution, from the bottom up: rows (rows.c), a user's field (flow.c), bodies
-// and what follows from their grains (body.c), two that become one (join.c), who meets (meet.c),
-// motion (move.c), cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept
-// (saved.c). Calls go down only.
+// and what follows from their grains (body.c), contacts of which each is as likely (react.c), two
+// that become one (join.c), who meets (meet.c), walls that are no box's (walls.c), motion (move.c),
+// cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept (saved.c). Calls go
+// down only.
 #include "aggregate/kit.h"
 #include "evolve/flow.h"
 #include "evolve/rows.h"
@@ -134,6 +135,15 @@ void clx_evolve_list(clast_evolve *e);
 
 /// Velocity of the fluid at a height.
 void clx_evolve_wind(const clast_evolve *e, double z, double velocity[3]);
+
+typedef struct clx_touch_scene clx_touch_scene;
+typedef struct clx_landing clx_landing;
+
+/// react.c: one of all the ways in which a group can touch a scene without overlap, each as likely.
+///
+/// @return CLAST_E_CONVERGE where other parts overlap at all of `tries` contacts
+clast_status clx_evolve_react(const clast_evolve *e, const clx_touch_scene *scene,
+                              const clx_kit_group *group, int32_t tries, clx_landing *landing);
 
 /// join.c: lets two bodies in the fluid become one; `i` or `j`, the larger, lives on.
 clast_status clx_evolve_join(clast_evolve *e, int32_t i, int32_t j, double time, clx_rng *rng);

@@ -288,24 +288,55 @@ done:
     return status;
 }
 
-clast_status clast_evolve_assembly(const clast_evolve *e, clast_assembly *assembly)
+static const char *const value_column[][2] = {
+    {"node", "-"},     {"on_floor", "-"},    {"grains", "-"},  {"envelope_m", "m"},
+    {"porosity", "-"}, {"speed_m/s", "m/s"}, {"mass_kg", "kg"}};
+
+/// n rows of what is known of a body.
+static clast_status add_values(const clx_evolve_body *b, int32_t n, clx_rows *rows)
+{
+    clast_status status = CLAST_OK;
+    const double value[] = {(double)b->node,
+                            b->state == CLX_BODY_ON_FLOOR ? 1.0 : 0.0,
+                            b->n,
+                            size_of(b->envelope),
+                            1.0 - b->volume / b->envelope,
+                            b->speed,
+                            b->mass};
+    for (int32_t i = 0; i < n; ++i) {
+        double *row = NULL;
+        CLX_TRY(clx_rows_add(rows, &row));
+        memcpy(row, value, sizeof value);
+    }
+done:
+    return status;
+}
+
+clast_status clast_evolve_assembly(const clast_evolve *e, clast_assembly *assembly,
+                                   clast_table *values)
 {
     CLX_ARGUMENTS(e, assembly);
     clast_status status = CLAST_OK;
     clast_assembly made = {.unit = "m"};
+    clx_rows rows = {.n_column = sizeof value_column / sizeof *value_column,
+                     .column = value_column};
     int32_t *of_kit = NULL;
     CLX_CHECK(e->config->structure, CLAST_E_CONFIG, "structure: drops that merge have no grains");
     CLX_TRY(kit_numbers(e, &of_kit));
     for (int32_t i = 0; i < e->n_start; ++i) {
         const clx_evolve_body *body = &e->body[i];
+        const int32_t n = made.n_grain;
         if (body->state == CLX_BODY_IN_FLUID || body->state == CLX_BODY_ON_FLOOR) {
             CLX_TRY(add_grains(e, body, body->x, of_kit, NULL, &made));
+            CLX_TRY(values != NULL ? add_values(body, made.n_grain - n, &rows) : CLAST_OK);
         }
     }
+    CLX_TRY(values != NULL ? clx_rows_table(&rows, "grains", values) : CLAST_OK);
     *assembly = made;
     made = (clast_assembly){0};
 done:
     clx_free(of_kit);
+    clx_rows_free(&rows);
     clast_assembly_free(&made);
     return status;
 }

@@ -74,7 +74,7 @@ CLX_INLINE void next_edge(const calipers *c, int32_t *corner, double edge[2])
 
 /// Turns a vector back by k quarters: (x, y), (y, -x), (-x, -y), (-y, x). Signs are factors, since
 /// branches on k would be mispredicted.
-static void turn_back(int k, const double v[2], double out[2])
+static void rotate_back(int k, const double v[2], double out[2])
 {
     static const double sign[4][2] = {{1.0, 1.0}, {1.0, -1.0}, {-1.0, -1.0}, {-1.0, 1.0}};
     out[0] = sign[k][0] * v[k & 1];
@@ -85,7 +85,7 @@ CLX_INLINE void look_ahead(calipers *c, int k)
 {
     double edge[2] = {0};
     next_edge(c, &c->corner[k], edge);
-    turn_back(k, edge, c->ahead[k]);
+    rotate_back(k, edge, c->ahead[k]);
 }
 
 /// Which of the four edges ahead needs the least turn.
@@ -233,7 +233,7 @@ bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double lim
     }
     const double length = sqrt(c.best_length2);
     double touched[2]; // the edge itself: turned on again by as many quarters
-    turn_back((4 - c.quarters) % 4, c.edge, touched);
+    rotate_back((4 - c.quarters) % 4, c.edge, touched);
     side[0] = touched[0] / length;
     side[1] = touched[1] / length;
     edge[0] = width_along(shadow, side);

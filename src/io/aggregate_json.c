@@ -62,7 +62,7 @@ static const struct {
 };
 enum { N_NUMBER = sizeof numbers / sizeof numbers[0] };
 
-static void set(json_t *object, const char *key, double value)
+static void set_number(json_t *object, const char *key, double value)
 {
     if (value == floor(value) && fabs(value) < 1e15 && key[0] == 'n' && key[1] == '_') {
         (void)json_object_set_new(object, key, json_integer((json_int_t)value));
@@ -84,10 +84,10 @@ static clast_interval interval(const clast_aggregate_report *report, reader read
 static json_t *interval_json(clast_interval i)
 {
     json_t *object = json_object();
-    set(object, "mean", i.mean);
-    set(object, "deviation", i.deviation);
-    set(object, "low", i.low);
-    set(object, "high", i.high);
+    set_number(object, "mean", i.mean);
+    set_number(object, "deviation", i.deviation);
+    set_number(object, "low", i.low);
+    set_number(object, "high", i.high);
     return object;
 }
 
@@ -100,7 +100,7 @@ static json_t *means_by_envelope(const clast_aggregate_report *report, reader re
 {
     json_t *object = json_object();
     for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
-        set(object, envelope_name(report, k), interval(report, read, k, value).mean);
+        set_number(object, envelope_name(report, k), interval(report, read, k, value).mean);
     }
     return object;
 }
@@ -110,7 +110,7 @@ static json_t *intervals(const clast_aggregate_report *report, double *value)
     CLAST_ASSERT(report->n >= 2);
     json_t *object = json_object();
     json_t *porosity = json_object();
-    set(object, "confidence", report->confidence);
+    set_number(object, "confidence", report->confidence);
     for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
         (void)json_object_set_new(porosity, envelope_name(report, k),
                                   interval_json(interval(report, read_porosity, k, value)));
@@ -137,9 +137,9 @@ static json_t *one_repeat(const clast_aggregate_result *r)
     json_t *porosity = json_object();
     for (int32_t k = 0; k < r->n_envelope; ++k) {
         const char *name = clast_envelope_name(r->envelope[k].kind);
-        set(envelope, name, r->envelope[k].volume);
-        set(error, name, r->envelope[k].error);
-        set(porosity, name, r->porosity[k]);
+        set_number(envelope, name, r->envelope[k].volume);
+        set_number(error, name, r->envelope[k].error);
+        set_number(porosity, name, r->porosity[k]);
     }
     (void)json_object_set_new(object, "n_grain", json_integer(r->n_grain));
     (void)json_object_set_new(object, "n_particle", json_integer(r->n_particle));
@@ -150,14 +150,14 @@ static json_t *one_repeat(const clast_aggregate_result *r)
                               json_string(clast_permeable_range_text(r->permeable)));
     (void)json_object_set_new(object, "stopped_by", json_string(stop_name(r->stop)));
     for (int i = 1; i < N_NUMBER; ++i) {
-        set(object, numbers[i].name, numbers[i].read(r, 0));
+        set_number(object, numbers[i].name, numbers[i].read(r, 0));
     }
-    set(object, "solid_union_error", r->solid_union_error);
+    set_number(object, "solid_union_error", r->solid_union_error);
     (void)json_object_set_new(object, "envelope", envelope);
     (void)json_object_set_new(object, "envelope_error", error);
     (void)json_object_set_new(object, "porosity", porosity);
-    set(object, "max_overlap", r->max_overlap);
-    set(object, "max_overlap_relative", r->max_overlap_relative);
+    set_number(object, "max_overlap", r->max_overlap);
+    set_number(object, "max_overlap_relative", r->max_overlap_relative);
     return object;
 }
 
@@ -173,12 +173,12 @@ static void add_totals(const clast_aggregate_report *report, bool times, json_t 
         sum.contact_s += r->contact_s;
         sum.envelope_s += r->envelope_s;
     }
-    set(object, "max_overlap", sum.max_overlap);
+    set_number(object, "max_overlap", sum.max_overlap);
     (void)json_object_set_new(object, "n_lost", json_integer(sum.n_lost));
     if (times) {
-        set(object, "wall_s", sum.wall_s);
-        set(object, "contact_s", sum.contact_s);
-        set(object, "envelope_s", sum.envelope_s);
+        set_number(object, "wall_s", sum.wall_s);
+        set_number(object, "contact_s", sum.contact_s);
+        set_number(object, "envelope_s", sum.envelope_s);
     }
 }
 
@@ -188,7 +188,7 @@ static json_t *whole(const clast_aggregate_report *report, bool times, double *v
     json_t *repeats = json_array();
     (void)json_object_set_new(object, "n_repeat", json_integer(report->n));
     for (int i = 0; i < N_NUMBER; ++i) {
-        set(object, numbers[i].name, interval(report, numbers[i].read, 0, value).mean);
+        set_number(object, numbers[i].name, interval(report, numbers[i].read, 0, value).mean);
     }
     (void)json_object_set_new(object, "envelope", means_by_envelope(report, read_envelope, value));
     (void)json_object_set_new(object, "porosity", means_by_envelope(report, read_porosity, value));

@@ -18,6 +18,10 @@ static json_t *deposit(const clast_evolve_result *r)
     clx_json_set_number(o, "porosity", r->deposit_porosity);
     clx_json_set_number(o, "speed", r->deposit_speed);
     clx_json_set_number(o, "grains", r->deposit_grains);
+    if (r->bed_width > 0.0) {
+        clx_json_set_number(o, "bed_width", r->bed_width);
+        clx_json_set_number(o, "bed_height", r->bed_height);
+    }
     return o;
 }
 

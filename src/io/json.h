@@ -20,7 +20,7 @@ void clx_json_number(clx_file *file, double value);
 typedef struct json_t json_t;
 
 /// A number, or null for nan and inf.
-void clx_json_set_number(json_t *object, const char *key, double value);
+CLX_SHARED void clx_json_set_number(json_t *object, const char *key, double value);
 void clx_json_set_count(json_t *object, const char *key, int64_t value);
 
 /// The object as a text, of clx_alloc_text.

@@ -6,8 +6,10 @@
 #include "base/path.h"
 #include "io/bed_tables.h"
 #include "io/config_files.h"
+#include "io/rigid_grain.h"
 #include "io/shape_word.h"
 #include "io/start_file.h"
+#include "io/wall_file.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/form.h>
@@ -33,6 +35,7 @@ void clast_pack_unload(clast_pack_source *source)
     clast_mesh_free(&source->container);
     clast_mesh_free(&source->container_closed);
     clast_assembly_free(&source->start);
+    clx_walls_unload(source->n_wall, source->wall);
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
@@ -89,83 +92,18 @@ done:
     return status;
 }
 
-/// Whether an aggregate is made of spheres alone; how many.
-static bool is_of_spheres(const clast_assembly *a, int64_t *n)
-{
-    *n = 0;
-    for (int32_t i = 0; i < a->n_grain; ++i) {
-        const clast_shape *shape = &a->shape[a->shape_id[i]];
-        if (shape->kind != CLAST_SHAPE_SPHERE && shape->kind != CLAST_SHAPE_CLUMP) {
-            return false;
-        }
-        *n += shape->kind == CLAST_SHAPE_SPHERE ? 1 : shape->spheres.n;
-    }
-    return true;
-}
-
-/// The spheres of an aggregate's state.
-static clast_status spheres_of(const clast_assembly *a, int64_t n, clast_spheres *out)
-{
-    clast_status status = CLAST_OK;
-    clast_spheres made = {0};
-    CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_GEOMETRY, "the aggregate holds %lld spheres",
-              (long long)n);
-    CLX_TRY(clast_spheres_alloc((int32_t)n, &made));
-    n = 0;
-    for (int32_t i = 0; i < a->n_grain; ++i) {
-        const clast_shape *shape = &a->shape[a->shape_id[i]];
-        const bool is_ball = shape->kind == CLAST_SHAPE_SPHERE;
-        for (int32_t k = 0; k < (is_ball ? 1 : shape->spheres.n); ++k) {
-            double x[3] = {0.0, 0.0, 0.0};
-            if (!is_ball) {
-                q_rotate(x, a->orientation[i], shape->spheres.centre[k]);
-            }
-            v3_axpy(made.centre[n], a->position[i], a->scale[i], x);
-            made.radius[n++] =
-                a->scale[i] * (is_ball ? shape->semi_axes[0] : shape->spheres.radius[k]);
-        }
-    }
-    *out = made;
-    made = (clast_spheres){0};
-done:
-    clast_spheres_free(&made);
-    return status;
-}
-
-static bool is_of_one_density(const clast_assembly *a)
-{
-    for (int32_t i = 1; i < a->n_grain; ++i) {
-        if (!(fabs(a->density[i] - a->density[0]) <= 1e-9 * a->density[0])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// The rigid grain that an aggregate's state is: a clump where all its grains are spheres of one
-/// density.
+/// The rigid grain that an aggregate's state is.
 static clast_status read_aggregate(const clast_pack_config *config, const clast_assembly *a,
                                    const char *name, clast_shape *shape, clast_pack_hull *note)
 {
-    clast_status status = CLAST_OK;
     const clast_rigid_options options = {.hull = config->hull, .faces = config->faces};
-    clast_spheres spheres = {0};
-    int64_t n = 0;
-    if (is_of_spheres(a, &n) && is_of_one_density(a)) {
-        CLX_TRY(spheres_of(a, n, &spheres));
-        CLX_TRY(clast_shape_clump(name, &spheres, shape));
-        shape->own.density = a->density[0];
-    } else {
-        double added = 0.0;
-        CLX_TRY(clast_assembly_rigid(a, name, &options, shape, &added));
-        if (isfinite(added) && (config->hull || config->faces > 0)) {
-            (void)snprintf(note->shape, sizeof note->shape, "%s", name);
-            note->n_triangle = shape->mesh.n_tri;
-            note->volume_added = added;
-        }
+    double added = 0.0;
+    const clast_status status = clx_rigid_grain(a, name, &options, shape, &added);
+    if (status == CLAST_OK && isfinite(added) && (config->hull || config->faces > 0)) {
+        (void)snprintf(note->shape, sizeof note->shape, "%s", name);
+        note->n_triangle = shape->mesh.n_tri;
+        note->volume_added = added;
     }
-done:
-    clast_spheres_free(&spheres);
     return status;
 }
 
@@ -393,6 +331,9 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
         made.input.curve = made.curve.n_class > 0 ? &source->curve : NULL;
     }
     CLX_TRY(load_container(config, source, &made));
+    CLX_TRY(clx_walls_load(config, &made.n_wall, &made.wall));
+    made.input.n_wall = made.n_wall;
+    made.input.wall = made.wall;
     *source = made;
     made = (clast_pack_source){0};
 done:
@@ -429,6 +370,9 @@ int32_t clx_pack_n_file(const clast_pack_config *config)
     for (int32_t i = 0; i < config->shapes.n; ++i) {
         n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
     }
+    for (int32_t i = 0; clx_walls_file(config, i) != NULL; ++i) {
+        ++n;
+    }
     return n;
 }
 
@@ -452,5 +396,9 @@ const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char
         return config->start;
     }
     *role = "curve";
-    return curve_file(config->curve);
+    if (curve_file(config->curve) != NULL && i-- == 0) {
+        return curve_file(config->curve);
+    }
+    *role = "wall";
+    return clx_walls_file(config, i);
 }

@@ -42,6 +42,7 @@ static json_t *ranks(const clast_pack_ranks *r)
     clx_json_set_count(o, "n_balance", r->n_balance);
     clx_json_set_count(o, "n_migrated", r->n_migrated);
     clx_json_set_number(o, "ghosts", r->ghosts);
+    clx_json_set_number(o, "messages", r->messages);
     clx_json_set_number(o, "step_bytes", r->step_bytes);
     clx_json_set_number(o, "list_bytes", r->list_bytes);
     clx_json_set_number(o, "imbalance", r->imbalance);
@@ -94,6 +95,8 @@ static json_t *energies(const clast_dem_energy *e)
     clx_json_set_number(o, "rolling", e->rolling[0] + e->rolling[1]);
     clx_json_set_number(o, "fluid", e->fluid);
     clx_json_set_number(o, "calming", e->calming);
+    clx_json_set_number(o, "walls", e->walls);
+    clx_json_set_number(o, "left", e->left);
     clx_json_set_number(o, "scheme", e->scheme);
     clx_json_set_number(o, "rest", e->rest);
     return o;
@@ -151,6 +154,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     if (r->n_overlap > 0) {
         clx_json_set_count(o, "n_overlap_start", r->n_overlap);
         clx_json_set_number(o, "deepest_overlap_start", r->deepest_start);
+    }
+    if (r->n_left > 0) {
+        clx_json_set_count(o, "n_left", r->n_left);
+        clx_json_set_number(o, "mass_left", r->mass_left);
     }
     if (r->load.volume > 0.0) {
         (void)json_object_set_new(o, "cell", loaded(r));

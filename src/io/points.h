@@ -1,6 +1,6 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
-#include <clast/status.h>
+#include "base/status.h"
 #include <clast/table.h>
 
 /// Some rows of an array.
@@ -10,6 +10,10 @@ typedef struct clx_rows {
 
 clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);
+
+/// Grains as `clast export` places them in a .vtu of surfaces (field data) or points: columns x, y,
+/// z, grain, shape, scale, density, orientation_wxyz_0 to _3; names: a row for each shape.
+CLX_SHARED clast_status clx_vtu_grains(const char *path, clast_table *grains, clast_table *names);
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
                              clast_table *table);
 clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table);

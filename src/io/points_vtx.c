@@ -3,6 +3,7 @@
 #include "io/points.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "io/text.h"
 #include "io/vtk_number.h"
 #include <clast/table.h>
@@ -471,5 +472,112 @@ clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast
 done:
     clast_table_free(&v.table);
     clast_table_free(&all);
+    return status;
+}
+
+/// The content of <FieldData>; empty where there is none.
+static stretch field_of(const vtx *v)
+{
+    const char *at = v->xml.at;
+    stretch tag;
+    if (!next_tag(v->xml, "FieldData", &at, &tag)) {
+        return (stretch){v->xml.end, v->xml.end};
+    }
+    const char *end = find((stretch){at, v->xml.end}, "</FieldData>");
+    return (stretch){at, end != NULL ? end : v->xml.end};
+}
+
+static bool tuples_of(stretch tag, int64_t *n)
+{
+    stretch text;
+    return attribute(tag, "NumberOfTuples", &text) && integer_of(text, n) && *n >= 0 &&
+           *n < INT64_C(1) << 40;
+}
+
+/// Arrays of numbers with as many tuples as the first, as v->table.
+static clast_status read_field(vtx *v)
+{
+    clast_status status = CLAST_OK;
+    const stretch group = field_of(v);
+    const char *at = group.at;
+    stretch tag;
+    stretch text;
+    int64_t n = 0;
+    while (next_tag(group, "DataArray", &at, &tag)) {
+        const char *last = find((stretch){at, group.end}, "<");
+        if (last == NULL || !tuples_of(tag, &n) || (v->table.n_column > 0 && n != v->n)) {
+            continue;
+        }
+        if (v->table.n_column == 0) {
+            v->n = n;
+            CLX_TRY(clast_table_init(&v->table, v->name, n));
+        }
+        const bool is_place = attribute(tag, "Name", &text) && is_word(text, "position");
+        CLX_TRY(read_array(v, tag, (stretch){at, last}, is_place));
+    }
+done:
+    return status;
+}
+
+/// Texts of the array "shape_names", each letter's code and 0.
+static clast_status read_names(const vtx *v, clast_table *names)
+{
+    clast_status status = CLAST_OK;
+    const stretch group = field_of(v);
+    const char *at = group.at;
+    stretch tag;
+    stretch name;
+    int64_t n = 0;
+    CLX_TRY(clast_table_init(names, "shapes", 0));
+    CLX_TRY(clast_table_add_text(names, "name"));
+    while (next_tag(group, "Array", &at, &tag)) {
+        const char *last = find((stretch){at, group.end}, "<");
+        if (last == NULL || !attribute(tag, "Name", &name) || !is_word(name, "shape_names") ||
+            !tuples_of(tag, &n)) {
+            continue;
+        }
+        char letters[256];
+        size_t used = 0;
+        clx_text text = clx_text_begin(at, (size_t)(last - at), '\0', false);
+        clx_word word;
+        int64_t code = 0;
+        CLX_CHECK(n <= last - at, CLAST_E_FORMAT, "%s: names of %" PRId64 " shapes are cut short",
+                  v->name, n);
+        CLX_TRY(clast_table_resize(names, n));
+        for (int64_t i = 0;
+             i < n && clx_text_any_word(&text, &word) && clx_word_integer(word, &code);) {
+            letters[used] = (char)(code > 0 && code < 256 ? code : 0);
+            used += code > 0 && used + 1 < sizeof letters ? 1 : 0;
+            if (code <= 0) {
+                CLX_TRY(clast_table_set_text(names, 0, i++, letters));
+                used = 0;
+            }
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clx_vtu_grains(const char *path, clast_table *grains, clast_table *names)
+{
+    static const int64_t limit = INT64_C(16) << 30;
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    vtx v = {.name = path};
+    CLX_TRY(clx_file_read_all(path, limit, &bytes, &n));
+    v.size = n;
+    CLX_TRY(read_head(&v, (stretch){bytes, bytes + n}));
+    CLX_TRY(read_names(&v, names));
+    CLX_TRY(read_field(&v));
+    if (clast_table_find(&v.table, "orientation_wxyz_0") >= 0) {
+        *grains = v.table;
+        v.table = (clast_table){0};
+    } else {
+        CLX_TRY(clx_points_vtx(path, bytes, (size_t)n, grains));
+    }
+done:
+    clast_table_free(&v.table);
+    clx_free(bytes);
     return status;
 }

@@ -11,8 +11,8 @@
 #include <string.h>
 
 /// One array under a folder.
-static clast_status put(clx_place at, const char *name, clx_h5_type type, int64_t n, int64_t width,
-                        const void *data)
+static clast_status write_array(clx_place at, const char *name, clx_h5_type type, int64_t n,
+                                int64_t width, const void *data)
 {
     CLAST_ASSERT(n >= 0 && width >= 0);
     char path[CLX_H5_NAME_LIMIT];
@@ -43,8 +43,10 @@ done:
 clast_status clx_state_put_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(put((clx_place){h5, folder}, "centre", CLX_H5_F64, spheres->n, 3, spheres->centre));
-    CLX_TRY(put((clx_place){h5, folder}, "radius", CLX_H5_F64, spheres->n, 1, spheres->radius));
+    CLX_TRY(
+        write_array((clx_place){h5, folder}, "centre", CLX_H5_F64, spheres->n, 3, spheres->centre));
+    CLX_TRY(
+        write_array((clx_place){h5, folder}, "radius", CLX_H5_F64, spheres->n, 1, spheres->radius));
 done:
     return status;
 }
@@ -65,8 +67,8 @@ static clast_status put_rigid(clx_h5 *h5, const char *folder, const clast_parts 
         memcpy(&number[10 * i + 3], p->position, sizeof p->position);
         memcpy(&number[10 * i + 6], p->orientation, sizeof p->orientation);
     }
-    CLX_TRY(put((clx_place){h5, folder}, "part_id", CLX_H5_I32, parts->n, 5, id));
-    CLX_TRY(put((clx_place){h5, folder}, "part", CLX_H5_F64, parts->n, 10, number));
+    CLX_TRY(write_array((clx_place){h5, folder}, "part_id", CLX_H5_I32, parts->n, 5, id));
+    CLX_TRY(write_array((clx_place){h5, folder}, "part", CLX_H5_F64, parts->n, 10, number));
 done:
     clx_free(id);
     clx_free(number);
@@ -77,10 +79,10 @@ static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape 
 {
     clast_status status = CLAST_OK;
     if (shape->mesh.n_vert > 0) {
-        CLX_TRY(put((clx_place){h5, folder}, "vert", CLX_H5_F64, shape->mesh.n_vert, 3,
-                    shape->mesh.vert));
-        CLX_TRY(
-            put((clx_place){h5, folder}, "tri", CLX_H5_I32, shape->mesh.n_tri, 3, shape->mesh.tri));
+        CLX_TRY(write_array((clx_place){h5, folder}, "vert", CLX_H5_F64, shape->mesh.n_vert, 3,
+                            shape->mesh.vert));
+        CLX_TRY(write_array((clx_place){h5, folder}, "tri", CLX_H5_I32, shape->mesh.n_tri, 3,
+                            shape->mesh.tri));
     }
     if (shape->spheres.n > 0) {
         CLX_TRY(clx_state_put_spheres(h5, folder, &shape->spheres));
@@ -102,14 +104,16 @@ static clast_status put_shape(clx_h5 *h5, const char *folder, const clast_shape 
     CLX_TRY(put_f64(h5, folder, "volume", shape->volume));
     CLX_TRY(put_f64(h5, folder, "length", shape->length));
     CLX_TRY(put_f64(h5, folder, "bounding_radius", shape->bounding_radius));
-    CLX_TRY(put((clx_place){h5, folder}, "semi_axes", CLX_H5_F64, 3, 1, shape->semi_axes));
-    CLX_TRY(put((clx_place){h5, folder}, "inertia", CLX_H5_F64, 3, 3, shape->inertia));
-    CLX_TRY(put((clx_place){h5, folder}, "source_origin", CLX_H5_F64, 3, 1, shape->source_origin));
+    CLX_TRY(write_array((clx_place){h5, folder}, "semi_axes", CLX_H5_F64, 3, 1, shape->semi_axes));
+    CLX_TRY(write_array((clx_place){h5, folder}, "inertia", CLX_H5_F64, 3, 3, shape->inertia));
+    CLX_TRY(write_array((clx_place){h5, folder}, "source_origin", CLX_H5_F64, 3, 1,
+                        shape->source_origin));
     if (shape->own.is_mixed) {
         const clast_material *own = &shape->own;
         CLX_TRY(put_f64(h5, folder, "mass_density", own->density));
-        CLX_TRY(put((clx_place){h5, folder}, "mass_centre", CLX_H5_F64, 3, 1, own->centre));
-        CLX_TRY(put((clx_place){h5, folder}, "mass_inertia", CLX_H5_F64, 3, 3, own->inertia));
+        CLX_TRY(write_array((clx_place){h5, folder}, "mass_centre", CLX_H5_F64, 3, 1, own->centre));
+        CLX_TRY(
+            write_array((clx_place){h5, folder}, "mass_inertia", CLX_H5_F64, 3, 3, own->inertia));
     }
     CLX_TRY(put_parts(h5, folder, shape));
 done:
@@ -120,16 +124,17 @@ static clast_status put_grains(clx_h5 *h5, const char *folder, const clast_assem
 {
     clast_status status = CLAST_OK;
     const int32_t n = a->n_grain;
-    CLX_TRY(put((clx_place){h5, folder}, "shape_id", CLX_H5_I32, n, 1, a->shape_id));
-    CLX_TRY(put((clx_place){h5, folder}, "position", CLX_H5_F64, n, 3, a->position));
-    CLX_TRY(put((clx_place){h5, folder}, "orientation", CLX_H5_F64, n, 4, a->orientation));
-    CLX_TRY(put((clx_place){h5, folder}, "scale", CLX_H5_F64, n, 1, a->scale));
-    CLX_TRY(put((clx_place){h5, folder}, "density", CLX_H5_F64, n, 1, a->density));
-    CLX_TRY(put((clx_place){h5, folder}, "id", CLX_H5_I64, n, 1, a->id));
+    CLX_TRY(write_array((clx_place){h5, folder}, "shape_id", CLX_H5_I32, n, 1, a->shape_id));
+    CLX_TRY(write_array((clx_place){h5, folder}, "position", CLX_H5_F64, n, 3, a->position));
+    CLX_TRY(write_array((clx_place){h5, folder}, "orientation", CLX_H5_F64, n, 4, a->orientation));
+    CLX_TRY(write_array((clx_place){h5, folder}, "scale", CLX_H5_F64, n, 1, a->scale));
+    CLX_TRY(write_array((clx_place){h5, folder}, "density", CLX_H5_F64, n, 1, a->density));
+    CLX_TRY(write_array((clx_place){h5, folder}, "id", CLX_H5_I64, n, 1, a->id));
     if (a->contact != NULL) {
-        CLX_TRY(put((clx_place){h5, folder}, "contact", CLX_H5_I32, a->n_contact, 2, a->contact));
-        CLX_TRY(put((clx_place){h5, folder}, "contact_point", CLX_H5_F64, a->n_contact, 3,
-                    a->contact_point));
+        CLX_TRY(write_array((clx_place){h5, folder}, "contact", CLX_H5_I32, a->n_contact, 2,
+                            a->contact));
+        CLX_TRY(write_array((clx_place){h5, folder}, "contact_point", CLX_H5_F64, a->n_contact, 3,
+                            a->contact_point));
     }
 done:
     return status;
@@ -169,9 +174,9 @@ static clast_status put_text_column(clx_h5 *h5, const char *folder, const char *
     for (int64_t i = 0; i < n_row; ++i) {
         memcpy(bytes + begin[i], column->text[i], (size_t)(begin[i + 1] - begin[i]));
     }
-    CLX_TRY(put((clx_place){h5, folder}, name, CLX_H5_U8, begin[n_row], 1, bytes));
+    CLX_TRY(write_array((clx_place){h5, folder}, name, CLX_H5_U8, begin[n_row], 1, bytes));
     (void)snprintf(begin_name, sizeof begin_name, "%s_begin", name);
-    CLX_TRY(put((clx_place){h5, folder}, begin_name, CLX_H5_I64, n_row + 1, 1, begin));
+    CLX_TRY(write_array((clx_place){h5, folder}, begin_name, CLX_H5_I64, n_row + 1, 1, begin));
 done:
     clx_free(begin);
     clx_free(bytes);
@@ -187,7 +192,8 @@ static clast_status put_column(clx_h5 *h5, const char *folder, int32_t c, const 
     (void)snprintf(name, sizeof name, "%06d", c);
     CLX_CHECK(clx_join(path, folder, name), CLAST_E_USAGE, "name %s is too long", folder);
     if (column->number != NULL) {
-        CLX_TRY(put((clx_place){h5, folder}, name, CLX_H5_F64, table->n_row, 1, column->number));
+        CLX_TRY(write_array((clx_place){h5, folder}, name, CLX_H5_F64, table->n_row, 1,
+                            column->number));
     } else {
         CLX_TRY(put_text_column(h5, folder, name, column, table->n_row));
     }

@@ -4,18 +4,9 @@
 #include "io/vtk_array.h"
 #include <clast/mesh.h>
 #include <clast/shape.h>
+#include <clast/state.h>
+#include <clast/table.h>
 #include <inttypes.h>
-
-static void put_head(clx_file *file, const char *unit, int64_t n_point, int64_t n_cell)
-{
-    clx_vtk_head(file, "UnstructuredGrid");
-    (void)clx_file_print(file, "<FieldData>");
-    clx_vtk_field_text(file, "unit", unit);
-    (void)clx_file_print(file, "</FieldData>\n");
-    (void)clx_file_print(file,
-                         "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
-                         n_point, n_cell);
-}
 
 static void put_tail(clx_file *file)
 {
@@ -68,6 +59,13 @@ static void value_density(const clast_assembly *a, int32_t i, datum *out)
     out->f64[0] = a->density[i];
 }
 
+static void value_position(const clast_assembly *a, int32_t i, datum *out)
+{
+    for (int k = 0; k < 3; ++k) {
+        out->f64[k] = a->position[i][k];
+    }
+}
+
 static void value_orientation(const clast_assembly *a, int32_t i, datum *out)
 {
     for (int k = 0; k < 4; ++k) {
@@ -87,21 +85,83 @@ static const property of_points[] = {
     {"Float64", "orientation_wxyz", 4, 32, value_orientation},
 };
 
-/// One property of every grain, once or for each of its triangles.
-static clast_status put_property(clx_export *e, clx_vtk_array *array, const property *p,
-                                 bool per_triangle)
+/// Grains of a file of surfaces as they are placed, which its triangles do not tell.
+static const property of_field[] = {
+    {"Int64", "grain", 1, 8, value_id},
+    {"Int32", "shape", 1, 4, value_shape},
+    {"Float64", "scale", 1, 8, value_scale},
+    {"Float64", "density", 1, 8, value_density},
+    {"Float64", "position", 3, 24, value_position},
+    {"Float64", "orientation_wxyz", 4, 32, value_orientation},
+};
+
+typedef enum { ONCE, EACH_TRIANGLE, IN_FIELD } place;
+
+/// One property of every grain.
+static clast_status put_property(clx_export *e, clx_vtk_array *array, const property *p, place at)
 {
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
     for (int32_t i = 0; i < a->n_grain; ++i) {
         datum bytes;
-        const int32_t n = per_triangle ? e->parts.surface[a->shape_id[i]].n_tri : 1;
+        const int32_t n = at == EACH_TRIANGLE ? e->parts.surface[a->shape_id[i]].n_tri : 1;
         p->value(a, i, &bytes);
         for (int32_t t = 0; t < n; ++t) {
             CLX_TRY(clx_vtk_add(array, &bytes, p->size));
         }
     }
+    if (at == IN_FIELD) {
+        return clx_vtk_end_field(array, &e->file, p->type, p->name, p->components, a->n_grain);
+    }
     CLX_TRY(clx_vtk_end(array, &e->file, p->type, p->name, p->components));
+done:
+    return status;
+}
+
+/// The caller's numbers of the grains, likewise.
+static clast_status put_values(clx_export *e, clx_vtk_array *array, bool per_triangle)
+{
+    clast_status status = CLAST_OK;
+    const clast_table *values = e->options->values;
+    for (int32_t c = 0; values != NULL && c < values->n_column; ++c) {
+        const double *number = values->column[c].number;
+        for (int32_t i = 0; number != NULL && i < e->assembly->n_grain; ++i) {
+            const int32_t shape = e->assembly->shape_id[i];
+            const int32_t n = per_triangle ? e->parts.surface[shape].n_tri : 1;
+            for (int32_t t = 0; t < n; ++t) {
+                CLX_TRY(clx_vtk_add(array, &number[i], sizeof number[i]));
+            }
+        }
+        if (number != NULL) {
+            CLX_TRY(clx_vtk_end(array, &e->file, "Float64", values->column[c].name, 1));
+        }
+    }
+done:
+    return status;
+}
+
+static const char *shape_name(const void *assembly, int32_t i)
+{
+    const clast_assembly *a = assembly;
+    return a->shape[i].name;
+}
+
+/// Unit, names of the shapes, and how each grain is placed.
+static clast_status put_head(clx_export *e, clx_vtk_array *array, int64_t n_point, int64_t n_cell,
+                             bool has_poses)
+{
+    clast_status status = CLAST_OK;
+    clx_vtk_head(&e->file, "UnstructuredGrid");
+    (void)clx_file_print(&e->file, "<FieldData>");
+    clx_vtk_field_text(&e->file, "unit", e->unit);
+    clx_vtk_field_texts(&e->file, "shape_names", e->assembly->n_shape, shape_name, e->assembly);
+    for (size_t k = 0; has_poses && k < sizeof of_field / sizeof of_field[0]; ++k) {
+        CLX_TRY(put_property(e, array, &of_field[k], IN_FIELD));
+    }
+    (void)clx_file_print(&e->file, "</FieldData>\n");
+    (void)clx_file_print(&e->file,
+                         "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
+                         n_point, n_cell);
 done:
     return status;
 }
@@ -163,15 +223,16 @@ clast_status clx_export_vtu_surfaces(clx_export *e)
     clast_status status = CLAST_OK;
     clx_vtk_array array = {0};
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&e->file, e->unit, e->parts.n_vert, e->parts.n_tri);
+    CLX_TRY(put_head(e, &array, e->parts.n_vert, e->parts.n_tri, true));
     CLX_TRY(put_surface_points(e, &array));
     (void)clx_file_print(&e->file, "<Cells>\n");
     CLX_TRY(put_connectivity(e, &array));
     CLX_TRY(put_cells(e, &array, e->parts.n_tri, 3, VTK_TRIANGLE));
     (void)clx_file_print(&e->file, "<CellData>\n");
     for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &common[k], true));
+        CLX_TRY(put_property(e, &array, &common[k], EACH_TRIANGLE));
     }
+    CLX_TRY(put_values(e, &array, true));
     (void)clx_file_print(&e->file, "</CellData>\n");
     put_tail(&e->file);
 done:
@@ -202,16 +263,17 @@ clast_status clx_export_vtu_points(clx_export *e)
     clx_vtk_array array = {0};
     const int32_t n = e->assembly->n_grain;
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&e->file, e->unit, n, n);
+    CLX_TRY(put_head(e, &array, n, n, false));
     CLX_TRY(put_grain_points(e, &array));
     CLX_TRY(put_cells(e, &array, n, 1, VTK_VERTEX));
     (void)clx_file_print(&e->file, "<PointData>\n");
     for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &common[k], false));
+        CLX_TRY(put_property(e, &array, &common[k], ONCE));
     }
     for (size_t k = 0; k < sizeof of_points / sizeof of_points[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &of_points[k], false));
+        CLX_TRY(put_property(e, &array, &of_points[k], ONCE));
     }
+    CLX_TRY(put_values(e, &array, false));
     (void)clx_file_print(&e->file, "</PointData>\n");
     put_tail(&e->file);
 done:

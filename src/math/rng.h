@@ -54,7 +54,9 @@ enum clx_stream {
     CLX_STREAM_EVOLVE_PLACE = 60,
     CLX_STREAM_EVOLVE_SHAPE = 61,
     CLX_STREAM_EVOLVE_MOVE = 62,
-    CLX_STREAM_EVOLVE_MEET = 63
+    CLX_STREAM_EVOLVE_MEET = 63,
+    CLX_STREAM_EVOLVE_REACT = 64,
+    CLX_STREAM_EVOLVE_VELOCITY = 65
 };
 
 /// Cursor at the first draw of (seed, stream, index).

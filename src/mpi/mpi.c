@@ -82,7 +82,7 @@ static void send(void *context, int32_t to, const int64_t word[CLAST_COMM_WORDS]
     r->request[k] = request;
 }
 
-static bool take(void *context, int32_t *from, int64_t word[CLAST_COMM_WORDS])
+static bool receive_words(void *context, int32_t *from, int64_t word[CLAST_COMM_WORDS])
 {
     const ranks *r = context;
     MPI_Status status;
@@ -307,7 +307,7 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
     *comm = (clast_comm){.rank = rank,
                          .n_rank = n_rank,
                          .send = send,
-                         .take = take,
+                         .take = receive_words,
                          .least = least,
                          .broadcast = broadcast,
                          .gather = gather,

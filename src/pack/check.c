@@ -62,11 +62,11 @@ static clast_status check_cell(const clast_pack_config *c, const clast_pack_conf
         CLAST_E_CONFIG,
         "domain cell has no walls, no ends and no profile: leave out wall_friction, layer, cut and "
         "trim");
-    CLX_CHECK(is_cell ||
+    CLX_CHECK(is_cell || c->stages.n > 0 ||
                   (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
                    c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
               CLAST_E_CONFIG,
-              "load_rate, load_tolerance, load_rest and max_load_time act in domain cell alone");
+              "load_rate, load_tolerance, load_rest and max_load_time act with stages alone");
 done:
     return status;
 }

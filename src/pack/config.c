@@ -109,8 +109,23 @@ const clast_field clast_pack_fields[] = {
      NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
 
+    {FIELD(TEXT_LIST, wall), 0, 0, 0, "-",
+     "walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, "
+     "left, "
+     "right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, "
+     "about "
+     "X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2",
+     "", .group = "walls and outlets"},
+    {FIELD(TEXT_LIST, outlet), 0, 0, 0, "-",
+     "half-spaces whose grains leave and are counted: z<-10mm", ""},
+    FLAG(wall_forces, 0,
+         "force and torque on all walls over time, also where none moves: walls.csv"),
+
     {FIELD(TEXT_LIST, stages), 0, 0, 0, "-",
-     "stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, "
+     "stages that load a bed, one after the other; between walls: NAME (its motion runs), "
+     "NAME=10kPa, NAME=5N, NAME=1mm/s (where it presses), open NAME, hold; then until rest, time "
+     "T, "
+     "stress P, way D or mass M. In domain cell: isotropic P, oedometer P, "
      "triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, "
      "above 0 pressing); then until rest, strain E, stress P or time T",
      "", .group = "load"},

@@ -139,7 +139,7 @@ static void draw_motion(const clast_pack *p, int64_t index, double size, clast_d
         g->velocity[2] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0);
     }
     for (int k = 0; k < 3; ++k) {
-        g->spin[k] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0) / size;
+        g->angular_velocity[k] = 0.1 * u * (2.0 * clx_rng_uniform(&rng) - 1.0) / size;
     }
     v3_set(&g->orientation[1], 0.0, 0.0, 0.0);
     g->orientation[0] = 1.0;

@@ -34,7 +34,21 @@ static double fastest_of(const clast_pack_config *c, const clx_stage *s)
                                                            : c->load_rate;
         square += rate * side[k] * rate * side[k];
     }
-    return sqrt(square) + fabs(s->shear) * side[2];
+    const double shear = s->shear_kind == CLX_DRIVE_STRESS ? c->load_rate : fabs(s->shear);
+    return sqrt(square) + shear * side[2];
+}
+
+double clx_pack_speed_limit(const clast_pack *p)
+{
+    double low = 0.0;
+    double high = 0.0;
+    double light = 0.0;
+    double heavy = 0.0;
+    clast_grading_range(p->input.grading, &low, &high);
+    clx_pack_densities(p, &light, &heavy);
+    const double r = 0.5 * low;
+    const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
+    return FASTEST * clx_law_speed(&p->dem->law, mass, r, r);
 }
 
 clast_status clx_pack_load_check(const clast_pack *p)
@@ -42,24 +56,14 @@ clast_status clx_pack_load_check(const clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_pack_config *c = &p->config;
     const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
-    CLX_CHECK(is_cell || c->stages.n == 0, CLAST_E_CONFIG,
-              "stages load a bed in domain cell alone, whose sides move");
     CLX_CHECK(!is_cell || c->stages.n > 0, CLAST_E_CONFIG,
               "domain cell without stages: its grains would float for ever; give one "
               "(isotropic 10kPa)");
-    double low = 0.0;
-    double high = 0.0;
-    clast_grading_range(p->input.grading, &low, &high);
-    for (int32_t i = 0; i < c->stages.n; ++i) {
+    const double limit = clx_pack_speed_limit(p);
+    for (int32_t i = 0; is_cell && i < c->stages.n; ++i) {
         clx_stage s;
         CLX_TRY(clx_stage_read(c, i, &s));
         const double speed = fastest_of(c, &s);
-        double light = 0.0;
-        double heavy = 0.0;
-        clx_pack_densities(p, &light, &heavy);
-        const double r = 0.5 * low;
-        const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
-        const double limit = FASTEST * clx_law_speed(&p->dem->law, mass, r, r);
         CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
                   "stage %d, '%s': the cell's sides would move at %g m/s, faster than half of what "
                   "contacts of the smallest grains stop (%g m/s); take lower rates (load_rate), a "
@@ -78,7 +82,7 @@ static clast_status begin_stage(clast_pack *p, int32_t stage)
     p->load.begun = clast_dem_n_step(p->dem);
     v3_copy(p->load.strain, cell.strain);
     p->load.sheared = cell.shear_strain;
-    v3_set(p->load.steady, 0.0, 0.0, 0.0);
+    memset(p->load.steady, 0, sizeof p->load.steady);
     return CLAST_OK;
 }
 
@@ -97,11 +101,16 @@ static bool has_rate(const clx_stage *s)
     return moves_at_rate(s, 0) || moves_at_rate(s, 1) || moves_at_rate(s, 2);
 }
 
+static bool shears_at_rate(const clx_stage *s)
+{
+    return s->shear_kind == CLX_DRIVE_RATE && s->shear != 0.0;
+}
+
 /// Strain since the stage began: the greatest of the sides that move at a rate, or of all.
 static double strain_of(const clast_pack *p, const clx_stage *s, const clast_dem_cell *cell)
 {
     double most = fabs(cell->shear_strain - p->load.sheared);
-    const bool is_at_rate = s->shear != 0.0 || has_rate(s);
+    const bool is_at_rate = shears_at_rate(s) || has_rate(s);
     for (int k = 0; k < 3; ++k) {
         if (!is_at_rate || moves_at_rate(s, k)) {
             most = fmax(most, fabs(cell->strain[k] - p->load.strain[k]));
@@ -113,6 +122,11 @@ static double strain_of(const clast_pack *p, const clx_stage *s, const clast_dem
 /// Whether every side that has a stress to reach is within the tolerance of it.
 static bool is_reached(const clast_pack *p, const clx_stage *s, const clast_dem_load *load)
 {
+    const double shear = -(load->stress[4] + load->kinetic_stress[4]);
+    if (s->shear_kind == CLX_DRIVE_STRESS &&
+        !(fabs(shear - s->shear) <= p->config.load_tolerance * fabs(s->shear))) {
+        return false;
+    }
     for (int k = 0; k < 3; ++k) {
         const double now = load->stress[k] + load->kinetic_stress[k];
         if (s->kind[k] == CLX_DRIVE_STRESS &&
@@ -128,8 +142,10 @@ static bool is_reached(const clast_pack *p, const clx_stage *s, const clast_dem_
 /// or its own pressure is lower.
 static bool has_come(const clx_stage *s, const clast_dem_load *load)
 {
-    if (s->shear != 0.0) {
-        return fabs(load->stress[4] + load->kinetic_stress[4]) >= s->until;
+    const double shear = fabs(load->stress[4] + load->kinetic_stress[4]);
+    if (s->shear_kind != CLX_DRIVE_NONE && s->shear != 0.0) {
+        return s->shear_kind == CLX_DRIVE_STRESS && fabs(s->shear) < s->until ? shear <= s->until
+                                                                              : shear >= s->until;
     }
     const bool is_at_rate = has_rate(s);
     for (int k = 0; k < 3; ++k) {
@@ -168,14 +184,27 @@ static clast_status check_time(const clast_pack *p, const clx_stage *s, const cl
         (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
     const double *c = load->stress;
     const double *k = load->kinetic_stress;
-    CLX_CHECK(s->end == CLX_END_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
-              "stage %d, '%s', has not come to its end in %g s (max_load_time): stresses of x, y "
-              "and z are %.4g, %.4g and %.4g Pa, force on a grain over that of a contact %.2g "
-              "(load_rest %g)",
-              p->load.stage + 1, p->config.stages.item[p->load.stage], time, c[0] + k[0],
-              c[1] + k[1], c[2] + k[2], load->unbalanced, p->config.load_rest);
+    CLX_CHECK(
+        s->end == CLX_END_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
+        "stage %d, '%s', has not come to its end in %g s (max_load_time): stresses of x, y, "
+        "z and xz are %.4g, %.4g, %.4g and %.4g Pa, force on a grain over that of a contact %.2g "
+        "(load_rest %g)",
+        p->load.stage + 1, p->config.stages.item[p->load.stage], time, c[0] + k[0], c[1] + k[1],
+        c[2] + k[2], c[4] + k[4], load->unbalanced, p->config.load_rest);
 done:
     return status;
+}
+
+/// Strain rate until the next look of what is `off` its aim; k counts x, y, z and shear.
+static double servo(clast_pack *p, int k, double off, double modulus)
+{
+    const double most = p->config.load_rate;
+    const double stiff = modulus * CLX_SERVO_TIME * p->config.dem.time_step;
+    const bool is_near = fabs(off) < most * stiff;
+    const double wanted = is_near ? off / stiff : copysign(most, off);
+    const double steady = p->load.steady[k] + SLOWLY * wanted;
+    p->load.steady[k] = is_near ? fmin(fmax(steady, -most), most) : 0.0;
+    return fmin(fmax(wanted + p->load.steady[k], -most), most);
 }
 
 /// Rates of the sides until the next look.
@@ -183,22 +212,22 @@ static clast_status drive(clast_pack *p, const clx_stage *s, const clast_dem_loa
                           const clast_dem_cell *cell)
 {
     double rate[3];
-    const double most = p->config.load_rate;
-    const double time = CLX_SERVO_TIME * p->config.dem.time_step;
     for (int k = 0; k < 3; ++k) {
-        double strain = s->kind[k] == CLX_DRIVE_RATE ? s->aim[k] : 0.0;
-        if (s->kind[k] == CLX_DRIVE_STRESS) {
-            const double off = s->aim[k] - (load->stress[k] + load->kinetic_stress[k]);
-            const double stiff = load->modulus[k] * time;
-            const bool is_near = fabs(off) < most * stiff;
-            const double wanted = is_near ? off / stiff : copysign(most, off);
-            const double steady = p->load.steady[k] + SLOWLY * wanted;
-            p->load.steady[k] = is_near ? fmin(fmax(steady, -most), most) : 0.0;
-            strain = fmin(fmax(wanted + p->load.steady[k], -most), most);
-        }
+        const double now = load->stress[k] + load->kinetic_stress[k];
+        const double strain = s->kind[k] == CLX_DRIVE_RATE ? s->aim[k]
+                              : s->kind[k] == CLX_DRIVE_STRESS
+                                  ? servo(p, k, s->aim[k] - now, load->modulus[k])
+                                  : 0.0;
         rate[k] = -strain * cell->side[k];
     }
-    return clast_dem_set_cell_rate(p->dem, rate, s->shear * cell->side[2]);
+    const double now = -(load->stress[4] + load->kinetic_stress[4]);
+    const double shear = s->shear_kind == CLX_DRIVE_RATE ? s->shear
+                         : s->shear_kind == CLX_DRIVE_STRESS
+                             ? servo(p, 3, s->shear - now, load->shear_modulus)
+                             : 0.0;
+    // the upper images go along with the strain of x, which is no shear
+    const double along = rate[0] * (cell->shift / cell->side[0]);
+    return clast_dem_set_cell_rate(p->dem, rate, shear * cell->side[2] + along);
 }
 
 clast_status clx_pack_load_look(clast_pack *p)

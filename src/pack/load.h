@@ -13,7 +13,8 @@ typedef enum { CLX_END_REST, CLX_END_STRAIN, CLX_END_STRESS, CLX_END_TIME } clx_
 typedef struct clx_stage {
     clx_drive_kind kind[3];
     double aim[3]; ///< strain rate, > 0 in compression [1/s]; or pressure [Pa]
-    double shear;  ///< rate of shear strain [1/s]
+    clx_drive_kind shear_kind;
+    double shear; ///< rate of shear strain [1/s], or the stress that drives it [Pa]
     clx_end_kind end;
     double until; ///< strain, pressure [Pa], or time [s]
 } clx_stage;
@@ -24,6 +25,9 @@ clast_status clx_stage_read(const clast_pack_config *config, int32_t number, clx
 /// Refuses stages that are none, or faster than contacts allow; begins the first.
 clast_status clx_pack_load_check(const clast_pack *pack);
 clast_status clx_pack_load_begin(clast_pack *pack);
+
+/// Half of the speed that contacts of the smallest grains stop [m/s].
+double clx_pack_speed_limit(const clast_pack *pack);
 
 /// Every CLX_SERVO_STEPS: sets the cell's rates; goes to the next stage, or is done.
 clast_status clx_pack_load_look(clast_pack *pack);

@@ -24,26 +24,18 @@ static const column of_contacts[] = {
     {"fabric_zz", "-"},         {"fabric_xz", "-"},        {"unbalanced", "-"},
     {"force_mean_N", "N"},      {"force_below_50_N", "N"}, {"force_below_90_N", "N"},
     {"force_below_99_N", "N"}};
-static const column of_energy[] = {{"energy_put_in_J", "J"},
-                                   {"energy_made_J", "J"},
-                                   {"energy_gravity_J", "J"},
-                                   {"energy_shaking_J", "J"},
-                                   {"energy_cell_J", "J"},
-                                   {"energy_translation_J", "J"},
-                                   {"energy_rotation_J", "J"},
-                                   {"energy_normal_springs_J", "J"},
-                                   {"energy_tangential_springs_J", "J"},
-                                   {"energy_attraction_J", "J"},
-                                   {"lost_damping_grains_J", "J"},
-                                   {"lost_damping_walls_J", "J"},
-                                   {"lost_friction_grains_J", "J"},
-                                   {"lost_friction_walls_J", "J"},
-                                   {"lost_rolling_grains_J", "J"},
-                                   {"lost_rolling_walls_J", "J"},
-                                   {"lost_fluid_J", "J"},
-                                   {"lost_calming_J", "J"},
-                                   {"lost_scheme_J", "J"},
-                                   {"energy_rest_J", "J"}};
+static const column of_energy[] = {
+    {"energy_put_in_J", "J"},         {"energy_made_J", "J"},
+    {"energy_gravity_J", "J"},        {"energy_shaking_J", "J"},
+    {"energy_cell_J", "J"},           {"energy_walls_J", "J"},
+    {"energy_translation_J", "J"},    {"energy_rotation_J", "J"},
+    {"energy_normal_springs_J", "J"}, {"energy_tangential_springs_J", "J"},
+    {"energy_attraction_J", "J"},     {"lost_damping_grains_J", "J"},
+    {"lost_damping_walls_J", "J"},    {"lost_friction_grains_J", "J"},
+    {"lost_friction_walls_J", "J"},   {"lost_rolling_grains_J", "J"},
+    {"lost_rolling_walls_J", "J"},    {"lost_fluid_J", "J"},
+    {"lost_calming_J", "J"},          {"lost_left_J", "J"},
+    {"lost_scheme_J", "J"},           {"energy_rest_J", "J"}};
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 enum { MOST = 64 };
 
@@ -52,7 +44,7 @@ bool clx_pack_has_load(const clast_pack_config *config)
     return config->energy || config->dem.domain == CLAST_DEM_CELL;
 }
 
-static clast_status add(clast_table *table, int n, const column *c)
+static clast_status append_columns(clast_table *table, int n, const column *c)
 {
     clast_status status = CLAST_OK;
     for (int k = 0; k < n; ++k) {
@@ -70,10 +62,10 @@ clast_status clx_pack_load_table(clast_pack *p)
         return CLAST_OK;
     }
     CLX_TRY(clast_table_init(&p->load.table, "load", 0));
-    CLX_TRY(add(&p->load.table, COUNT(first), first));
-    CLX_TRY(add(&p->load.table, is_cell ? COUNT(of_cell) : 0, of_cell));
-    CLX_TRY(add(&p->load.table, COUNT(of_contacts), of_contacts));
-    CLX_TRY(add(&p->load.table, p->config.energy ? COUNT(of_energy) : 0, of_energy));
+    CLX_TRY(append_columns(&p->load.table, COUNT(first), first));
+    CLX_TRY(append_columns(&p->load.table, is_cell ? COUNT(of_cell) : 0, of_cell));
+    CLX_TRY(append_columns(&p->load.table, COUNT(of_contacts), of_contacts));
+    CLX_TRY(append_columns(&p->load.table, p->config.energy ? COUNT(of_energy) : 0, of_energy));
 done:
     return status;
 }
@@ -124,26 +116,12 @@ static int put_contacts(const clast_dem_load *load, double *x)
 
 static int put_energy(const clast_dem_energy *e, double *x)
 {
-    const double value[] = {e->put_in,
-                            e->made,
-                            e->gravity,
-                            e->shaking,
-                            e->cell,
-                            e->translation,
-                            e->rotation,
-                            e->normal_springs,
-                            e->tangential_springs,
-                            e->attraction,
-                            e->damping[0],
-                            e->damping[1],
-                            e->friction[0],
-                            e->friction[1],
-                            e->rolling[0],
-                            e->rolling[1],
-                            e->fluid,
-                            e->calming,
-                            e->scheme,
-                            e->rest};
+    const double value[] = {
+        e->put_in,     e->made,        e->gravity,    e->shaking,        e->cell,
+        e->walls,      e->translation, e->rotation,   e->normal_springs, e->tangential_springs,
+        e->attraction, e->damping[0],  e->damping[1], e->friction[0],    e->friction[1],
+        e->rolling[0], e->rolling[1],  e->fluid,      e->calming,        e->left,
+        e->scheme,     e->rest};
     static_assert(COUNT(value) == COUNT(of_energy), "a value a column");
     for (int k = 0; k < COUNT(value); ++k) {
         x[k] = value[k];

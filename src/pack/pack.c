@@ -8,6 +8,7 @@
 #include "dem/ranks.h"
 #include "pack/load.h"
 #include "pack/start.h"
+#include "pack/walls.h"
 #include <clast/machine.h>
 #include <clast/settling.h>
 #include <clast/status.h>
@@ -37,7 +38,9 @@ clast_bed clast_pack_bed(const clast_pack *pack)
     if (d->domain == CLAST_DEM_CELL) {
         clast_dem_cell cell;
         clast_dem_read_cell(pack->dem, &cell);
-        return (clast_bed){.kind = CLAST_BED_PERIODIC,
+        const bool is_upright = cell.shift == 0.0; // a sheared one repeats straight in x, y alone
+        return (clast_bed){.kind = is_upright ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC,
+                           .ceiling = cell.side[2],
                            .low = {-0.5 * cell.side[0], -0.5 * cell.side[1]},
                            .high = {0.5 * cell.side[0], 0.5 * cell.side[1]}};
     }
@@ -89,8 +92,8 @@ static clast_status check_room(const clast_pack *p)
     clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
-    CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell, CLAST_E_CONFIG,
-              "a packing needs a floor");
+    CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell || p->input.n_wall > 0, CLAST_E_CONFIG,
+              "a packing needs a floor, or a wall in its place");
     clast_bed_volumes(&bed, 1, edge, &room);
     CLX_CHECK(0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
               "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
@@ -124,8 +127,10 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
         CLX_TRY(clx_pack_check_draws(made));
     }
     CLX_TRY(clx_pack_load_check(made));
+    CLX_TRY(clx_pack_walls_begin(made));
     CLX_TRY(clx_pack_series_begin(made));
     CLX_TRY(clx_pack_load_table(made));
+    CLX_TRY(clx_pack_walls_table(made));
     if (config->energy) {
         CLX_TRY(clast_dem_begin_energy(made->dem));
     }
@@ -159,6 +164,7 @@ void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks)
                                 .n_balance = c.n_balance,
                                 .n_migrated = c.n_migrated,
                                 .ghosts = (double)c.n_ghost / steps,
+                                .messages = (double)c.n_message / steps,
                                 .step_bytes = (double)c.step_bytes / steps,
                                 .list_bytes = (double)c.list_bytes / steps,
                                 .imbalance = c.imbalance,
@@ -174,6 +180,9 @@ void clast_pack_destroy(clast_pack *pack)
     clast_bvh_destroy(pack->inside);
     clast_table_free(&pack->series);
     clast_table_free(&pack->load.table);
+    clast_table_free(&pack->walls);
+    clx_free(pack->wall);
+    clx_free(pack->outlet);
     clx_free(pack->unit_size);
     clx_free(pack->weight);
     clx_free(pack->waiting);
@@ -325,6 +334,11 @@ static clast_status look(clast_pack *p)
     p->converged = c->rule == CLAST_PACK_BY_HEIGHT  ? is_level
                    : c->rule == CLAST_PACK_BY_SPEED ? is_slow
                                                     : is_level || is_slow;
+    if (p->converged && c->stages.n > 0) { // at rest: now its walls load it
+        p->converged = false;
+        CLX_TRY(begin_phase(p, CLAST_PACK_LOAD));
+        return clx_pack_walls_stage(p, 0);
+    }
     if (p->converged) {
         return begin_phase(p, CLAST_PACK_DONE);
     }
@@ -349,6 +363,9 @@ static clast_status series_row_due(clast_pack *p)
     if (status == CLAST_OK) {
         status = clx_pack_load_row(p);
     }
+    if (status == CLAST_OK) {
+        status = clx_pack_walls_row(p);
+    }
     return clx_dem_agree(p->dem, status);
 }
 
@@ -360,8 +377,10 @@ static clast_status decide(clast_pack *p)
     if (p->phase == CLAST_PACK_GENERATE && p->config.dem.domain == CLAST_DEM_CELL) {
         CLX_TRY(generate_in_cell(p));
     }
+    CLX_TRY(clx_pack_outlets(p));
     if (p->phase == CLAST_PACK_LOAD) {
-        CLX_TRY(clx_pack_load_look(p));
+        CLX_TRY(p->config.dem.domain == CLAST_DEM_CELL ? clx_pack_load_look(p)
+                                                       : clx_pack_walls_look(p));
         if (p->load.is_over) {
             CLX_TRY(begin_phase(p, CLAST_PACK_DONE));
         }
@@ -376,6 +395,9 @@ static clast_status decide(clast_pack *p)
     }
     if (p->phase == CLAST_PACK_DAMP) {
         CLX_TRY(look(p));
+        if (p->phase == CLAST_PACK_LOAD) {
+            CLX_TRY(clx_pack_walls_look(p));
+        }
     }
     CLX_TRY(series_row_due(p));
 done:
@@ -401,6 +423,10 @@ static int64_t quiet_steps(const clast_pack *p)
         n = k < n ? k : n;
     } else {
         const int64_t k = check - (step - p->phase_step) % check;
+        n = k < n ? k : n;
+    }
+    if (p->n_outlet > 0) {
+        const int64_t k = CLX_SERVO_STEPS - step % CLX_SERVO_STEPS;
         n = k < n ? k : n;
     }
     return n > 0 ? n : 1;
@@ -478,7 +504,8 @@ int64_t clast_pack_expected_steps(const clast_pack *pack)
     const clast_pack_config *c = &pack->config;
     const double dt = c->dem.time_step;
     double time = (double)clast_dem_n_step(pack->dem) * dt;
-    if (c->dem.domain == CLAST_DEM_CELL) { // stages tell no time: a fair guess of each
+    if (c->dem.domain == CLAST_DEM_CELL ||
+        pack->phase == CLAST_PACK_LOAD) { // stages tell no time: a fair guess of each
         const double left = (double)(c->stages.n - pack->load.stage) * 0.2;
         return c->max_steps > 0 ? c->max_steps : (int64_t)((time + left) / dt);
     }

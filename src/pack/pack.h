@@ -16,9 +16,27 @@ typedef struct clx_pack_loading {
     int32_t stage;
     int64_t begun;             ///< step at which the stage began
     double strain[3], sheared; ///< of the cell then
-    double steady[3];          ///< strain rates that the servo has come to [1/s]
+    double steady[4];          ///< strain rates that the servo has come to; of shear [1/s]
     bool is_over;
 } clx_pack_loading;
+
+/// A wall of the simulation, as its stages and table see it.
+typedef struct clx_pack_wall {
+    const char *name;  ///< borrowed
+    int32_t option;    ///< number of its option `wall`, or -1
+    double steady;     ///< speed that the servo has come to [m/s]
+    double impulse[3]; ///< at the last look
+    double begun[3];   ///< offset when the stage began
+    double row[6];     ///< impulse and moment at the last row
+} clx_pack_wall;
+
+/// A half-space whose grains leave: sign (x - at) < 0; how many have.
+typedef struct clx_pack_outlet {
+    int axis;
+    double sign, at;
+    int64_t n;
+    double mass;
+} clx_pack_outlet;
 
 struct clast_pack {
     clast_pack_config config; ///< borrowed texts and lists
@@ -38,11 +56,11 @@ struct clast_pack {
     double mass;
     int64_t n_drawn;   ///< grains made, and those that wait
     double drawn_mass; ///< of these
-    int32_t n_waiting;
+    int32_t n_waiting, n_outlet;
     clx_pack_number *waiting; ///< [n_waiting] found no place in the fills so far
     int64_t waiting_capacity;
     int64_t n_waited; ///< grains that had to wait
-    int32_t n_fill;
+    int32_t n_fill, n_wall;
     int64_t fill_step;  ///< of the last fill
     int64_t phase_step; ///< when the phase began
     double last_height; ///< at the last look
@@ -50,6 +68,12 @@ struct clast_pack {
     double grain_steps, clocked_steps;
     clast_table series;
     clx_pack_loading load;
+    clx_pack_wall *wall;             ///< [n_wall] of the simulation
+    clast_table walls;               ///< walls.csv
+    int64_t walls_looked, walls_row; ///< steps of the last look, of the last row
+    clx_pack_outlet *outlet;         ///< [n_outlet]
+    int64_t n_left;                  ///< grains that have left
+    double mass_left;
     int64_t n_overlap;     ///< of a start
     double deepest;        ///< of those, over the smaller one's radius
     double step_s, wall_s; ///< clocks, which no result depends on

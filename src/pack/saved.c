@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include "pack/load.h"
+#include "pack/walls.h"
 #include <clast/shape.h>
 #include <math.h>
 #include <string.h>
@@ -12,28 +13,58 @@ void clx_pack_saved_free(clx_pack_saved *saved)
 {
     clx_dem_saved_free(&saved->dem);
     clx_free(saved->waiting);
+    clx_free(saved->wall);
     *saved = (clx_pack_saved){0};
+}
+
+static clast_status save_walls(const clast_pack *p, clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    if (s->walls == NULL) {
+        return CLAST_OK;
+    }
+    s->n_wall = p->n_wall + p->n_outlet + 1;
+    CLX_TRY(clx_alloc(&s->wall, s->n_wall * CLX_PACK_WALL, sizeof *s->wall));
+    double *x = s->wall;
+    for (int32_t i = 0; i < p->n_wall; ++i, x += CLX_PACK_WALL) {
+        x[0] = p->wall[i].steady;
+        v3_copy(x + 1, p->wall[i].impulse);
+        v3_copy(x + 4, p->wall[i].begun);
+        v3_copy(x + 7, p->wall[i].row);
+        v3_copy(x + 10, p->wall[i].row + 3);
+    }
+    for (int32_t i = 0; i < p->n_outlet; ++i, x += CLX_PACK_WALL) {
+        x[0] = (double)p->outlet[i].n;
+        x[1] = p->outlet[i].mass;
+    }
+    x[0] = (double)p->walls_looked;
+    x[1] = (double)p->walls_row;
+    x[2] = p->mass_left;
+done:
+    return status;
 }
 
 clast_status clx_pack_save(clast_pack *p, clx_pack_saved *saved)
 {
     clast_status status = CLAST_OK;
-    clx_pack_saved s = {
-        .count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step, p->converged ? 1 : 0,
-                  p->n_drawn, p->n_waited, 0},
-        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
-        .stage = {(double)p->load.stage, (double)p->load.begun, p->load.strain[0],
-                  p->load.strain[1], p->load.strain[2], p->load.sheared, p->load.steady[0],
-                  p->load.steady[1], p->load.steady[2], (double)p->n_overlap, p->deepest},
-        .has_stage = p->config.dem.domain == CLAST_DEM_CELL || p->input.start != NULL,
-        .load = clast_pack_load_table(p),
-        .n_waiting = p->n_waiting,
-        .series = &p->series};
+    clx_pack_saved s = {.count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step,
+                                  p->converged ? 1 : 0, p->n_drawn, p->n_waited, 0},
+                        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
+                        .stage = {(double)p->load.stage, (double)p->load.begun, p->load.strain[0],
+                                  p->load.strain[1], p->load.strain[2], p->load.sheared,
+                                  p->load.steady[0], p->load.steady[1], p->load.steady[2],
+                                  (double)p->n_overlap, p->deepest, p->load.steady[3]},
+                        .has_stage = p->config.stages.n > 0 || p->input.start != NULL,
+                        .walls = clast_pack_wall_table(p),
+                        .load = clast_pack_load_table(p),
+                        .n_waiting = p->n_waiting,
+                        .series = &p->series};
     CLX_TRY(clx_alloc(&s.waiting, 2 * s.n_waiting, sizeof *s.waiting));
     for (int64_t i = 0; i < s.n_waiting; ++i) {
         s.waiting[2 * i] = p->waiting[i].index;
         s.waiting[2 * i + 1] = p->waiting[i].form;
     }
+    CLX_TRY(save_walls(p, &s));
     CLX_TRY(clx_dem_save(p->dem, &s.dem));
     *saved = s;
     s = (clx_pack_saved){0};
@@ -155,21 +186,23 @@ done:
 static clast_status take_load(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
-    const bool is_cell = p->config.dem.domain == CLAST_DEM_CELL;
+    const bool has_stage = p->config.stages.n > 0;
     CLX_CHECK(clx_pack_has_load(&p->config) == (s->load != NULL), CLAST_E_FORMAT,
               "the checkpoint lacks the rows of load.csv");
     if (s->load != NULL) {
         CLX_TRY(take_rows(&p->load.table, s->load));
     }
-    CLX_CHECK(!is_cell || (s->stage[0] >= 0.0 && s->stage[0] < p->config.stages.n &&
-                           s->stage[1] >= 0.0 && s->stage[1] < 9e15 && v3_is_finite(s->stage + 2) &&
-                           isfinite(s->stage[5]) && v3_is_finite(s->stage + 6)),
+    CLX_CHECK(!has_stage ||
+                  (s->stage[0] >= 0.0 && s->stage[0] < p->config.stages.n && s->stage[1] >= 0.0 &&
+                   s->stage[1] < 9e15 && v3_is_finite(s->stage + 2) && isfinite(s->stage[5]) &&
+                   v3_is_finite(s->stage + 6) && isfinite(s->stage[11])),
               CLAST_E_FORMAT, "the checkpoint's stage is none");
-    p->load.stage = is_cell ? (int32_t)s->stage[0] : 0;
-    p->load.begun = is_cell ? (int64_t)s->stage[1] : 0;
+    p->load.stage = has_stage ? (int32_t)s->stage[0] : 0;
+    p->load.begun = has_stage ? (int64_t)s->stage[1] : 0;
     v3_copy(p->load.strain, s->stage + 2);
     p->load.sheared = s->stage[5];
     v3_copy(p->load.steady, s->stage + 6);
+    p->load.steady[3] = s->stage[11];
     CLX_CHECK(s->stage[9] >= 0.0 && s->stage[9] < 9e15 && s->stage[10] >= 0.0, CLAST_E_FORMAT,
               "the checkpoint's start is none");
     p->n_overlap = (int64_t)s->stage[9];
@@ -178,11 +211,47 @@ done:
     return status;
 }
 
+static clast_status take_walls(clast_pack *p, const clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(clx_pack_has_walls(&p->config) == (s->wall != NULL && s->walls != NULL) &&
+                  (s->wall == NULL || s->n_wall == p->n_wall + p->n_outlet + 1),
+              CLAST_E_FORMAT, "the checkpoint's walls are of another configuration");
+    for (int64_t k = 0; k < s->n_wall * CLX_PACK_WALL; ++k) {
+        CLX_CHECK(isfinite(s->wall[k]) && fabs(s->wall[k]) < 9e15, CLAST_E_FORMAT,
+                  "wall %lld of the checkpoint is none", (long long)(k / CLX_PACK_WALL));
+    }
+    if (s->wall == NULL) {
+        return CLAST_OK;
+    }
+    const double *x = s->wall;
+    CLX_TRY(take_rows(&p->walls, s->walls));
+    for (int32_t i = 0; i < p->n_wall; ++i, x += CLX_PACK_WALL) {
+        p->wall[i].steady = x[0];
+        v3_copy(p->wall[i].impulse, x + 1);
+        v3_copy(p->wall[i].begun, x + 4);
+        v3_copy(p->wall[i].row, x + 7);
+        v3_copy(p->wall[i].row + 3, x + 10);
+    }
+    for (int32_t i = 0; i < p->n_outlet; ++i, x += CLX_PACK_WALL) {
+        CLX_CHECK(x[0] >= 0.0 && x[1] >= 0.0, CLAST_E_FORMAT, "outlet %d of the checkpoint is none",
+                  i + 1);
+        p->outlet[i].n = (int64_t)x[0];
+        p->outlet[i].mass = x[1];
+        p->n_left += p->outlet[i].n;
+    }
+    p->walls_looked = (int64_t)x[0];
+    p->walls_row = (int64_t)x[1];
+    p->mass_left = x[2];
+done:
+    return status;
+}
+
 clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(s->count[0] >= CLAST_PACK_GENERATE && s->count[0] <= CLAST_PACK_LOAD &&
-                  s->count[1] == s->dem.n_grain && s->count[2] >= 0 && s->count[2] <= INT32_MAX &&
+                  s->count[1] >= s->dem.n_grain && s->count[2] >= 0 && s->count[2] <= INT32_MAX &&
                   s->count[8] >= p->input.n_shape && s->count[8] <= INT32_MAX &&
                   s->n_waiting <= INT32_MAX && s->count[6] == s->count[1] + s->n_waiting &&
                   s->count[7] >= 0 && isfinite(s->number[0]) && isfinite(s->number[1]) &&
@@ -196,6 +265,10 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
     CLX_TRY(clx_dem_restore(p->dem, &s->dem));
     CLX_TRY(take_rows(&p->series, s->series));
     CLX_TRY(take_load(p, s));
+    CLX_TRY(take_walls(p, s));
+    CLX_CHECK(s->count[1] == s->dem.n_grain + p->n_left, CLAST_E_FORMAT,
+              "the checkpoint has %lld grains, %lld that left, of %lld", (long long)s->dem.n_grain,
+              (long long)p->n_left, (long long)s->count[1]);
     CLX_TRY(take_waiting(p, s));
     p->phase = (clast_pack_phase)s->count[0];
     p->n_made = s->count[1];

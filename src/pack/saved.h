@@ -3,7 +3,8 @@
 #include "dem/saved.h"
 #include "pack/pack.h"
 
-enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 4, CLX_PACK_STAGE = 11 };
+enum { CLX_PACK_WALL = 13 };
+enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 4, CLX_PACK_STAGE = 12 };
 
 typedef struct clx_pack_saved {
     clx_dem_saved dem;
@@ -16,9 +17,14 @@ typedef struct clx_pack_saved {
                                   ///< then; steady rates of the servo;
                                   ///< overlaps of a start, the deepest
     bool has_stage;               ///< of a cell, or a start
-    const clast_table *series;    ///< borrowed
-    const clast_table *load;      ///< borrowed, or NULL
-    const clast_shape *shape;     ///< [count[8]] borrowed
+    int64_t n_wall;
+    double *wall; ///< [n_wall][13] steady speed, impulse at the last look, offset at the stage's
+                  ///< begin, impulse and moment at the last row; then a row an outlet, its count
+                  ///< and mass; then the last look and row; or NULL
+    const clast_table *walls;  ///< borrowed, or NULL
+    const clast_table *series; ///< borrowed
+    const clast_table *load;   ///< borrowed, or NULL
+    const clast_shape *shape;  ///< [count[8]] borrowed
 } clx_pack_saved;
 
 /// `saved` borrows the series.

@@ -23,7 +23,7 @@ static void find_emptiest(voids *v, int y)
     v->emptiest[y] = best;
 }
 
-static void put(voids *v, int at, float value, clx_dither *dither)
+static void rank_pixel(voids *v, int at, float value, clx_dither *dither)
 {
     CLAST_ASSERT(at >= 0);
     const int x = at % CLX_DITHER;
@@ -61,7 +61,7 @@ void clx_dither_fill(uint64_t seed, clx_dither *dither)
     }
     int at = (int)clx_rng_below(&rng, N);
     for (int rank = 0; rank < N; ++rank) {
-        put(&v, at, (float)rank / (float)N, dither);
+        rank_pixel(&v, at, (float)rank / (float)N, dither);
         at = largest_void(&v);
     }
 }

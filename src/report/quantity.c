@@ -52,6 +52,7 @@ static const ladder ladders[] = {
      false,
      {{1.0, "J"}, {1e3, "mJ"}, {1e6, "\302\265J"}, {1e9, "nJ"}, {1e12, "pJ"}, {1e15, "fJ"}}},
     {"N", 1.0, false, {{1.0, "N"}, {1e3, "mN"}, {1e6, "\302\265N"}, {1e9, "nN"}, {1e12, "pN"}}},
+    {"Pa s", 1.0, false, {{1.0, "Pa s"}, {1e3, "mPa s"}, {1e6, "\302\265Pa s"}}},
     {"Pa", 1.0, false, {{1e-9, "GPa"}, {1e-6, "MPa"}, {1e-3, "kPa"}, {1.0, "Pa"}}},
     {"rad", 0.0, false, {{180.0 / CLAST_PI, "\302\260"}}},
     {"1/m", 0.0, false, {{1e-3, "1/mm"}}}};
@@ -63,6 +64,7 @@ static const char *plain_unit(const char *si_unit)
                                            {"kg/m^3", "kg/m\302\263"},
                                            {"m/s^2", "m/s\302\262"},
                                            {"J/m^2", "J/m\302\262"},
+                                           {"J/m^3", "J/m\302\263"},
                                            {"model units^2", "model units\302\262"},
                                            {"model units^3", "model units\302\263"},
                                            {"deg", "\302\260"},

@@ -7,6 +7,7 @@
 #include "base/path.h"
 #include "base/whole.h"
 #include "report/figures.h"
+#include "report/frames.h"
 #include "report/page.h"
 #include "report/provenance.h"
 #include "report/run.h"
@@ -51,23 +52,45 @@ static int32_t count_states(const clx_run *run)
     return n;
 }
 
-static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
+/// What the view's slider can show of a run, told below it.
+static void put_frames_note(clx_file *file, const clx_frames *frames)
+{
+    if (frames->lacks_poses) {
+        (void)clx_file_print(file, "<p class=\"note\">The frames are of a version before 0.2, "
+                                   "which told no poses: no time slider.</p>\n");
+    } else if (frames->n < frames->n_file) {
+        (void)clx_file_print(file,
+                             "<p class=\"note\">%d of the run's %d frames are on this page.</p>\n",
+                             (int)frames->n, (int)frames->n_file);
+    }
+}
+
+static clast_status put_assembly(clx_file *file, const clx_run *run, const clast_assembly *assembly,
+                                 const clast_table *contacts, const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
-    clast_state state = {0};
-    CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
-    CLX_TRY(clast_state_read(path, &state));
-    CLX_CHECK(state.assembly != NULL, CLAST_E_FORMAT, "%s: holds no assembly", path);
-    (void)clx_file_print(file, "<h3>Assembly <small>state.h5%s</small></h3>\n",
-                         count_states(run) > 1 ? ", the first of the folder's states" : "");
-    CLX_TRY(clx_view3d_put(file, state.assembly, clast_state_table(&state, "contacts"),
-                           config->triangles));
+    clx_frames frames = {0};
+    CLX_TRY(clx_frames_read(run, assembly, &frames));
+    CLX_TRY(clx_view3d_put(file, assembly, contacts, &frames, config->triangles));
+    put_frames_note(file, &frames);
 done:
-    if (status == CLAST_E_GEOMETRY) {
-        clx_fail_prefix("%s", path);
+    clx_frames_free(&frames);
+    return status;
+}
+
+/// All bodies in time, of a run whose state is one of them.
+static clast_status put_bodies(clx_file *file, const clx_run *run, const clast_assembly *largest,
+                               const clast_report_config *config)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly last = {0};
+    CLX_TRY(clx_frames_last(run, largest, &last));
+    if (last.n_grain > 0) {
+        (void)clx_file_print(file, "<h3>All bodies <small>frames.pvd</small></h3>\n");
+        CLX_TRY(put_assembly(file, run, &last, NULL, config));
     }
-    clast_state_free(&state);
+done:
+    clast_assembly_free(&last);
     return status;
 }
 
@@ -75,6 +98,33 @@ static const char *word_of(const clx_run *run, const char *key)
 {
     const char *word = json_string_value(json_object_get(run->manifest, key));
     return word != NULL ? word : "";
+}
+
+static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_SIZE];
+    clast_state state = {0};
+    const bool is_part = strcmp(word_of(run, "command"), "evolve") == 0;
+    CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
+    CLX_TRY(clast_state_read(path, &state));
+    CLX_CHECK(state.assembly != NULL, CLAST_E_FORMAT, "%s: holds no assembly", path);
+    (void)clx_file_print(file, "<h3>%s <small>state.h5%s</small></h3>\n",
+                         is_part ? "Largest body" : "Assembly",
+                         count_states(run) > 1 ? ", the first of the folder's states" : "");
+    if (is_part) {
+        CLX_TRY(clx_view3d_put(file, state.assembly, NULL, NULL, config->triangles));
+        CLX_TRY(put_bodies(file, run, state.assembly, config));
+    } else {
+        CLX_TRY(
+            put_assembly(file, run, state.assembly, clast_state_table(&state, "contacts"), config));
+    }
+done:
+    if (status == CLAST_E_GEOMETRY) {
+        clx_fail_prefix("%s", path);
+    }
+    clast_state_free(&state);
+    return status;
 }
 
 /// How much of a study that was stopped is done: its other runs have no exit code.
@@ -237,7 +287,7 @@ static clast_status write_view(const clast_assembly *assembly, const clast_repor
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     clx_page_begin(&file, config->title[0] != '\0' ? config->title : "clast");
-    CLX_TRY(clx_view3d_put(&file, assembly, NULL, config->triangles));
+    CLX_TRY(clx_view3d_put(&file, assembly, NULL, NULL, config->triangles));
     clx_page_end(&file, true);
     CLX_TRY(clx_file_commit(&file));
 done:

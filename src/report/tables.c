@@ -17,6 +17,7 @@ typedef struct {
     clx_quantity quantity;
     clx_quantity_scale scale;
     const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
+    const clast_column *of;       ///< numbers that these are errors of, or NULL
     bool is_name;                 ///< its texts are keys
 } shown;
 
@@ -87,6 +88,15 @@ static clx_quantity_scale scale_of(const clast_table *table, int32_t c, const ch
     return clx_quantity_scale_for(most, si_unit);
 }
 
+/// The column whose errors a column "error" or "deviation" tells, or NULL.
+static const clast_column *column_of_error(const clast_table *table, const char *name)
+{
+    const bool is_error = strcmp(name, "error") == 0 || strcmp(name, "deviation") == 0;
+    const int32_t value = clast_table_find(table, "value");
+    const int32_t of = value >= 0 ? value : clast_table_find(table, "mean");
+    return is_error && of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
+}
+
 static shown show(const clast_table *table, int32_t c, bool is_without_unit)
 {
     static const char *const names[] = {"name", "feature", "term", "column", "a", "b", "quantity"};
@@ -97,6 +107,7 @@ static shown show(const clast_table *table, int32_t c, bool is_without_unit)
                    table->name);
     shown s = {.column = column, .quantity = clx_quantity_of(column->name, place)};
     s.scale = scale_of(table, c, s.quantity.unit);
+    s.of = column_of_error(table, column->name);
     s.is_name = is_one_of(column->name, names, sizeof names / sizeof *names);
     if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
         s.row_unit = units_of(table);
@@ -122,7 +133,9 @@ static void put_number(clx_file *file, const shown *s, int64_t row)
 {
     CLAST_ASSERT(row >= 0);
     char text[CLX_QUANTITY_SIZE];
-    const double value = s->column->number[row];
+    const double told = s->column->number[row];
+    const bool is_rounding = s->of != NULL && fabs(told) <= 1e-12 * fabs(s->of->number[row]);
+    const double value = is_rounding ? 0.0 : told;
     if (s->row_unit != NULL) {
         clx_quantity_put(file, value, s->row_unit->text[row]);
     } else if (!isfinite(value)) {
@@ -148,22 +161,62 @@ static void put_cell(clx_file *file, const shown *s, int64_t row)
     (void)clx_file_print(file, "</td>");
 }
 
-static void put_row(clx_file *file, const shown *s, int32_t n, int64_t row)
+/// Columns that stand side by side without scrolling.
+enum { ACROSS = 12 };
+
+/// Some of a table's columns: the first, which tells the row, and n more.
+typedef struct {
+    const shown *first, *more;
+    int32_t n;
+} stripe;
+
+static void put_heads(clx_file *file, const clast_table *table, const stripe *s)
 {
     (void)clx_file_print(file, "<tr>");
-    for (int32_t k = 0; k < n; ++k) {
-        put_cell(file, &s[k], row);
+    put_head(file, table, s->first);
+    for (int32_t k = 0; k < s->n; ++k) {
+        put_head(file, table, &s->more[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
 
-static void put_heads(clx_file *file, const clast_table *table, const shown *s, int32_t n)
+static void put_row(clx_file *file, const stripe *s, int64_t row)
 {
     (void)clx_file_print(file, "<tr>");
-    for (int32_t k = 0; k < n; ++k) {
-        put_head(file, table, &s[k]);
+    put_cell(file, s->first, row);
+    for (int32_t k = 0; k < s->n; ++k) {
+        put_cell(file, &s->more[k], row);
     }
     (void)clx_file_print(file, "</tr>\n");
+}
+
+static void begin_table(clx_file *file, const char *attribute)
+{
+    (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table%s>\n", attribute);
+}
+
+static void end_table(clx_file *file)
+{
+    (void)clx_file_print(file, "</table></div>");
+}
+
+/// The columns in stripes one below the other, as wide as each other, each with the first column.
+static void put_stripes(clx_file *file, const clast_table *table, const shown *s, int32_t n,
+                        int64_t rows)
+{
+    CLAST_ASSERT(rows >= 0);
+    const int32_t n_stripe = n > ACROSS ? (n - 1 + ACROSS - 2) / (ACROSS - 1) : 1;
+    const int32_t most = (n - 1 + n_stripe - 1) / n_stripe;
+    for (int32_t j = 0; j < n_stripe; ++j) {
+        const int32_t k = 1 + j * most;
+        const stripe part = {s, s + k, n - k < most ? n - k : most};
+        begin_table(file, "");
+        put_heads(file, table, &part);
+        for (int64_t r = 0; r < rows; ++r) {
+            put_row(file, &part, r);
+        }
+        end_table(file);
+    }
 }
 
 /// A table of one row, turned: a row for each column.
@@ -189,18 +242,13 @@ static clast_status put_table(clx_file *file, const clast_table *table, bool is_
             s[n++] = show(table, c, is_without_unit);
         }
     }
-    const bool is_turned = table->n_row == 1;
-    (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table%s>\n",
-                         is_turned ? " class=\"turned\"" : "");
-    if (is_turned) {
+    if (table->n_row == 1) {
+        begin_table(file, " class=\"turned\"");
         put_turned(file, table, s, n);
-    } else {
-        put_heads(file, table, s, n);
+        end_table(file);
+    } else if (n > 0) {
+        put_stripes(file, table, s, n, table->n_row < rows ? table->n_row : rows);
     }
-    for (int64_t r = 0; !is_turned && r < table->n_row && r < rows; ++r) {
-        put_row(file, s, n, r);
-    }
-    (void)clx_file_print(file, "</table></div>");
 done:
     clx_free(s);
     return status;

@@ -5,6 +5,7 @@
 #include "io/json.h"
 #include "math/vec3.h"
 #include "render/legend.h"
+#include "report/frames.h"
 #include "report/page.h"
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
@@ -19,6 +20,7 @@ typedef struct {
     int32_t n_shown; ///< grains in the data
     int32_t budget;  ///< triangles a grain
     double centre[3], length;
+    const clx_frames *frames; ///< or NULL
 } view;
 
 /// Text inside JSON inside <script>: '<' and '>' as \u003c, so that no tag can begin there.
@@ -244,6 +246,29 @@ done:
     return status;
 }
 
+/// A finer surface for grains near the camera, where the budget of all leaves each but a coarse
+/// one.
+static clast_status put_near(clx_file *file, const view *v, const clast_shape *shape, int32_t n_tri)
+{
+    enum { MOST = 1280, ROOM = 100000 };
+    clast_status status = CLAST_OK;
+    clast_mesh fine = {0};
+    view near = *v;
+    near.budget = ROOM / v->assembly->n_shape < MOST ? ROOM / v->assembly->n_shape : MOST;
+    if (near.budget < 2 * n_tri) {
+        return CLAST_OK;
+    }
+    CLX_TRY(surface_of(&near, shape, &fine));
+    if (fine.n_tri > n_tri) {
+        (void)clx_file_print(file, ", \"near\": {\"n\": %d", (int)fine.n_tri);
+        CLX_TRY(put_surface(file, &fine, v->length));
+        (void)clx_file_print(file, "}");
+    }
+done:
+    clast_mesh_free(&fine);
+    return status;
+}
+
 static clast_status put_shape(clx_file *file, const view *v, int32_t index)
 {
     clast_status status = CLAST_OK;
@@ -252,10 +277,13 @@ static clast_status put_shape(clx_file *file, const view *v, int32_t index)
     CLX_TRY(surface_of(v, shape, &surface));
     (void)clx_file_print(file, "\n{\"name\": ");
     put_text(file, shape->name);
+    (void)clx_file_print(file, ", \"number\": %d, \"diameter\": %.9g", (int)index,
+                         cbrt(6.0 * shape->volume / CLAST_PI) / v->length);
     (void)clx_file_print(file, ", \"smooth\": %s, \"colour\": %d",
                          shape->kind == CLAST_SHAPE_MESH ? "false" : "true",
                          (int)(index < CLX_LEGEND_SHAPES ? index : CLX_LEGEND_SHAPES - 1));
     CLX_TRY(put_surface(file, &surface, v->length));
+    CLX_TRY(put_near(file, v, shape, surface.n_tri));
     CLX_TRY(put_grains(file, v, index));
     (void)clx_file_print(file, "}");
 done:
@@ -263,12 +291,20 @@ done:
     return status;
 }
 
-/// True when a grain of the shape is shown.
+/// True when a grain of the shape is shown, now or at another moment.
 static bool is_used(const view *v, int32_t shape)
 {
     for (int32_t i = 0; i < v->n_shown; ++i) {
         if (v->assembly->shape_id[i] == shape) {
             return true;
+        }
+    }
+    for (int32_t k = 0; v->frames != NULL && k < v->frames->n; ++k) {
+        const clx_frame *frame = &v->frames->frame[k];
+        for (int32_t i = 0; i < frame->n; ++i) {
+            if (frame->shape[i] == shape) {
+                return true;
+            }
         }
     }
     return false;
@@ -489,12 +525,13 @@ static view begin(const clast_assembly *assembly, int32_t limit)
 }
 
 clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
-                            const clast_table *forces, int32_t limit)
+                            const clast_table *forces, const clx_frames *frames, int32_t limit)
 {
     clast_status status = CLAST_OK;
     bool is_first = true;
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY, "the state holds no grains");
-    const view v = begin(assembly, limit);
+    view v = begin(assembly, limit);
+    v.frames = frames;
     CLX_CHECK(isfinite(v.length) && v.length > 0.0, CLAST_E_GEOMETRY,
               "the grains of the state have no finite extent");
     (void)clx_file_print(
@@ -509,6 +546,7 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
     CLX_TRY(put_colours(file, &v));
     put_ids(file, &v);
     CLX_TRY(put_contacts(file, &v, forces));
+    CLX_TRY(clx_frames_put(file, frames, assembly, v.n_shown, v.centre, v.length));
     (void)clx_file_print(file, ", \"shapes\": [");
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         if (is_used(&v, s)) {

@@ -10,7 +10,7 @@
 #include <clast/assembly.h>
 #include <string.h>
 
-enum { N_ARRAY = 15 };
+enum { N_ARRAY = 17, MOST_TABLES = 8 };
 
 typedef struct {
     const char *name;
@@ -40,6 +40,10 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     }
     if (d->energy != NULL) {
         a[n++] = (array){"/pack/energy", CLX_H5_F64, d->n_energy, 1, d->energy};
+    }
+    if (d->wall != NULL) {
+        a[n++] = (array){"/pack/wall", CLX_H5_F64, d->n_wall, CLX_SAVED_WALL, d->wall};
+        a[n++] = (array){"/pack/wall_drive", CLX_H5_F64, s->n_wall, CLX_PACK_WALL, s->wall};
     }
     if (d->limit != NULL) {
         a[n++] = (array){"/pack/limit", CLX_H5_F64, d->n_known, 1, d->limit};
@@ -78,13 +82,30 @@ done:
     return status;
 }
 
+/// Velocities of the grains, in the order of the assembly.
+static clast_status make_velocities(const clx_dem_saved *saved, clast_table *table)
+{
+    static const char *const name[3] = {"velocity_x_m/s", "velocity_y_m/s", "velocity_z_m/s"};
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_table_init(table, "velocities", saved->n_grain));
+    for (int k = 0; k < 3; ++k) {
+        double *column = NULL;
+        CLX_TRY(clast_table_add_number(table, name[k], "m/s", &column));
+        for (int64_t i = 0; i < saved->n_grain; ++i) {
+            column[i] = saved->grain[i * CLX_SAVED_GRAIN + 3 + k];
+        }
+    }
+done:
+    return status;
+}
+
 static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
 {
     clast_status status = CLAST_OK;
     clx_pack_saved saved = {0};
     clast_assembly grains = {0};
-    clast_table table[6] = {{0}, {0}, {0}, {0}, {0}, {0}};
-    clast_state state = {.assembly = &grains, .n_table = 3, .table = table};
+    clast_table table[MOST_TABLES] = {{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}};
+    clast_state state = {.assembly = &grains, .n_table = 4, .table = table};
     clx_h5 *made = NULL;
     const clast_bed bed = clast_pack_bed(pack);
     CLX_TRY(clx_pack_save(pack, &saved));
@@ -94,12 +115,16 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
     CLX_TRY(clast_bed_table(&bed, &table[0]));
     table[1] = *saved.series; // borrowed
     CLX_TRY(clast_dem_contact_table(pack->dem, &table[2]));
+    CLX_TRY(make_velocities(&saved.dem, &table[3]));
     if (bed.kind == CLAST_BED_MESH) {
-        CLX_TRY(clx_bed_surface_tables(bed.surface, &table[3]));
-        state.n_table = 5;
+        CLX_TRY(clx_bed_surface_tables(bed.surface, &table[4]));
+        state.n_table = 6;
     }
     if (saved.load != NULL) {
         table[state.n_table++] = *saved.load; // borrowed
+    }
+    if (saved.walls != NULL) {
+        table[state.n_table++] = *saved.walls; // borrowed
     }
     CLX_TRY(clx_h5_create(&made));
     CLX_TRY(clx_state_put(made, &state));
@@ -110,7 +135,7 @@ done:
     clx_h5_close(made);
     clx_free(state.config);
     clast_table_free(&table[0]);
-    const int n_own = bed.kind == CLAST_BED_MESH ? 5 : 3;
+    const int n_own = bed.kind == CLAST_BED_MESH ? 6 : 4;
     for (int k = 2; k < n_own; ++k) {
         clast_table_free(&table[k]);
     }
@@ -214,6 +239,16 @@ static clast_status alloc_arrays(clx_h5 *h5, clx_pack_saved *s)
         d->n_energy = shape[0];
         CLX_TRY(clx_alloc(&d->energy, d->n_energy, sizeof *d->energy));
     }
+    if (clx_h5_has(h5, "/pack/wall")) {
+        CLX_TRY(clx_h5_shape(h5, "/pack/wall", CLX_H5_F64, 2, shape));
+        d->n_wall = shape[0];
+        CLX_TRY(clx_h5_shape(h5, "/pack/wall_drive", CLX_H5_F64, 2, shape));
+        s->n_wall = shape[0];
+        CLX_CHECK(d->n_wall < INT32_MAX && s->n_wall < INT32_MAX, CLAST_E_FORMAT,
+                  "the checkpoint's walls are none");
+        CLX_TRY(clx_alloc(&d->wall, d->n_wall * CLX_SAVED_WALL, sizeof *d->wall));
+        CLX_TRY(clx_alloc(&s->wall, s->n_wall * CLX_PACK_WALL, sizeof *s->wall));
+    }
     if (clx_h5_has(h5, "/pack/limit")) {
         CLX_TRY(clx_alloc(&d->limit, d->n_known, sizeof *d->limit));
     }
@@ -303,6 +338,7 @@ clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pa
     CLX_TRY(check_container(&state, pack));
     saved.series = series;
     saved.load = clast_state_table(&state, "load");
+    saved.walls = clast_state_table(&state, "walls");
     saved.shape = state.assembly->shape;
     CLX_TRY(clx_pack_restore(pack, &saved));
 done:

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/config_files.h"
+#include "io/json.h"
 #include "study/aggregate_fit_chart.h"
 #include <clast/run_folder.h>
 #include <clast/table.h>
@@ -14,19 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void set(json_t *object, const char *key, double value)
-{
-    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
-}
-
 static json_t *estimate_json(const clast_fit_estimate *e)
 {
     json_t *object = json_object();
-    set(object, "best", e->best);
-    set(object, "mean", e->mean);
-    set(object, "deviation", e->deviation);
-    set(object, "low", e->low);
-    set(object, "high", e->high);
+    clx_json_set_number(object, "best", e->best);
+    clx_json_set_number(object, "mean", e->mean);
+    clx_json_set_number(object, "deviation", e->deviation);
+    clx_json_set_number(object, "low", e->low);
+    clx_json_set_number(object, "high", e->high);
     return object;
 }
 
@@ -36,12 +32,12 @@ static json_t *observed_json(const clast_aggregate_fit *fit)
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
         if (isfinite(fit->observed[k])) {
             json_t *one = json_object();
-            set(one, "observed", fit->observed[k]);
-            set(one, "error", fit->error[k]);
-            set(one, "model", fit->model[k].best);
-            set(one, "pull", fit->pull[k]);
-            set(one, "least_model", fit->least[k]);
-            set(one, "most_model", fit->most[k]);
+            clx_json_set_number(one, "observed", fit->observed[k]);
+            clx_json_set_number(one, "error", fit->error[k]);
+            clx_json_set_number(one, "model", fit->model[k].best);
+            clx_json_set_number(one, "pull", fit->pull[k]);
+            clx_json_set_number(one, "least_model", fit->least[k]);
+            clx_json_set_number(one, "most_model", fit->most[k]);
             (void)json_object_set_new(object, clast_aggregate_fit_observable_name(k), one);
         }
     }
@@ -77,14 +73,14 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     char *copy = NULL;
     (void)json_object_set_new(root, "verdict", json_string(clast_fit_verdict_name(fit->verdict)));
     (void)json_object_set_new(root, "words", json_string(fit->words));
-    set(root, "chi2", fit->chi2);
-    set(root, "p_value", fit->p_value);
+    clx_json_set_number(root, "chi2", fit->chi2);
+    clx_json_set_number(root, "p_value", fit->p_value);
     (void)json_object_set_new(root, "n_observed", json_integer(fit->n_observed));
     (void)json_object_set_new(root, "n_choice", json_integer(fit->n_choice));
     (void)json_object_set_new(root, "degrees_of_freedom", json_integer(fit->n_freedom));
     (void)json_object_set_new(root, "edge", edge_json(fit));
     (void)json_object_set_new(root, "n_run", json_integer(fit->n_run));
-    set(best, "cone_deg", fit->cone * 180.0 / CLAST_PI);
+    clx_json_set_number(best, "cone_deg", fit->cone * 180.0 / CLAST_PI);
     (void)json_object_set_new(best, "rays", json_integer(fit->rays));
     (void)json_object_set_new(best, "orientations", json_integer(fit->orientations));
     (void)json_object_set_new(best, "replicate", json_integer(fit->replicate));

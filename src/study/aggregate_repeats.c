@@ -58,7 +58,7 @@ static size_t packed_size(const clx_repeat *r)
 }
 
 /// Appends bytes at *to and moves it on.
-static void put(char **to, const void *bytes, size_t n)
+static void append_bytes(char **to, const void *bytes, size_t n)
 {
     if (n > 0) {
         memcpy(*to, bytes, n);
@@ -79,10 +79,10 @@ static clast_status pack(const clx_repeats *repeats, char **bytes, int64_t *n)
     for (int32_t i = 0; i < repeats->n; ++i) {
         const clx_repeat *r = &repeats->item[i];
         const clast_table *h = &r->history;
-        put(&to, &(const head){r->index, h->n_row, h->n_column}, sizeof(head));
-        put(&to, &r->result, sizeof r->result);
+        append_bytes(&to, &(const head){r->index, h->n_row, h->n_column}, sizeof(head));
+        append_bytes(&to, &r->result, sizeof r->result);
         for (int32_t c = 0; c < h->n_column; ++c) {
-            put(&to, h->column[c].number, (size_t)h->n_row * sizeof(double));
+            append_bytes(&to, h->column[c].number, (size_t)h->n_row * sizeof(double));
         }
     }
 done:

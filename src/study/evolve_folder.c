@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "io/state.h"
 #include "run/checkpoint.h"
+#include <clast/assembly.h>
 #include <clast/run_folder.h>
 #include <clast/state.h>
 #include <math.h>
@@ -128,6 +129,9 @@ clast_status clx_evolve_write_results(const char *folder, const char *config,
     CLX_TRY(write_sizes(folder, evolve));
     if (physics->structure) {
         CLX_TRY(write_aggregates(folder, config, physics->keep, evolve, &result->n_written));
+        CLX_TRY(physics->bed_width > 0.0
+                    ? clx_evolve_write_bed(folder, physics->bed_width, evolve, result)
+                    : CLAST_OK);
     }
     CLX_TRY(clx_evolve_draw(folder, evolve));
     CLX_TRY(write_summary(folder, result));
@@ -169,10 +173,11 @@ clast_status clx_evolve_write_frame(const char *folder, int32_t row, const clast
     char path[CLX_PATH_LIMIT];
     char name[64];
     clast_assembly assembly = {0};
-    clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1};
+    clast_table values = {0};
+    clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1, .values = &values};
     CLX_TRY(clx_path_join(path, folder, "frames"));
     CLX_TRY(clx_folder_make(path));
-    CLX_TRY(clast_evolve_assembly(evolve, &assembly));
+    CLX_TRY(clast_evolve_assembly(evolve, &assembly, &values));
     if (assembly.n_grain > 0) {
         options.points = assembly.n_grain > MOST_SURFACES;
         frame_name(name, row);
@@ -180,6 +185,7 @@ clast_status clx_evolve_write_frame(const char *folder, int32_t row, const clast
         CLX_TRY(clast_assembly_write(&assembly, path, &options, NULL));
     }
 done:
+    clast_table_free(&values);
     clast_assembly_free(&assembly);
     return status;
 }

@@ -170,6 +170,8 @@ clast_status clast_evolve_run(const clast_evolve_config *config, const char *fol
               "frames: they are written into a run's folder; give one (-o)");
     CLX_CHECK(config->frames == 0 || config->structure, CLAST_E_CONFIG,
               "frames: drops that merge (structure: no) have no grains to show");
+    CLX_CHECK(config->bed_width == 0.0 || (folder != NULL && config->structure), CLAST_E_CONFIG,
+              "bed_width: a bed of aggregates needs a folder (-o) and their grains (structure)");
     CLX_CHECK(folder != NULL || !config->force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
     if (folder != NULL) {

@@ -149,6 +149,25 @@ done:
     return status;
 }
 
+/// walls.csv, and the mass inside over time where grains leave.
+static clast_status write_walls(const char *folder, const clast_pack *pack)
+{
+    static const char *const mass[2][2] = {{"mass_kg", "inside"}, {"mass_left_kg", "left"}};
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    const clast_table *walls = clast_pack_wall_table(pack);
+    if (walls == NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(write_table(folder, "walls.csv", walls));
+    if (walls->n_row > 1 && clast_table_numbers(walls, "mass_left_kg")[walls->n_row - 1] > 0.0) {
+        CLX_TRY(clx_pack_path(path, folder, "outflow.svg"));
+        CLX_TRY(draw_lines(path, walls, "Grains that leave", "mass (kg)", 2, mass));
+    }
+done:
+    return status;
+}
+
 static clast_status write_achieved(const char *folder, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -248,6 +267,7 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
     CLX_TRY(write_table(folder, "series.csv", clast_pack_series(pack)));
     CLX_TRY(draw_energy(folder, clast_pack_series(pack)));
     CLX_TRY(write_load(folder, pack));
+    CLX_TRY(write_walls(folder, pack));
     if (result->dem.n_grain > 0 && physics->dem.domain == CLAST_DEM_CELL) {
         CLX_TRY(write_achieved(folder, pack));
         CLX_TRY(write_grains(folder, pack));

@@ -35,7 +35,7 @@ static bool is_time(const char *key)
     return false;
 }
 
-static void put(gatherer *g, const char *result, double value)
+static void append_result(gatherer *g, const char *result, double value)
 {
     clast_table *to = is_time(result) ? &g->times : &g->results;
     char key[512];
@@ -88,7 +88,7 @@ static void put_all(gatherer *g, const char *prefix, json_t *object)
         if (json_is_object(value)) {
             put_all(g, name, value);
         } else if (as_number(value, &number)) {
-            put(g, name, number);
+            append_result(g, name, number);
         }
     }
 }
@@ -114,7 +114,7 @@ static void put_kept(gatherer *g, json_t *root)
         if (!as_number(find(root, g->config->keep.item[i]), &number)) {
             number = NAN;
         }
-        put(g, g->config->keep.item[i], number);
+        append_result(g, g->config->keep.item[i], number);
     }
 }
 
@@ -133,7 +133,7 @@ static clast_status read_run(gatherer *g, const char *folder, bool whole)
         goto done; // never begun, or under way
     }
     CLX_TRY(clx_file_read_all(path, 64, &text, &n));
-    put(g, "exit_code", clx_number_read(text, NULL));
+    append_result(g, "exit_code", clx_number_read(text, NULL));
     clx_free(text);
     text = NULL;
     (void)snprintf(path, sizeof path, "%s/result.json", run);

@@ -52,6 +52,21 @@ class Results(Case):
         self.assertLess(middle["low"], middle["mean"])
         self.assertLess(middle["mean"], middle["high"])
 
+    def test_fall_speed_has_a_row_each_time_and_ends_as_the_result(self):
+        """Surfaces of flat faces: the last row measures the hull that the result has."""
+        (self.folder / "cube.off").write_text(CUBE)
+        words = ("aggregate", "--core", self.folder / "cube.off", "--core-size", "270um", "--coat", self.folder / "cube.off", "--unit", "um", "--size", "60um",
+                 "--replicate", 6, *QUICK)
+        found = clast(*words, "--fall-speed", "--json", "-o", self.folder / "run").json
+        with open(self.folder / "run/history.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        speed = [float(row["settling_velocity_m/s"]) for row in rows]
+        self.assertEqual(len(speed), 7)
+        self.assertAlmostEqual(speed[-1] / found["settling_velocity"], 1.0, places=12)
+        self.assertEqual(clast(*words, "-o", self.folder / "plain").code, 0)
+        with open(self.folder / "plain/history.csv", encoding="utf-8") as file:
+            self.assertNotIn("settling", file.readline())
+
     def test_approach_is_a_key_and_refuses_what_it_does_not_ask(self):
         """Central rays on a sphere all end at one distance; lines over the cross-section and walks make looser aggregates."""
         file = self.folder / "walk.yaml"

@@ -21,7 +21,7 @@ class Bench(Case):
 
     def test_the_list_holds_the_scenes_of_the_design(self):
         names = [line.split()[0] for line in clast("bench", "--list").out.splitlines()]
-        for name in ("SK21", "EJ15T", "FILL", "FILL_T_REX", "FILL_SNOWFLAKE", "SHAPE", "D6", "D6BOX", "D7", "D7B"):
+        for name in ("SK21", "EJ15T", "FILL", "FILL_T_REX", "FILL_SNOWFLAKE", "SHAPE", "D6", "D6BOX", "D7", "D7B", "EVOLVE5"):
             self.assertIn(name, names)
 
     def test_an_unknown_scene_is_refused(self):

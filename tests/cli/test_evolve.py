@@ -95,6 +95,24 @@ class Evolve(Case):
         largest = clast("export", run, "-o", self.folder / "largest.vtu", "--json")  # state.h5: the aggregate of most grains
         self.assertEqual(largest.code, 0, largest.err)
 
+    def test_the_deposit_settles_as_it_is(self):
+        """Every body of the floor once, with its own size and mass, as a bed."""
+        run, bed = self.folder / "run", self.folder / "bed"
+        out = self.run_ash("--particles", 300, "--bed-width", "1um", "--json", "-o", run).json["deposit"]
+        deposit = rows(run / "deposit.csv")
+        self.assertGreater(out["bed_width"], max(row["envelope_m"] for row in deposit))  # 1 um was too narrow
+        self.assertGreater(max(row["grains"] for row in deposit), 1)
+        self.assertIn("Envelope's diameter, mean by mass", (run / "report.html").read_text())  # the card of the deposit
+        start = clast("export", run / "deposit.h5", "-o", self.folder / "start.csv", "--json")
+        self.assertEqual(start.code, 0, start.err)
+        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "periodic", "--width", f"{out['bed_width']}m",
+                       "--height", f"{out['bed_height']}m",
+                       "--collision-time", "20us", "--time-step", "0.5us", "--fluid-density", 0, "--shaking-time", 0, "--max-steps", 2000,
+                       "--quiet", "-o", bed, "--json")
+        self.assertEqual(packed.code, 0, packed.err)
+        self.assertEqual(packed.json["n_grain"], len(deposit))
+        self.assertAlmostEqual(packed.json["mass"] / sum(row["mass_kg"] for row in deposit), 1.0, 6)
+
     def test_frames_and_points(self):
         run = self.folder / "run"
         points = self.folder / "points.csv"
@@ -105,6 +123,9 @@ class Evolve(Case):
         self.assertEqual(done.json["n_start"], 10)
         self.assertEqual(done.json["n_frame"], 3)
         self.assertEqual((run / "frames.pvd").read_text().count("<DataSet"), 3)
+        for frame in (run / "frames").iterdir():
+            for name in ("node", "on_floor", "grains", "envelope_m", "porosity", "speed_m/s", "mass_kg"):
+                self.assertIn(f'Name="{name}"', frame.read_text())
         masses = sorted(row["mass_kg"] for name in ("particles.csv", "deposit.csv") for row in rows(run / name))
         self.assertAlmostEqual(masses[9] / masses[0], 1000.0, 9)
 
@@ -122,7 +143,9 @@ class Evolve(Case):
         self.assert_fails(2, "evolve", "--particles", 5, "--duration", "1s", says=("domain", "box:"))
         self.assert_fails(2, *box, "--particles", 5, "--gravity", 0, "--no-brownian", says=("floor", "nothing reaches it"))
         self.assert_fails(2, *box, "--particles", 5, "--kernel", "shear_turbulent", says=("dissipation",))
-        self.assert_fails(2, *box, "--particles", 5, "--kernel", "ballistic", says=("velocities",))
+        self.assert_fails(2, *box, "--particles", 5, "--kernel", "ballistic", "--gravity", 0, "--floor", "reflect", says=("ballistic", "velocity"))
+        self.assert_fails(2, *box, "--particles", 5, "--curve", "100um", "--time-step", "2s", says=("time_step", "whole height", "take less than"))
+        self.assert_fails(2, *box, "--particles", 5, "--bed-width", "1mm", says=("bed_width", "-o"))
         self.assert_fails(2, *box, "--particles", 5, "--wind", "1,2", says=("wind", "x,y,z"))
         self.assert_fails(2, *box, "--particles", 5, "--density", 1, "--density", 2, says=("density", "1 shapes"))
         self.assert_fails(2, *box, "--particles", 5, "--frames", 1, says=("frames", "-o"))

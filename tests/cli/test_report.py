@@ -138,6 +138,39 @@ class Report(Case):
                 text = seen(page)
                 self.assertNotRegex(text, r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
 
+    def test_frames_are_the_views_moments(self):
+        run = os.path.join(self.folder.name, "framed")
+        made = clast("pack", "--curve", "6mm", "--mass", "2g", "--width", "30mm", "--height", "40mm", "--shaking-time", "0.01s", "--frame-time", "10ms", "-q", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        with open(os.path.join(run, "frames.pvd"), encoding="utf-8") as file:
+            listed = re.findall(r'timestep="([^"]*)"[^>]*file="([^"]*)"', file.read())
+        self.assertEqual(clast("report", run).code, 0)
+        view = json.loads(re.search(r'class="view-data">(.*?)</script>', self.page(os.path.join(run, "report.html")), re.S).group(1))
+        self.assertEqual([frame["time"] for frame in view["frames"]["frame"]], [float(time) for time, _ in listed])
+        self.assertEqual(view["frames"]["n_file"], len(listed))
+        os.remove(os.path.join(run, listed[0][1]))  # to save room: the others are shown
+        self.assertEqual(clast("report", run).code, 0)
+        view = json.loads(re.search(r'class="view-data">(.*?)</script>', self.page(os.path.join(run, "report.html")), re.S).group(1))
+        self.assertEqual(len(view["frames"]["frame"]), len(listed) - 1)
+        os.truncate(os.path.join(run, listed[1][1]), 900)  # within the poses
+        damaged = clast("report", run)
+        self.assertEqual((damaged.code, damaged.err.count("\n")), (3, 1), damaged.err)
+        with open(os.path.join(run, "frames.pvd"), "w", encoding="utf-8") as file:
+            file.write('<DataSet timestep="0.1" part="0" file="frames/frame-../../secret.vtu"/>')
+        outside = clast("report", run)
+        self.assertEqual(outside.code, 3)
+        self.assertIn("entry 1 is no frame of this run", outside.err)
+
+    def test_wide_tables_stand_in_stripes(self):
+        head = ",".join(["run", *(f"number_{k}" for k in range(23))])
+        self.put("wide.csv", head + "\n" + "\n".join(",".join([f"r{i}", *(str(i * k) for k in range(23))]) for i in range(3)) + "\n")
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        page = self.page(os.path.join(self.run_path, "report.html"))
+        part = page[page.index("wide"):]
+        tables = re.findall(r"<table>(.*?)</table>", part, re.S)[:3]
+        self.assertEqual([t.count("<th") for t in tables], [9, 9, 8])
+        self.assertEqual([t.count("r2</td>") for t in tables], [1, 1, 1])
+
     def test_folders_without_a_summary_have_pages_too(self):
         # fit, predict and study have tables and a manifest; their folders were "no run folder"
         beds = os.path.join(self.folder.name, "beds.csv")

@@ -66,7 +66,7 @@ clast_dem *scene_pour_with(const clast_dem_config *config, int32_t n, double low
         grain[made] = ball(low * pow(high / low, clx_rng_uniform(&rng)), x, y, z);
         for (int k = 0; k < 3; ++k) {
             grain[made].velocity[k] = 0.5 * (2.0 * clx_rng_uniform(&rng) - 1.0);
-            grain[made].spin[k] = 10.0 * (2.0 * clx_rng_uniform(&rng) - 1.0);
+            grain[made].angular_velocity[k] = 10.0 * (2.0 * clx_rng_uniform(&rng) - 1.0);
         }
         grain[made].velocity[2] -= 1.0; // soon a bed
         ++made;

@@ -82,7 +82,7 @@ static clast_status add_layer(const bed_case *c, clast_dem *dem, int32_t layer, 
         g->position[2] = z;
         for (int k = 0; k < 3; ++k) {
             g->velocity[k] = 1.2 * (clx_rng_uniform(&rng) - 0.5) - (k == 2 ? 0.2 : 0.0);
-            g->spin[k] = 40.0 * (clx_rng_uniform(&rng) - 0.5);
+            g->angular_velocity[k] = 40.0 * (clx_rng_uniform(&rng) - 0.5);
         }
         clx_rng_orientation(&rng, g->orientation);
     }

@@ -182,7 +182,7 @@ static void sliding_sphere_begins_to_roll(void **state)
     CHECK_OK(clast_dem_step(dem, (int64_t)(0.7 * rolls_at / c.time_step)));
     clast_dem_read_grain(dem, 0, &ball);
     CHECK_REL(ball.velocity[0], 0.2 * 5.0 / 7.0, 2e-3);
-    CHECK_REL(ball.spin[1] * RADIUS, ball.velocity[0], 2e-3);
+    CHECK_REL(ball.angular_velocity[1] * RADIUS, ball.velocity[0], 2e-3);
     clast_dem_destroy(dem);
 }
 
@@ -195,7 +195,7 @@ static void collision_keeps_momentum(void **state)
     clast_dem_grain g[3] = {at(0.0, 0.0, 0.0), at(2.1 * RADIUS, 0.7 * RADIUS, 0.0),
                             at(-0.5 * RADIUS, 2.2 * RADIUS, 0.3 * RADIUS)};
     g[0].velocity[0] = 0.5;
-    g[0].spin[2] = 40.0;
+    g[0].angular_velocity[2] = 40.0;
     g[1].velocity[1] = 0.2;
     g[2].velocity[1] = -0.4;
     CHECK_OK(clast_dem_add_grains(dem, 3, g));
@@ -213,7 +213,7 @@ static void collision_keeps_momentum(void **state)
                 const int q = (k + 2) % 3;
                 sum[k] += mass * v[k];
                 sum[3 + k] += mass * (x[p] * v[q] - x[q] * v[p]) +
-                              0.4 * mass * RADIUS * RADIUS * g[i].spin[k];
+                              0.4 * mass * RADIUS * RADIUS * g[i].angular_velocity[k];
             }
         }
         if (when == 0) {
@@ -359,7 +359,7 @@ static void rolling_friction_slows_a_rolling_sphere(void **state)
     clast_dem *dem = make(&c);
     clast_dem_grain ball = at(0.0, 0.0, RADIUS - 1.61e-8);
     ball.velocity[0] = 0.1;
-    ball.spin[1] = 0.1 / RADIUS;
+    ball.angular_velocity[1] = 0.1 / RADIUS;
     CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
     CHECK_OK(clast_dem_step(dem, 20000));
     clast_dem_read_grain(dem, 0, &ball);
@@ -398,14 +398,14 @@ static void spin_dies_out_by_stokes(void **state)
     clast_dem_grain ball = at(0.0, 0.0, 0.0);
     const double time = DENSITY * RADIUS * RADIUS / (15.0 * c.fluid_viscosity);
     const int64_t n = (int64_t)(1.5 * time / c.time_step);
-    ball.spin[0] = 10.0;
-    ball.spin[2] = -20.0;
+    ball.angular_velocity[0] = 10.0;
+    ball.angular_velocity[2] = -20.0;
     CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
     CHECK_OK(clast_dem_step(dem, n));
     clast_dem_read_grain(dem, 0, &ball);
-    CHECK_REL(ball.spin[0], 10.0 * pow(1.0 + c.time_step / time, -(double)n), 1e-10);
-    CHECK_REL(ball.spin[2], -2.0 * ball.spin[0], 1e-12);
-    CHECK_REL(ball.spin[0], 10.0 * exp(-1.5), 2.0 * c.time_step / time);
+    CHECK_REL(ball.angular_velocity[0], 10.0 * pow(1.0 + c.time_step / time, -(double)n), 1e-10);
+    CHECK_REL(ball.angular_velocity[2], -2.0 * ball.angular_velocity[0], 1e-12);
+    CHECK_REL(ball.angular_velocity[0], 10.0 * exp(-1.5), 2.0 * c.time_step / time);
     clast_dem_destroy(dem);
 }
 

@@ -211,7 +211,7 @@ static void go_down(const clast_shape *shape, double height, double angle, doubl
     CHECK_OK(clast_dem_step(dem, 10000));
     clast_dem_read_grain(dem, 0, &g);
     out[0] = g.velocity[0] * cos(angle) - g.velocity[2] * sin(angle);
-    out[1] = g.spin[1];
+    out[1] = g.angular_velocity[1];
     clast_dem_destroy(dem);
     clast_mesh_free(&slope);
 }

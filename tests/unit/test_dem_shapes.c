@@ -97,8 +97,10 @@ static void free_body_keeps_momentum_and_energy(void **state)
         CHECK_OK(clast_dem_create(&c, &dem));
         CHECK_OK(clast_shape_ellipsoid("egg", axes, &shape));
         CHECK_OK(clast_dem_add_shape(dem, &shape, &id));
-        clast_dem_grain g = {
-            .scale = 1.0, .density = DENSITY, .orientation = {1.0}, .spin = {2.0, 100.0, 1.0}};
+        clast_dem_grain g = {.scale = 1.0,
+                             .density = DENSITY,
+                             .orientation = {1.0},
+                             .angular_velocity = {2.0, 100.0, 1.0}};
         CHECK_OK(clast_dem_add_grains(dem, 1, &g));
         double before[3], after[3];
         clast_dem_measures m0, m1;
@@ -106,7 +108,7 @@ static void free_body_keeps_momentum_and_energy(void **state)
         double least_y = 1.0;
         clast_dem_measure(dem, &m0);
         for (int k = 0; k < 3; ++k) {
-            before[k] = DENSITY * shape.inertia[k][k] * g.spin[k];
+            before[k] = DENSITY * shape.inertia[k][k] * g.angular_velocity[k];
         }
         for (int k = 0; k < 160; ++k) {
             CHECK_OK(clast_dem_step(dem, 400));
@@ -115,7 +117,7 @@ static void free_body_keeps_momentum_and_energy(void **state)
             clast_dem_read_grain(dem, 0, &g);
             double w[3], r[3][3];
             q_matrix(r, g.orientation);
-            m3_to_local(w, r, g.spin);
+            m3_to_local(w, r, g.angular_velocity);
             least_y = fmin(least_y, w[1] / 100.0);
             for (int i = 0; i < 3; ++i) {
                 w[i] *= DENSITY * shape.inertia[i][i];

@@ -1,5 +1,6 @@
 /* Unit: a cloud of true shapes beside what is known of it: Stokes' column, the constant kernel,
  * moments of pairs, balances, going on. */
+#include "evolving.h"
 #include "support.h"
 
 #include <clast/assembly.h>
@@ -11,57 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a test changes of the defaults: "key=value" texts, NULL ends them. */
-typedef struct {
-    clast_evolve_config config;
-    clast_evolve_source source;
-    clast_evolve *evolve;
-} cloud;
-
-static void set(clast_evolve_config *config, const char *option)
-{
-    char key[64];
-    const char *equal = strchr(option, '=');
-    assert_non_null(equal);
-    (void)snprintf(key, sizeof key, "%.*s", (int)(equal - option), option);
-    const clast_field *field = clast_fields_find(clast_evolve_fields, key);
-    assert_non_null(field);
-    CHECK_OK(clast_field_set(field, config, equal + 1, false));
-}
-
-static void open_cloud(cloud *c, const char *const *option)
-{
-    *c = (cloud){0};
-    CHECK_OK(clast_fields_default(clast_evolve_fields, &c->config));
-    for (; *option != NULL; ++option) {
-        set(&c->config, *option);
-    }
-    CHECK_OK(clast_evolve_load(&c->config, &c->source));
-}
-
-static void begin(cloud *c, const char *const *option)
-{
-    open_cloud(c, option);
-    CHECK_OK(clast_evolve_create(&c->config, &c->source.input, &c->evolve));
-}
-
-static void end(cloud *c)
-{
-    clast_evolve_destroy(c->evolve);
-    clast_evolve_unload(&c->source);
-    clast_fields_free(clast_evolve_fields, &c->config);
-}
-
-static clast_evolve_result follow(cloud *c)
-{
-    clast_evolve_result result;
-    while (!clast_evolve_is_over(c->evolve)) {
-        CHECK_OK(clast_evolve_advance(c->evolve));
-    }
-    CHECK_OK(clast_evolve_measure(c->evolve, &result));
-    return result;
-}
-
 /* Equal spheres that do not spread fall at w = (rho - rho_f) g d^2 / (18 mu) and come down at
  * t = z / w, whatever the steps. */
 static void column_is_stokes(void **state)
@@ -72,12 +22,12 @@ static void column_is_stokes(void **state)
         "kernel=settling",         "fall=stokes",    "brownian=no",
         "duration=1000s",          "rows=7",         "gravity=9.81m/s^2",
         "step_error=0.3",          "wind=0.001,0,0", NULL};
-    cloud c;
+    evolving c;
     clast_table deposit = {0};
     clast_table start = {0};
-    begin(&c, option);
+    evolving_begin(&c, option);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &start));
-    const clast_evolve_result r = follow(&c);
+    const clast_evolve_result r = evolving_follow(&c);
     assert_int_equal(r.n_deposit, 500);
     CHECK_REL(clast_evolve_time(c.evolve), r.time, 0.0);
     assert_true(clast_evolve_n_row(c.evolve) <= 7);
@@ -96,7 +46,7 @@ static void column_is_stokes(void **state)
     }
     clast_table_free(&deposit);
     clast_table_free(&start);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* Constant kernel, drops: N = N0 / (1 + K N0 t / (2 V)) [Smoluchowski1916]; the standard deviation
@@ -117,10 +67,10 @@ static void constant_kernel_is_exact(void **state)
                                          "duration=1s",
                                          "rows=4",
                                          NULL};
-    cloud c;
+    evolving c;
     clast_table balance = {0};
-    begin(&c, option);
-    const clast_evolve_result r = follow(&c);
+    evolving_begin(&c, option);
+    const clast_evolve_result r = evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_BALANCE, &balance));
     for (int64_t i = 0; i < balance.n_row; ++i) {
         const double t = clast_table_numbers(&balance, "time_s")[i];
@@ -131,7 +81,7 @@ static void constant_kernel_is_exact(void **state)
     }
     assert_int_equal(r.n_particle + r.n_event, 20000);
     clast_table_free(&balance);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* Additive kernel b (i + j), drops: N = N0 exp(-b N0 t / V) [Golovin1963]. */
@@ -151,17 +101,17 @@ static void additive_kernel_is_exact(void **state)
                                          "rows=4",
                                          "step_error=0.02",
                                          NULL};
-    cloud c;
+    evolving c;
     clast_table balance = {0};
-    begin(&c, option);
-    (void)follow(&c);
+    evolving_begin(&c, option);
+    (void)evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_BALANCE, &balance));
     for (int64_t i = 0; i < balance.n_row; ++i) {
         const double exact = 20000.0 * exp(-clast_table_numbers(&balance, "time_s")[i]);
         CHECK_ABS(clast_table_numbers(&balance, "n_particle")[i], exact, 5.0 * sqrt(exact / 3.0));
     }
     clast_table_free(&balance);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* The kept moments of an aggregate are those of its grains, its grains touch and do not overlap. */
@@ -205,33 +155,44 @@ static void check_all(const clast_evolve *e, const clast_table *particles)
     assert_int_equal(n, 2);
     CHECK_OK(clast_evolve_aggregate(e, node[0], &most));
     CHECK_ABS(most.n_grain, greatest, 0.0);
-    CHECK_OK(clast_evolve_assembly(e, &all));
+    clast_table values = {0};
+    CHECK_OK(clast_evolve_assembly(e, &all, &values));
     assert_int_equal(all.n_grain, 400);
+    assert_int_equal(values.n_row, 400);
+    int of_largest = 0;
+    for (int i = 0; i < 400; ++i) {
+        if (clast_table_numbers(&values, "node")[i] == (double)node[0]) {
+            CHECK_ABS(clast_table_numbers(&values, "grains")[i], greatest, 0.0);
+            ++of_largest;
+        }
+    }
+    CHECK_ABS(of_largest, greatest, 0.0);
+    clast_table_free(&values);
     clast_assembly_free(&all);
     clast_assembly_free(&most);
 }
 
-static void aggregates_are_of_true_surfaces(void **state)
+static void check_true_surfaces(const char *meeting)
 {
-    (void)state;
-    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
-                                         "particles=400",
-                                         "curve=lognormal:1mm,0.3mm",
-                                         "kernel=constant",
-                                         "constant=0.1",
-                                         "brownian=no",
-                                         "gravity=0",
-                                         "floor=reflect",
-                                         "duration=1s",
-                                         "rows=2",
-                                         NULL};
-    cloud c;
+    const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                  "particles=400",
+                                  "curve=lognormal:1mm,0.3mm",
+                                  "kernel=constant",
+                                  "constant=0.1",
+                                  "brownian=no",
+                                  "gravity=0",
+                                  "floor=reflect",
+                                  "duration=1s",
+                                  "rows=2",
+                                  meeting,
+                                  NULL};
+    evolving c;
     clast_table particles = {0};
-    open_cloud(&c, option);
-    end(&c);
+    evolving_open(&c, option);
+    evolving_end(&c);
     CHECK_OK(clast_fields_default(clast_evolve_fields, &c.config));
     for (const char *const *o = option; *o != NULL; ++o) {
-        set(&c.config, *o);
+        evolving_set(&c.config, *o);
     }
     const clast_field *shapes = clast_fields_find(clast_evolve_fields, "shapes");
     CHECK_OK(clast_field_set(shapes, &c.config, "ellipsoid:1,0.7,0.4", false));
@@ -239,7 +200,7 @@ static void aggregates_are_of_true_surfaces(void **state)
     CHECK_OK(clast_field_set(shapes, &c.config, support_data("standin63/grain00.ply"), true));
     CHECK_OK(clast_evolve_load(&c.config, &c.source));
     CHECK_OK(clast_evolve_create(&c.config, &c.source.input, &c.evolve));
-    (void)follow(&c);
+    (void)evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &particles));
     int checked = 0;
     for (int64_t i = 0; i < particles.n_row; ++i) {
@@ -252,7 +213,55 @@ static void aggregates_are_of_true_surfaces(void **state)
     assert_true(checked >= 10);
     check_all(c.evolve, &particles);
     clast_table_free(&particles);
-    end(&c);
+    evolving_end(&c);
+}
+
+static void aggregates_are_of_true_surfaces(void **state)
+{
+    (void)state;
+    check_true_surfaces("meeting=ballistic");
+    check_true_surfaces("meeting=reaction");
+}
+
+/* A sphere of radius R at a pair of its like: where few touches stick, it sits anywhere on one of
+ * them but behind the other, cos(theta) even over [-1, 1/2]: the mean of R_g^2 is 2 R^2 + 3/5 R^2,
+ * its standard deviation 8/9 1.5/sqrt(12) R^2. */
+static void reaction_takes_each_contact_alike(void **state)
+{
+    enum { SEEDS = 400 };
+    (void)state;
+    double sum = 0.0;
+    for (int seed = 1; seed <= SEEDS; ++seed) {
+        char word[32];
+        (void)snprintf(word, sizeof word, "seed=%d", seed);
+        const char *const option[] = {"domain=box:0,0,0,10,10,10",
+                                      "particles=3",
+                                      "curve=2m",
+                                      "kernel=constant",
+                                      "constant=1e6",
+                                      "brownian=no",
+                                      "gravity=0",
+                                      "floor=reflect",
+                                      "even=whole",
+                                      "duration=1s",
+                                      "rows=1",
+                                      "time_step=1s",
+                                      "step_error=0.5",
+                                      "meeting=reaction",
+                                      word,
+                                      NULL};
+        evolving c;
+        clast_table events = {0};
+        evolving_begin(&c, option);
+        (void)evolving_follow(&c);
+        CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_EVENTS, &events));
+        assert_int_equal(events.n_row, 2);
+        const double gyration = clast_table_numbers(&events, "radius_of_gyration_m")[1];
+        sum += gyration * gyration;
+        clast_table_free(&events);
+        evolving_end(&c);
+    }
+    CHECK_ABS(sum / SEEDS, 2.6, 4.0 * 8.0 / 9.0 * 1.5 / sqrt(12.0 * SEEDS));
 }
 
 static const char *const ASH[] = {"domain=box:0,0,0,1mm,1mm,10mm",
@@ -270,39 +279,39 @@ static const char *const ASH[] = {"domain=box:0,0,0,1mm,1mm,10mm",
 static void goes_on_to_the_same_bits(void **state)
 {
     (void)state;
-    cloud c;
-    cloud again;
+    evolving c;
+    evolving again;
     clast_table saved[CLAST_N_EVOLVE_SAVED] = {{0}};
     clast_evolve_result other;
-    begin(&c, ASH);
+    evolving_begin(&c, ASH);
     for (int leg = 0; leg < 3; ++leg) {
         CHECK_OK(clast_evolve_advance(c.evolve));
     }
     CHECK_OK(clast_evolve_save(c.evolve, saved));
-    const clast_evolve_result r = follow(&c);
+    const clast_evolve_result r = evolving_follow(&c);
     assert_true(r.n_event > 50 && r.n_deposit > 0);
     CHECK_ABS(r.mass_balance, 0.0, 1e-12);
-    begin(&again, ASH);
+    evolving_begin(&again, ASH);
     CHECK_OK(clast_evolve_restore(saved, again.evolve));
-    other = follow(&again);
+    other = evolving_follow(&again);
     assert_true(other.hash == r.hash);
     assert_int_equal(other.n_event, r.n_event);
     assert_int_equal(other.n_cut, r.n_cut);
     for (int k = 0; k < CLAST_N_EVOLVE_SAVED; ++k) {
         clast_table_free(&saved[k]);
     }
-    end(&c);
-    end(&again);
+    evolving_end(&c);
+    evolving_end(&again);
 }
 
 /* Each event makes one of two that were there: the tree is one of pairs. */
 static void events_are_a_tree(void **state)
 {
     (void)state;
-    cloud c;
+    evolving c;
     clast_table events = {0};
-    begin(&c, ASH);
-    const clast_evolve_result r = follow(&c);
+    evolving_begin(&c, ASH);
+    const clast_evolve_result r = evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_EVENTS, &events));
     bool *is_used = calloc((size_t)(r.n_start + r.n_event), sizeof *is_used);
     double *grains = calloc((size_t)(r.n_start + r.n_event), sizeof *grains);
@@ -323,7 +332,7 @@ static void events_are_a_tree(void **state)
     free(is_used);
     free(grains);
     clast_table_free(&events);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* A diffusing cloud over a floor that takes all: of n at height h, erfc(h / sqrt(4 D t)) are down
@@ -346,12 +355,12 @@ static void floor_takes_what_diffuses(void **state)
                                          "rows=3",
                                          "time_step=3s",
                                          NULL};
-    cloud c;
-    begin(&c, option);
-    const clast_evolve_result r = follow(&c);
+    evolving c;
+    evolving_begin(&c, option);
+    const clast_evolve_result r = evolving_follow(&c);
     const double share = erfc(1.0 / sqrt(4.0 * 0.01 * 30.0));
     CHECK_ABS((double)r.n_deposit / 20000.0, share, 4.0 * sqrt(share * (1.0 - share) / 20000.0));
-    end(&c);
+    evolving_end(&c);
 }
 
 #define STILL                                                                                      \
@@ -404,11 +413,11 @@ static void check_left(const char *domain, const char *floor, int n, const char 
 {
     const char *const option[] = {domain,        points,   STILL, floor, "eddy_diffusivity=1e-5",
                                   "duration=1s", "rows=1", NULL};
-    cloud c;
-    begin(&c, option);
-    const clast_evolve_result r = follow(&c);
+    evolving c;
+    evolving_begin(&c, option);
+    const clast_evolve_result r = evolving_follow(&c);
     CHECK_ABS((double)(n - r.n_deposit) / n, exact, 4.0 * sqrt(exact * (1.0 - exact) / n));
-    end(&c);
+    evolving_end(&c);
 }
 
 /* Sides that keep all: a square duct [Carslaw1959 sec. 5.6], a cylinder [sec. 7.6] and a sphere
@@ -442,17 +451,17 @@ static void check_arrival(const char *points, const char *wind, const double x[4
                                   "rows=1",
                                   NULL};
     static const char *const column[] = {"x_m", "y_m", "z_m", "time_s"};
-    cloud c;
+    evolving c;
     clast_table deposit = {0};
-    begin(&c, option);
-    (void)follow(&c);
+    evolving_begin(&c, option);
+    (void)evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
     assert_int_equal(deposit.n_row, 1);
     for (int k = 0; k < 4; ++k) {
         CHECK_ABS(clast_table_numbers(&deposit, column[k])[0], x[k], 1e-12);
     }
     clast_table_free(&deposit);
-    end(&c);
+    evolving_end(&c);
 }
 
 static void the_first_wall_keeps(void **state)
@@ -475,11 +484,11 @@ static void arrivals_come_after_events(void **state)
         "domain=box:0,0,0,1,1,1", "particles=2000", "curve=100um", "kernel=constant",
         "constant=2e-3",          "structure=no",   "brownian=no", "duration=10s",
         "time_step=1s",           "rows=1",         NULL};
-    cloud c;
+    evolving c;
     clast_table deposit = {0};
     clast_table events = {0};
-    begin(&c, option);
-    (void)follow(&c);
+    evolving_begin(&c, option);
+    (void)evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_EVENTS, &events));
     assert_true(events.n_row > 100);
@@ -490,7 +499,7 @@ static void arrivals_come_after_events(void **state)
     }
     clast_table_free(&deposit);
     clast_table_free(&events);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* Velocities of a turn about z with one turn in 10 s, on a grid in any order. */
@@ -530,12 +539,12 @@ static void a_field_turns_the_cloud(void **state)
                                   "rows=2",
                                   field,
                                   NULL};
-    cloud c;
+    evolving c;
     clast_table before = {0};
     clast_table after = {0};
-    begin(&c, option);
+    evolving_begin(&c, option);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &before));
-    (void)follow(&c);
+    (void)evolving_follow(&c);
     CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &after));
     assert_int_equal(after.n_row, 50);
     for (int64_t i = 0; i < after.n_row; ++i) {
@@ -545,16 +554,16 @@ static void a_field_turns_the_cloud(void **state)
     }
     clast_table_free(&before);
     clast_table_free(&after);
-    end(&c);
-    open_cloud(&c, option);
-    set(&c.config, "wind=1e9,0,0"); /* crosses more than a million cells */
+    evolving_end(&c);
+    evolving_open(&c, option);
+    evolving_set(&c.config, "wind=1e9,0,0"); /* crosses more than a million cells */
     CHECK_OK(clast_evolve_create(&c.config, &c.source.input, &c.evolve));
     CHECK_STATUS(clast_evolve_advance(c.evolve), CLAST_E_LIMIT);
-    end(&c);
+    evolving_end(&c);
     (void)turning_field(1); /* a node is missing */
-    open_cloud(&c, option);
+    evolving_open(&c, option);
     CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), CLAST_E_FORMAT);
-    end(&c);
+    evolving_end(&c);
 }
 
 /* A small cloud from its options to an aggregate, or why not; nothing is left. */
@@ -605,19 +614,19 @@ static clast_status make_small(void *context)
 static void each_refused_allocation_is_told(void **state)
 {
     (void)state;
-    cloud c;
-    open_cloud(&c, (const char *const[]){"domain=box:0,0,0,1,1,1", "curve=1mm", NULL});
+    evolving c;
+    evolving_open(&c, (const char *const[]){"domain=box:0,0,0,1,1,1", "curve=1mm", NULL});
     support_refuse_each_allocation(make_small, &c.source);
-    end(&c);
+    evolving_end(&c);
 }
 
 static void refuses(const char *const *option, clast_status expected)
 {
-    cloud c;
-    open_cloud(&c, option);
+    evolving c;
+    evolving_open(&c, option);
     CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), expected);
     assert_null(c.evolve);
-    end(&c);
+    evolving_end(&c);
 }
 
 static void bad_configurations_are_refused(void **state)
@@ -625,9 +634,12 @@ static void bad_configurations_are_refused(void **state)
     (void)state;
 #define BOX "domain=box:0,0,0,1,1,1", "particles=10", "duration=1s"
     refuses((const char *const[]){BOX, "gravity=0", "brownian=no", NULL}, CLAST_E_CONFIG);
-    refuses((const char *const[]){BOX, "kernel=ballistic", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=ballistic", "gravity=0", "floor=reflect", NULL},
+            CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "kernel=ballistic", "dissipation=1", NULL}, CLAST_E_CONFIG);
     refuses((const char *const[]){BOX, "kernel=shear_turbulent", NULL}, CLAST_E_CONFIG);
     refuses((const char *const[]){BOX, "weight=1.5", NULL}, CLAST_E_CONFIG);
+    refuses((const char *const[]){BOX, "curve=100um", "time_step=2s", NULL}, CLAST_E_CONFIG);
     refuses((const char *const[]){BOX, "floor=periodic", "open_top=yes", NULL}, CLAST_E_CONFIG);
     refuses((const char *const[]){"domain=box:0,0,1,1", "particles=9", "duration=1s", NULL},
             CLAST_E_CONFIG);
@@ -650,6 +662,7 @@ int main(void)
                                        cmocka_unit_test(constant_kernel_is_exact),
                                        cmocka_unit_test(additive_kernel_is_exact),
                                        cmocka_unit_test(aggregates_are_of_true_surfaces),
+                                       cmocka_unit_test(reaction_takes_each_contact_alike),
                                        cmocka_unit_test(goes_on_to_the_same_bits),
                                        cmocka_unit_test(events_are_a_tree),
                                        cmocka_unit_test(floor_takes_what_diffuses),

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "io/export.h"
+#include "io/points.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/table.h>
@@ -322,6 +323,41 @@ static void full_disk_leaves_no_part_of_a_file(void **state)
 #endif
 }
 
+static void vtu_tells_how_grains_are_placed(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    CHECK_OK(make_assembly(&a));
+    for (int points = 0; points < 2; ++points) {
+        const clast_export_options options = {.level = 1, .points = points == 1};
+        clast_table grains = {0};
+        clast_table names = {0};
+        const char *path = support_scratch_file(points == 1 ? "points.vtu" : "surfaces.vtu");
+        CHECK_OK(clast_assembly_write(&a, path, &options, NULL));
+        CHECK_OK(clx_vtu_grains(path, &grains, &names));
+        assert_int_equal(grains.n_row, a.n_grain);
+        assert_int_equal(names.n_row, a.n_shape);
+        for (int32_t i = 0; i < a.n_grain; ++i) {
+            const int32_t s = (int32_t)clast_table_numbers(&grains, "shape")[i];
+            assert_int_equal(s, a.shape_id[i]);
+            assert_string_equal(names.column[0].text[s], a.shape[s].name);
+            assert_true(clast_table_numbers(&grains, "grain")[i] == (double)a.id[i]);
+            assert_true(clast_table_numbers(&grains, "scale")[i] == a.scale[i]);
+            assert_true(clast_table_numbers(&grains, "density")[i] == a.density[i]);
+            for (int k = 0; k < 4; ++k) {
+                static const char *const turn[4] = {"orientation_wxyz_0", "orientation_wxyz_1",
+                                                    "orientation_wxyz_2", "orientation_wxyz_3"};
+                static const char *const axis[3] = {"x", "y", "z"};
+                assert_true(clast_table_numbers(&grains, turn[k])[i] == a.orientation[i][k]);
+                assert_true(k == 3 || clast_table_numbers(&grains, axis[k])[i] == a.position[i][k]);
+            }
+        }
+        clast_table_free(&grains);
+        clast_table_free(&names);
+    }
+    clast_assembly_free(&a);
+}
+
 static void collection_names_its_files(void **state)
 {
     (void)state;
@@ -339,6 +375,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(surfaces_come_back),
+        cmocka_unit_test(vtu_tells_how_grains_are_placed),
         cmocka_unit_test(obj_has_a_group_a_grain),
         cmocka_unit_test(ply_faces_tell_grain_and_colour),
         cmocka_unit_test(csv_has_a_row_a_grain),

@@ -375,7 +375,7 @@ static void fly_both_ways(const clast_shape *shape, double spin)
         grain[i] = (clast_dem_grain){.scale = 1.0 + 0.2 * i, .density = 2650.0};
         clx_rng_orientation(&rng, grain[i].orientation);
         fill3(&rng, 0.1, grain[i].velocity);
-        fill3(&rng, spin, grain[i].spin);
+        fill3(&rng, spin, grain[i].angular_velocity);
         v3_set(grain[i].position, 0.1 * i, 0.3, 0.5);
     }
     fly(shape, CLX_LANES, grain, together); /* in lanes */
@@ -384,7 +384,7 @@ static void fly_both_ways(const clast_shape *shape, double spin)
         for (int c = 0; c < 3; ++c) {
             assert_true(same(alone.position[c], together[i].position[c]));
             assert_true(same(alone.velocity[c], together[i].velocity[c]));
-            assert_true(same(alone.spin[c], together[i].spin[c]));
+            assert_true(same(alone.angular_velocity[c], together[i].angular_velocity[c]));
         }
         for (int c = 0; c < 4; ++c) {
             assert_true(same(alone.orientation[c], together[i].orientation[c]));

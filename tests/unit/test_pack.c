@@ -80,7 +80,7 @@ static void fill_is_clear_and_where_it_belongs(void **state)
             const double way = sqrt(g.position[0] * g.position[0] + g.position[1] * g.position[1]);
             assert_true(way + r <= 0.025 && g.position[2] > 0.06 - 1e-4 && g.position[2] < 0.1);
             CHECK_ABS(g.velocity[2], -1.0, 1e-3);
-            assert_true(fabs(g.velocity[0]) < 0.11 && fabs(g.spin[1]) <= 0.1 / g.scale);
+            assert_true(fabs(g.velocity[0]) < 0.11 && fabs(g.angular_velocity[1]) <= 0.1 / g.scale);
             CHECK_REL(g.scale, clast_grading_draw(b.grading, b.config.seed, (uint64_t)i), 1e-15);
             for (int32_t j = 0; j < i; ++j) {
                 clast_dem_read_grain(dem, j, &o);

@@ -374,6 +374,34 @@ static void a_width_between_two_shapes_is_found(void **state)
     assert_true(sqrt(squares) < 0.045);
 }
 
+/* 500 points in a blob of sd 0.08: their own spread varies, and the integral with its third power.
+ * The interval once held the fitted widths fast, and was 0.6 times as wide as the estimates of 40
+ * clouds lie apart. */
+static void the_interval_knows_that_a_blobs_width_varies(void **state)
+{
+    (void)state;
+    enum { CLOUDS = 40 };
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    const bool axis[3] = {true, true, true};
+    const double truth = pow(2.0 * 0.08 * sqrt(CLAST_PI), -3.0);
+    double squares = 0.0;
+    double told = 0.0;
+    int covered = 0;
+    for (uint64_t seed = 0; seed < CLOUDS; ++seed) {
+        clast_cloud cloud = blob(500, 1.0, 0.08, axis, 1300 + seed);
+        clast_pairs pairs = count(&box, &cloud, 0.0);
+        const clast_estimate *e = &pairs.integral.estimate;
+        const double error = log(e->value / truth);
+        squares += error * error / CLOUDS;
+        told += log(e->value / e->low) / 1.96 / CLOUDS;
+        covered += e->low <= truth && truth <= e->high ? 1 : 0;
+        clast_pairs_free(&pairs);
+        clast_cloud_free(&cloud);
+    }
+    assert_true(told > 0.85 * sqrt(squares) && told < 1.4 * sqrt(squares));
+    assert_true(covered >= 35);
+}
+
 /* Pairs in shells as this autocorrelation A(r) has them in the mean, and a ladder that objects to
  * nothing: its errors are as large as it. */
 static bool is_resolved(double (*autocorrelation)(double), double n)
@@ -651,6 +679,7 @@ int main(void)
         cmocka_unit_test(edge_weights_complete_the_ball),
         cmocka_unit_test(a_thin_sheet_is_resolved),
         cmocka_unit_test(a_width_between_two_shapes_is_found),
+        cmocka_unit_test(the_interval_knows_that_a_blobs_width_varies),
         cmocka_unit_test(a_width_that_moves_with_the_points_is_not_resolved),
         cmocka_unit_test(a_pole_is_not_resolved),
         cmocka_unit_test(repeated_points_have_no_bound),

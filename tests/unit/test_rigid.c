@@ -216,7 +216,7 @@ static void rigid_spheres_go_the_way_of_a_clump(void **state)
         for (int k = 0; k < 3; ++k) {
             CHECK_ABS(by_parts[i].position[k], by_clump[i].position[k], 1e-12);
             CHECK_ABS(by_parts[i].velocity[k], by_clump[i].velocity[k], 1e-9);
-            CHECK_ABS(by_parts[i].spin[k], by_clump[i].spin[k], 1e-6);
+            CHECK_ABS(by_parts[i].angular_velocity[k], by_clump[i].angular_velocity[k], 1e-6);
         }
     }
     clast_shape_free(&clump);
@@ -405,7 +405,7 @@ static void heavy_end_swings_down_in_a_fluid(void **state)
         /* semi-implicit: half a step behind */
         CHECK_ABS(after, before, 2.0 * dt / time * m[1].kinetic_energy);
         if (k == 0) { /* levers change by the square of 0.5 alpha t^2 = 1e-5 */
-            CHECK_REL(out.spin[1], moment / inertia * time, 1e-6);
+            CHECK_REL(out.angular_velocity[1], moment / inertia * time, 1e-6);
         } else {
             const double angle = 2.0 * atan2(out.orientation[2], out.orientation[0]);
             CHECK_ABS(angle, 0.5 * CLAST_PI, 0.01 * CLAST_PI / (double)quarter);
@@ -430,13 +430,13 @@ static void its_spin_dies_out(void **state)
         const double share = c.time_step * torque / (2000.0 * bell.own.inertia[axis][axis]);
         clast_dem_grain g = bell_at(0.0, 0.0);
         c.gyroscopic = k < 3;
-        g.spin[axis] = 5.0;
+        g.angular_velocity[axis] = 5.0;
         clast_dem *dem = scene_bodies(&c, &bell, 1, &g);
         assert_non_null(dem);
         CHECK_OK(clast_dem_step(dem, 2000));
         clast_dem_read_grain(dem, 0, &g);
-        CHECK_REL(g.spin[axis], 5.0 * pow(1.0 + share, -2000.0), 1e-9);
-        assert_true(g.spin[axis] < 4.9);
+        CHECK_REL(g.angular_velocity[axis], 5.0 * pow(1.0 + share, -2000.0), 1e-9);
+        assert_true(g.angular_velocity[axis] < 4.9);
         clast_dem_destroy(dem);
     }
     clast_shape_free(&bell);
@@ -458,7 +458,7 @@ static void it_stops_swinging_in_oil(void **state)
     CHECK_OK(clast_dem_step(dem, (int64_t)(1.0 / c.time_step)));
     clast_dem_read_grain(dem, 0, &g);
     CHECK_ABS(2.0 * atan2(g.orientation[2], g.orientation[0]), 0.5 * CLAST_PI, 1e-4);
-    CHECK_ABS(v3_norm(g.spin), 0.0, 1e-3);
+    CHECK_ABS(v3_norm(g.angular_velocity), 0.0, 1e-3);
     clast_dem_destroy(dem);
     clast_shape_free(&bell);
 }
@@ -489,7 +489,7 @@ static void it_sinks_at_its_own_weight(void **state)
     const double carried =
         CLAST_PI / 8.0 * 1000.0 * d * d * speed * speed * clast_drag_coefficient(&drag, re);
     CHECK_REL(carried, 1000.0 * bell.volume * 10.0, 1e-4);
-    CHECK_ABS(v3_norm(g.spin), 0.0, 1e-9);
+    CHECK_ABS(v3_norm(g.angular_velocity), 0.0, 1e-9);
     clast_dem_destroy(dem);
     clast_shape_free(&bell);
 }

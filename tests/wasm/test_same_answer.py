@@ -25,6 +25,16 @@ class SameAnswer(unittest.TestCase):
                     one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(CHARTS)}
                 self.assertEqual(here, there)
 
+    def test_workers_give_the_same_and_end_at_once(self):
+        script = pathlib.Path(__file__).with_name("workers.mjs")
+        done = subprocess.run(["node", script, jobs.PACKAGE, "2"], capture_output=True, text=True, check=False, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertTrue(told["same"])
+        self.assertEqual((told["aborted"], told["refused"]), ("AbortError", "ClastError"))
+        self.assertLess(told["took"], 300 + 1000)
+        print(f"two beds one after the other {told['one']:.1f} s, in two workers {told['many']:.1f} s")
+
 
 if __name__ == "__main__":
     lacking = jobs.lacking("node")

@@ -1,16 +1,19 @@
 // What the user can press, turn and type.
 import { moveCut, setCut } from './cut.js';
+import { isEnd } from './data.js';
 import { makeChains } from './chains.js';
 import { showFirst } from './grains.js';
 import { drawLegend, tag } from './legend.js';
+import { setMoment, timeOf } from './moments.js';
+import { dropNear } from './near.js';
 import { grainAt, pick } from './pick.js';
 import { MAX_WIDTH, MIN_WIDTH, savePicture } from './picture.js';
 
 const COLOURS = [['size', 'Colour by size'], ['order', 'Colour by order'], ['shape', 'Colour by shape'],
-  ['coordination', 'Colour by contacts']];
+  ['coordination', 'Colour by contacts'], ['speed', 'Colour by speed'], ['force', 'Colour by force']];
 const CUTS = [['none', 'No cut'], ['view', 'Cut in view'], ['x', 'Cut across x'], ['y', 'Cut across y'], ['z', 'Cut across z']];
 const KEYS = 'Arrow keys turn, Shift and arrow keys move, + and - zoom, 0 frames all, C changes colours, X Y Z V cut, F shows contacts, '
-  + 'P saves a picture, Escape lets a grain go.';
+  + 'P saves a picture, comma and full stop step in time, Escape lets a grain go.';
 const TURN = Math.PI / 24; // rad a key
 const CLICK = 4; // px that a click may move
 
@@ -45,25 +48,56 @@ function range(title, low, high, step, value, action) {
 
 function grow(view, n) {
   view.shown = n;
-  showFirst(view.chains ? [...view.meshes, view.chains] : view.meshes, n);
-  const drawn = n === view.data.n_grain ? '' : `${n.toLocaleString('en')} of `;
-  view.note.textContent = `${drawn}${view.data.n_grain.toLocaleString('en')} grains`;
+  dropNear(view);
+  showFirst(view.chains ? [...view.meshes, view.chains] : view.meshes, n === view.data.n_shown ? Infinity : n);
+  const drawn = view.meshes.reduce((sum, mesh) => sum + mesh.count, 0);
+  const share = drawn === view.data.n_grain ? '' : `${drawn.toLocaleString('en')} of `;
+  view.note.textContent = `${share}${view.data.n_grain.toLocaleString('en')} grains`;
   view.draw();
 }
 
-/// Runs the slider from the first grain to the last in about six seconds.
-function play(view, slider) {
+/// Shows the run at its k-th moment.
+function go(view, k) {
+  const { parts } = view;
+  const last = Number(parts.time.max);
+  const to = Math.min(Math.max(k, 0), last);
+  if (to !== last && view.chains?.visible) showChains(view, false);
+  setMoment(view, to);
+  parts.time.value = to;
+  parts.when.textContent = timeOf(view, to);
+  parts.time.setAttribute('aria-valuetext', parts.when.textContent);
+  parts.chains.disabled = !isEnd(view);
+  grow(view, view.shown);
+  view.paint();
+}
+
+/// Runs a slider from its begin to its end in about six seconds.
+function play(view, slider, set) {
   const start = performance.now();
   view.playing = !view.playing;
   const step = (now) => {
-    const t = Math.min((now - start) / 6000, 1);
+    const t = Math.min(Math.max(now - start, 0) / 6000, 1);
     if (!view.playing || !view.renderer) return;
-    slider.value = Math.max(1, Math.round(t * Number(slider.max)));
-    grow(view, Number(slider.value));
+    const to = Math.round(Number(slider.min) + t * (Number(slider.max) - Number(slider.min)));
+    if (to !== Number(slider.value)) {
+      slider.value = to;
+      set(to);
+    }
     if (t < 1) requestAnimationFrame(step);
     else view.playing = false;
   };
   requestAnimationFrame(step);
+}
+
+/// Slider of the run's moments, where it has frames.
+function timeControls(view) {
+  const { frames } = view.data;
+  if (!frames) return [];
+  const last = frames.frame.length;
+  view.parts.time = range('Time', 0, last, 1, last, (k) => go(view, k));
+  view.parts.when = tag('span', 'view-note', timeOf(view, last));
+  view.parts.time.setAttribute('aria-valuetext', view.parts.when.textContent);
+  return [button('\u25b6 Time', 'Play the run', () => play(view, view.parts.time, (k) => go(view, k))), view.parts.time, view.parts.when];
 }
 
 function colour(view, by) {
@@ -88,7 +122,6 @@ function showChains(view, isOn) {
     showFirst([view.chains], view.shown);
   }
   if (view.chains) view.chains.visible = isOn;
-  for (const mesh of view.meshes) mesh.visible = !isOn;
   if (isOn) pick(view, -1);
   view.parts.chains.setAttribute('aria-pressed', String(isOn));
   drawLegend(view);
@@ -96,7 +129,7 @@ function showChains(view, isOn) {
 }
 
 function toggleChains(view) {
-  if (view.data.contacts) showChains(view, !view.chains?.visible);
+  if (view.data.contacts && isEnd(view)) showChains(view, !view.chains?.visible);
 }
 
 function dark(view, isDark) {
@@ -142,7 +175,7 @@ export function makeControls(view, others) {
   parts.colour.value = view.by;
   parts.place.hidden = true;
   parts.chains.setAttribute('aria-pressed', 'false');
-  bar.append(parts.colour, button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow)), parts.grow, view.note, parts.cut, parts.place);
+  bar.append(parts.colour, ...timeControls(view), button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow, (n) => grow(view, n))), parts.grow, view.note, parts.cut, parts.place);
   if (data.contacts) bar.append(parts.chains);
   bar.append(button('Reset view', 'Frame everything', () => { view.frame(); view.draw(); }),
     button('Light / dark', 'Change the background', () => dark(view, !view.dark)), ...pictureControls(view), ...linkControls(view, others));
@@ -170,6 +203,7 @@ function actByKey(view, key) {
   else if (key === 'c') colour(view, colours[(colours.indexOf(view.by) + 1) % colours.length]);
   else if (key === 'f') toggleChains(view);
   else if (key === 'p') savePicture(view, Number(view.parts.width.value));
+  else if ((key === ',' || key === '.') && view.parts.time) go(view, view.moment + (key === '.' ? 1 : -1));
   else if (key === 'escape') pick(view, -1);
   else return false;
   view.paint();
@@ -201,4 +235,4 @@ export function listen(view) {
   });
 }
 
-export { grow };
+export { grow, showChains };

@@ -9,7 +9,7 @@ const CREASE = 0.6; // rad: sharper edges stay edges
 const TINT = new Color('#c9b79c'); // grains of one size, as in pictures
 const PICKED = new Color('#d55e00');
 
-function geometryOf(shape) {
+export function geometryOf(shape) {
   const plain = new BufferGeometry();
   plain.setAttribute('position', new BufferAttribute(floats(shape.position), 3));
   plain.setIndex(new BufferAttribute(words(shape.index), 1));
@@ -38,36 +38,72 @@ function materialOf(cap) {
   return material;
 }
 
-function meshOf(shape, cap) {
-  const pose = floats(shape.pose);
-  const grain = words(shape.grain);
-  const mesh = new InstancedMesh(geometryOf(shape), materialOf(cap), grain.length);
+/// Gives a mesh its grains: their numbers, and poses [n][POSE].
+export function setGrains(mesh, grain, pose) {
   const matrix = new Matrix4();
   const at = new Vector3();
   const turn = new Quaternion();
   const scale = new Vector3();
   for (let i = 0; i < grain.length; i += 1) {
-    const p = pose.subarray(POSE * i, POSE * (i + 1));
-    at.set(p[0], p[1], p[2]);
-    turn.set(p[4], p[5], p[6], p[3]);
-    scale.setScalar(p[7]);
-    mesh.setMatrixAt(i, matrix.compose(at, turn, scale));
+    const p = POSE * i;
+    at.set(pose[p], pose[p + 1], pose[p + 2]);
+    turn.set(pose[p + 4], pose[p + 5], pose[p + 6], pose[p + 3]);
+    scale.setScalar(pose[p + 7]);
+    matrix.compose(at, turn, scale).toArray(mesh.instanceMatrix.array, 16 * i);
   }
+  mesh.instanceMatrix.needsUpdate = true;
+  mesh.boundingSphere = null;
+  mesh.count = grain.length;
+  Object.assign(mesh.userData, { grain, pose });
+}
+
+function meshOf(shape, room, cap) {
+  const mesh = new InstancedMesh(geometryOf(shape), materialOf(cap), room);
+  const end = { grain: words(shape.grain), pose: floats(shape.pose) };
   mesh.frustumCulled = false;
-  mesh.userData = { grain, pose, shape };
+  mesh.geometry.computeBoundingSphere();
+  mesh.userData = { shape, end };
+  setGrains(mesh, end.grain, end.pose);
   return mesh;
 }
 
-/// Meshes of all shapes; `cap` {value: Vector3} is the cut's normal as the camera sees it.
-export function makeGrains(data, cap) {
-  return data.shapes.map((shape) => meshOf(shape, cap));
+/// Meshes of all shapes, each with room for so many grains; `cap` {value: Vector3} is the cut's normal as the camera sees it.
+export function makeGrains(data, room, cap) {
+  return data.shapes.map((shape, s) => meshOf(shape, room[s], cap));
+}
+
+/// Mean diameter of the grains.
+export function meanOf(meshes) {
+  let sum = 0;
+  let n = 0;
+  for (const { userData: { grain, pose } } of meshes) {
+    for (let i = 0; i < grain.length; i += 1) sum += pose[POSE * i + 8];
+    n += grain.length;
+  }
+  return sum / Math.max(n, 1);
+}
+
+/// Middle and radius of a ball that holds all grains where they are now.
+export function extentOf(meshes) {
+  const low = new Vector3(Infinity, Infinity, Infinity);
+  const high = low.clone().negate();
+  const at = new Vector3();
+  for (const { geometry, userData: { grain, pose } } of meshes) {
+    const own = geometry.boundingSphere.radius + geometry.boundingSphere.center.length();
+    for (let i = 0; i < grain.length; i += 1) {
+      at.fromArray(pose, POSE * i);
+      low.min(at.subScalar(own * pose[POSE * i + 7]));
+      high.max(at.addScalar(2 * own * pose[POSE * i + 7]));
+    }
+  }
+  if (!(high.x >= low.x)) return { middle: new Vector3(), radius: 1 };
+  return { middle: low.clone().add(high).multiplyScalar(0.5), radius: 0.5 * low.distanceTo(high) };
 }
 
 /// Radius about the origin that holds all grains.
 export function radiusOf(meshes) {
   let r = 0;
   for (const mesh of meshes) {
-    mesh.geometry.computeBoundingSphere();
     const own = mesh.geometry.boundingSphere.radius + mesh.geometry.boundingSphere.center.length();
     const { pose, grain } = mesh.userData;
     for (let i = 0; i < grain.length; i += 1) {
@@ -97,7 +133,8 @@ export function colourAt(colours, t, out) {
 function valueOf(data, by, mesh, i) {
   const g = mesh.userData.grain[i];
   if (by === 'order') return g + 1;
-  if (by === 'coordination') return data.contacts.count[g];
+  if (data[by].values) return data[by].values[g];
+  if (by === 'coordination') return data.contacts.count[g] ?? 0;
   return mesh.userData.pose[POSE * i + 8] * data.size.unit;
 }
 

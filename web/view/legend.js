@@ -1,4 +1,5 @@
 // What colours mean, and how long a length is.
+import { isEnd } from './data.js';
 import { isWide } from './grains.js';
 import { length, roundBelow } from './units.js';
 
@@ -30,7 +31,9 @@ export function titleOf(bar) {
 /// The bar that is shown: of the force chains, else of the grains' colours; null for shapes.
 export function barOf(view) {
   if (view.chains?.visible && view.chains.userData.bar) return view.chains.userData.bar;
-  return view.by === 'shape' ? null : view.data[view.by];
+  if (view.by === 'shape') return null;
+  const bar = view.data[view.by];
+  return view.by === 'coordination' && !isEnd(view) ? { ...bar, title: `${bar.title}, at the end of the run` } : bar;
 }
 
 export function single(bar) {

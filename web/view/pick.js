@@ -10,7 +10,7 @@ export function grainAt(view, x, y) {
   const { clientWidth: w, clientHeight: h } = view.stage;
   const ray = new Raycaster();
   ray.setFromCamera(new Vector2((2 * x) / w - 1, 1 - (2 * y) / h), view.camera);
-  const hits = ray.intersectObjects(view.meshes.filter((m) => m.count > 0), false);
+  const hits = ray.intersectObjects([...view.meshes, ...view.near ?? []].filter((m) => m?.count > 0), false);
   const first = hits.find((hit) => !isCutAway(view, hit.point));
   return first ? first.object.userData.grain[first.instanceId] : -1;
 }

@@ -1,4 +1,5 @@
 // The view as a PNG of any size, in tiles that every graphics card can draw.
+import { setLevel } from './dots.js';
 import { labelledTicks, barOf, scaleBar, single, titleOf } from './legend.js';
 
 const TILE = 2048; // px
@@ -11,6 +12,7 @@ function drawTiles(view, canvas) {
   const { width, height } = canvas;
   const ratio = renderer.getPixelRatio();
   renderer.setPixelRatio(1);
+  setLevel(view, true);
   for (let y = 0; y < height; y += TILE) {
     for (let x = 0; x < width; x += TILE) {
       const w = Math.min(TILE, width - x);

@@ -75,14 +75,33 @@ function writeFiles(FS, files) {
   }
 }
 
+function isSame(given, bytes) {
+  const known = typeof given === 'string' ? new TextEncoder().encode(given) : given;
+  return known.length === bytes.length && known.every((byte, i) => byte === bytes[i]);
+}
+
+/// What stands under a folder now and was not given so.
 function readFiles(FS, folder, prefix, given, found) {
   for (const name of FS.readdir(folder)) {
     if (name === '.' || name === '..') continue;
     const path = `${folder}/${name}`;
     const node = FS.lstat(path);
     if (FS.isDir(node.mode)) readFiles(FS, path, `${prefix}${name}/`, given, found);
-    else if (FS.isFile(node.mode) && !(`${prefix}${name}` in given)) found[prefix + name] = FS.readFile(path);
+    else if (FS.isFile(node.mode)) {
+      const bytes = FS.readFile(path);
+      if (!(`${prefix}${name}` in given) || !isSame(given[`${prefix}${name}`], bytes)) found[prefix + name] = bytes;
+    }
   }
+}
+
+/// Calls onFile for each file that the run has written whole: such a file is renamed into its place.
+function watch(FS, onFile) {
+  const { rename } = FS;
+  FS.rename = (from, to) => {
+    rename.call(FS, from, to);
+    const path = to.startsWith('/') ? to : `${FS.cwd()}/${to}`;
+    if (path.startsWith(`${HOME}/`) && FS.isFile(FS.stat(path).mode)) onFile(path.slice(HOME.length + 1), FS.readFile(path));
+  };
 }
 
 /// What is written to a descriptor goes to `take`; it is a terminal where progress is wanted.
@@ -110,9 +129,9 @@ export class Clast {
   constructor(program) { this.program = program; }
 
   /// Runs one command line: words after `clast`, files by path (texts or bytes). Never throws for what the command refuses: status
-  /// is its exit code. files of the result: what it wrote. Runs on the calling thread: a page calls it in a worker, and cancels by
+  /// is its exit code. files of the result: what it wrote or changed; onFile(path, bytes) has each while the run goes on. Runs on the calling thread: a page calls it in a worker, and cancels by
   /// ending that worker.
-  async run(words, { files = {}, onProgress } = {}) {
+  async run(words, { files = {}, onProgress, onFile } = {}) {
     const out = new Bytes();
     const err = new Bytes();
     const module = await createClast({
@@ -125,6 +144,7 @@ export class Clast {
     FS.mkdirTree(HOME);
     FS.chdir(HOME);
     writeFiles(FS, files);
+    if (onFile) watch(FS, onFile);
     divert(FS, 1, (part) => out.push(part), false);
     divert(FS, 2, splitter(err, onProgress), Boolean(onProgress));
     let status = 0;
@@ -168,9 +188,80 @@ export class Clast {
   }
 }
 
-/// clast, ready to run. source: clast.wasm as bytes, a Response, or compiled; none: the file beside this module.
-export async function load(source) {
-  if (source instanceof WebAssembly.Module) return new Clast(source);
+/// What a worker runs: this module's Clast, fed by messages.
+const SERVE = `
+const answer = (port) => async ({ program, words, files, wantsProgress }) => {
+  try {
+    const onProgress = wantsProgress ? (progress) => port.postMessage({ progress }) : undefined;
+    port.postMessage({ result: await new Clast(program).run(words, { files, onProgress }) });
+  } catch (fault) { port.postMessage({ fault: String(fault) }); }
+};
+if (typeof self === 'object') self.onmessage = ({ data }) => answer(self)(data);
+else import('node:worker_threads').then(({ parentPort }) => parentPort.on('message', answer(parentPort)));`;
+
+/// A worker of a page or of node, each with postMessage, terminate and one listener for messages and one for its end.
+async function newWorker(onMessage, onEnd) {
+  const text = `import { Clast } from ${JSON.stringify(import.meta.url)};${SERVE}`;
+  if (typeof Worker === 'function') {
+    const address = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
+    const worker = new Worker(address, { type: 'module' });
+    worker.onmessage = ({ data }) => onMessage(data);
+    worker.onerror = (event) => onEnd(event.message);
+    return worker;
+  }
+  const { Worker: NodeWorker } = await import('node:worker_threads');
+  const worker = new NodeWorker(new URL(`data:text/javascript,${encodeURIComponent(text)}`));
+  worker.on('message', onMessage);
+  worker.on('error', (fault) => onEnd(fault.message));
+  return worker;
+}
+
+/// Clast with each command line in a worker of its own, at most `most` at a time: the calling thread stays free, runs go side by side,
+/// and how.signal (an AbortSignal) ends one at once.
+export class ClastWorkers extends Clast {
+  constructor(program, most) {
+    super(program);
+    this.most = most;
+    this.busy = 0;
+    this.waiting = [];
+  }
+
+  async run(words, how = {}) {
+    if (this.busy >= this.most) await new Promise((go) => { this.waiting.push(go); });
+    this.busy += 1;
+    try {
+      return await this.runAlone(words, how);
+    } finally {
+      this.busy -= 1;
+      this.waiting.shift()?.();
+    }
+  }
+
+  async runAlone(words, { files = {}, onProgress, signal }) {
+    signal?.throwIfAborted();
+    let worker = null;
+    try {
+      return await new Promise((done, fail) => {
+        const hear = ({ progress, result, fault }) => {
+          if (progress) onProgress(progress);
+          else if (fault) fail(new Error(fault));
+          else done(result);
+        };
+        signal?.addEventListener('abort', () => fail(signal.reason), { once: true });
+        newWorker(hear, (message) => fail(new Error(message))).then((made) => {
+          worker = made;
+          if (signal?.aborted) worker.terminate();
+          else worker.postMessage({ program: this.program, words: words.map(String), files, wantsProgress: Boolean(onProgress) });
+        }, fail);
+      });
+    } finally {
+      worker?.terminate();
+    }
+  }
+}
+
+async function compiled(source) {
+  if (source instanceof WebAssembly.Module) return source;
   let bytes = source;
   if (bytes === undefined) {
     const url = new URL('./clast.wasm', import.meta.url);
@@ -178,5 +269,15 @@ export async function load(source) {
       ? await (await import('node:fs/promises')).readFile(url) : await fetch(url);
   }
   if (typeof Response === 'function' && bytes instanceof Response) bytes = await bytes.arrayBuffer();
-  return new Clast(await WebAssembly.compile(bytes));
+  return WebAssembly.compile(bytes);
+}
+
+/// clast, ready to run. source: clast.wasm as bytes, a Response, or compiled; none: the file beside this module.
+export async function load(source) {
+  return new Clast(await compiled(source));
+}
+
+/// The same in workers, as many at a time as the machine has cores.
+export async function loadWorkers(source, most = globalThis.navigator?.hardwareConcurrency ?? 4) {
+  return new ClastWorkers(await compiled(source), most);
 }

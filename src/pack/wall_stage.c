@@ -1,0 +1,181 @@
+// Stages of a bed between walls: "drum until time 2s", "lid=10kPa until rest", "open gate until
+// mass 1g".
+#include "pack/walls.h"
+
+#include "base/number.h"
+#include "math/vec3.h"
+#include <string.h>
+
+enum { WORD = 64 };
+
+static clast_status fail(const clast_pack_config *c, int32_t number, const char *what,
+                         const char *word)
+{
+    return clx_fail(CLAST_E_CONFIG, "stage %d, '%s': %s%s%s%s", number + 1, c->stages.item[number],
+                    what, word[0] != '\0' ? " '" : "", word, word[0] != '\0' ? "'" : "");
+}
+
+static int32_t find(const clast_pack_input *input, const char *name, size_t n)
+{
+    for (int32_t i = 0; i < input->n_wall; ++i) {
+        if (strlen(input->wall[i].name) == n && memcmp(input->wall[i].name, name, n) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool moves(const clast_dem_wall_motion *m)
+{
+    return v3_norm2(m->velocity) > 0.0 || v3_norm2(m->amplitude) > 0.0 || m->rate != 0.0 ||
+           m->swing != 0.0 || m->n > 0;
+}
+
+/// A number's unit: what follows its digits.
+static bool ends_in(const char *text, const char *unit)
+{
+    double value = 0.0;
+    const char *end = clx_number_parse(text, text + strlen(text), &value);
+    double factor = 0.0;
+    return end != NULL && clast_unit_factor(end, unit, &factor) == CLAST_OK;
+}
+
+static clast_status read_drive(const clast_pack_config *c, int32_t number,
+                               const clast_pack_input *input, const char *word, bool opens,
+                               clx_wall_stage *s)
+{
+    const char *equals = strchr(word, '=');
+    const size_t n = equals != NULL ? (size_t)(equals - word) : strlen(word);
+    clx_wall_drive d = {.wall = find(input, word, n), .kind = CLX_WALL_RUNS};
+    if (d.wall < 0) {
+        return fail(c, number,
+                    "expected a wall of option wall, open NAME, hold, or until; there is no wall",
+                    word);
+    }
+    const clast_pack_wall *wall = &input->wall[d.wall];
+    if (s->n == CLX_MOST_DRIVES) {
+        return fail(c, number, "it drives too many walls", "");
+    }
+    for (int32_t k = 0; k < s->n; ++k) {
+        if (s->drive[k].wall == d.wall &&
+            (opens || s->drive[k].kind == CLX_WALL_OPENS ||
+             (equals == NULL) == (s->drive[k].kind == CLX_WALL_RUNS))) {
+            return fail(c, number, "it drives this wall twice:", word);
+        }
+    }
+    if (opens) {
+        d.kind = CLX_WALL_OPENS;
+    } else if (equals == NULL && !moves(&wall->motion)) {
+        return fail(c, number, "this wall has no motion of its own (move, rotate, ...):", word);
+    } else if (equals != NULL) {
+        const char *unit = ends_in(equals + 1, "Pa")  ? "Pa"
+                           : ends_in(equals + 1, "N") ? "N"
+                                                      : "m/s";
+        d.kind = strcmp(unit, "m/s") == 0 ? CLX_WALL_SPEED : CLX_WALL_PRESSED;
+        d.is_force = strcmp(unit, "N") == 0;
+        if (clast_unit_parse(equals + 1, unit, &d.aim) != CLAST_OK || !ends_in(equals + 1, unit)) {
+            return fail(c, number,
+                        "this is no pressure (10kPa), no force (5N) and no speed (1mm/s):", word);
+        }
+        if (d.kind == CLX_WALL_PRESSED && d.aim <= 0.0) {
+            return fail(c, number, "a wall only pushes, with a pressure or force above 0:", word);
+        }
+        if (v3_norm2(wall->press) == 0.0) {
+            return fail(c, number,
+                        "its wall does not say in which direction (press 0,0,-1):", wall->name);
+        }
+    }
+    s->drive[s->n++] = d;
+    return CLAST_OK;
+}
+
+static clast_status read_end(const clast_pack_config *c, int32_t number, const char *at,
+                             clx_wall_stage *s)
+{
+    static const char *const name[] = {"rest", "time", "stress", "way", "mass"};
+    static const char *const unit[] = {"-", "s", "Pa", "m", "kg"};
+    char word[WORD] = "";
+    char value[WORD] = "";
+    at = clx_next_word(at, word, sizeof word);
+    const char *rest = at != NULL ? clx_next_word(at, value, sizeof value) : NULL;
+    if (at != NULL && rest == NULL) {
+        value[0] = '\0';
+    }
+    for (int k = 0; k < 5; ++k) {
+        if (strcmp(word, name[k]) != 0) {
+            continue;
+        }
+        s->end = (clx_wall_end)k;
+        const bool is_bare = k == CLX_UNTIL_REST || k == CLX_UNTIL_STRESS;
+        if (is_bare && value[0] == '\0') {
+            return CLAST_OK;
+        }
+        char more[WORD];
+        const bool is_last = rest != NULL && clx_next_word(rest, more, sizeof more) == NULL;
+        const bool is_fine = k != CLX_UNTIL_REST && is_last && ends_in(value, unit[k]) &&
+                             clast_unit_parse(value, unit[k], &s->until) == CLAST_OK &&
+                             (k == CLX_UNTIL_MASS ? s->until >= 0.0 : s->until > 0.0);
+        return is_fine ? CLAST_OK
+                       : fail(c, number, "expected a number above 0 with its unit after", word);
+    }
+    return fail(c, number,
+                "expected until rest, until time 1s, until stress 10kPa, until way 5mm or until "
+                "mass 1g",
+                "");
+}
+
+static clast_status check(const clast_pack_config *c, int32_t number, const clx_wall_stage *s)
+{
+    bool is_pressed = false;
+    bool is_moved = false;
+    for (int32_t k = 0; k < s->n; ++k) {
+        is_pressed = is_pressed || s->drive[k].kind == CLX_WALL_PRESSED;
+        is_moved = is_moved || s->drive[k].kind == CLX_WALL_RUNS ||
+                   (s->drive[k].kind == CLX_WALL_SPEED && s->drive[k].aim != 0.0);
+    }
+    if (s->end == CLX_UNTIL_REST && is_moved) {
+        return fail(c, number, "what moves never rests; give until time, stress, way or mass", "");
+    }
+    if (s->end == CLX_UNTIL_STRESS && !is_pressed && !(is_moved && s->until > 0.0)) {
+        return fail(c, number,
+                    "no wall has a stress to reach; press one, or move one until stress 10kPa", "");
+    }
+    if (s->end == CLX_UNTIL_WAY && !is_moved && !is_pressed) {
+        return fail(c, number, "no wall moves", "");
+    }
+    if (s->end == CLX_UNTIL_MASS && c->outlet.n == 0) {
+        return fail(c, number, "no grain leaves: there is no outlet", "");
+    }
+    return CLAST_OK;
+}
+
+clast_status clx_wall_stage_read(const clast_pack_config *c, int32_t number,
+                                 const clast_pack_input *input, clx_wall_stage *stage)
+{
+    CLAST_ASSERT(number >= 0 && number < c->stages.n);
+    clast_status status = CLAST_OK;
+    const char *at = c->stages.item[number];
+    char word[WORD] = "";
+    clx_wall_stage s = {.end = CLX_UNTIL_REST};
+    bool opens = false;
+    bool is_any = false;
+    while ((at = clx_next_word(at, word, sizeof word)) != NULL && strcmp(word, "until") != 0) {
+        is_any = true;
+        if (opens || (strcmp(word, "open") != 0 && strcmp(word, "hold") != 0)) {
+            CLX_TRY(read_drive(c, number, input, word, opens, &s));
+            opens = false;
+        } else {
+            opens = strcmp(word, "open") == 0;
+        }
+    }
+    if (opens || !is_any) {
+        return fail(c, number, opens ? "open which wall?" : "it says nothing", "");
+    }
+    if (at != NULL) {
+        CLX_TRY(read_end(c, number, at, &s));
+    }
+    CLX_TRY(check(c, number, &s));
+    *stage = s;
+done:
+    return status;
+}

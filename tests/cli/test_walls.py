@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""clast pack, walls that move, are pressed or open, and outlets: their table, going on after a kill, bad input."""
+import csv
+import os
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from clitest import Case, ROOT, clast
+
+BED = ["pack", "--curve", "4mm", "--initial-speed", "0.5", "--domain", "box", "--width", "24mm", "--height", "60mm", "--fluid-density", "0", "--shaking-time", "0",
+       "--shake-amplitude", "0", "--seed", "3", "--quiet", "-j", "1"]
+
+
+def rows(path):
+    with open(path, encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+def write_stl(path, triangles):
+    with open(path, "wb") as file:
+        file.write(bytes(80) + struct.pack("<I", len(triangles)))
+        for triangle in triangles:
+            file.write(struct.pack("<12fH", 0, 0, 0, *(x for corner in triangle for x in corner), 0))
+
+
+def write_plate(path, half, z, hole=0.0):
+    """A square in mm, with a square hole in its middle."""
+    outer = [(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)]
+    inner = [(x * hole / half, y * hole / half, z) for x, y, z in outer]
+    if hole == 0:
+        write_stl(path, [(outer[0], outer[1], outer[2]), (outer[0], outer[2], outer[3])])
+        return
+    triangles = []
+    for i in range(4):
+        k = (i + 1) % 4
+        triangles += [(outer[i], outer[k], inner[k]), (outer[i], inner[k], inner[i])]
+    write_stl(path, triangles)
+
+
+class Walls(Case):
+    def test_a_lid_presses_a_bed(self):
+        """An oedometer: the lid comes to its pressure, the floor carries it and the weight; force is the work's slope."""
+        run = self.folder / "run"
+        result = clast(*BED, "--mass", "8g", "--lid", "--wall", "lid", "--stages", "lid=10kPa until rest", "--stages",
+                       "lid=2kPa until rest", "--energy", "--load-rest", "0.03", "--load-rate", "8/s",
+                       "--series-time", "0.5ms", "-o", run, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        table = rows(run / "walls.csv")
+        first = [row for row in table if row["stage"] == 1]
+        area = 24e-3 ** 2
+        weight = result.json["mass"] * 9.81
+        for row, pressure in ((first[-1], 10e3), (table[-1], 2e3)):
+            self.assertLess(abs(row["lid_force_z_N"] / (pressure * area) - 1), 0.1)
+        self.assertLess(abs(-first[-1]["floor_force_z_N"] - first[-1]["lid_force_z_N"] + sum(
+            -first[-1][f"{side}_force_z_N"] for side in ("left", "right", "front", "back")) - weight), 0.1 * 10e3 * area)
+        self.assertLess(first[-1]["lid_z_m"], -0.02)
+        self.assertLess(abs(table[-1]["lid_z_m"] - first[-1]["lid_z_m"]), 1e-3)
+        energy = result.json["energy"]
+        self.assertLess(abs(energy["rest"]), 1e-10 * energy["put_in"])
+        self.assertGreater(energy["walls"], 0)
+        self.assertAlmostEqual(energy["walls"], sum(table[-1][f"{name}_work_J"] for name in ("lid", "floor", "left")), 12)
+
+    def silo(self):
+        plate, gate = self.folder / "plate.stl", self.folder / "gate.stl"
+        write_plate(plate, 15, 0, 7)
+        write_plate(gate, 7.5, 0)
+        return [*BED, "--mass", "6g", "--floor=no", "--height", "80mm", "--wall", f"plate {plate} mm", "--wall",
+                f"gate {gate} mm vibrate 0,0,0.2mm 10ms", "--outlet", "z<-20mm", "--stages", "gate until time 20ms",
+                "--stages", "open gate until time 0.25s", "--energy", "--series-time", "5ms"]
+
+    def test_an_orifice_lets_grains_out(self):
+        runs = []
+        for k, threads in enumerate(("1", "3")):
+            runs.append(self.folder / f"run{k}")
+            result = clast(*self.silo()[:-2], "--series-time", "5ms", "-j", threads, "-o", runs[-1], "--json")
+            self.assertEqual(result.code, 0, result.err)
+        for name in ("state.h5", "walls.csv", "load.csv", "summary.json"):
+            self.assertEqual((runs[0] / name).read_bytes(), (runs[1] / name).read_bytes(), name)
+        table = rows(runs[0] / "walls.csv")
+        last = table[-1]
+        self.assertGreater(result.json["n_left"], 20)
+        self.assertEqual(last["n_grain"] + last["outlet_1_n"], table[0]["n_grain"] if table[0]["n_grain"] > 0 else max(
+            row["n_grain"] for row in table))
+        self.assertAlmostEqual(last["mass_left_kg"] + last["mass_kg"], max(row["mass_kg"] for row in table), 12)
+        self.assertEqual(result.json["n_grain"], last["n_grain"])
+        energy = result.json["energy"]
+        self.assertLess(abs(energy["rest"]), 1e-10 * energy["put_in"])
+        self.assertTrue((runs[0] / "outflow.svg").exists())
+
+    def test_a_killed_run_goes_on_in_the_same_bytes(self):
+        whole, cut = self.folder / "whole", self.folder / "cut"
+        options = [*self.silo(), "--shapes", "ellipsoid:1.3,1,0.8", "--checkpoint-time", "0.05s"]
+        made = clast(*options, "-o", whole)
+        self.assertEqual(made.code, 0, made.err)
+        for wanted in (3, 6):
+            process = subprocess.Popen([os.environ["CLAST"], *(options if wanted == 3 else ["pack", "--resume", str(cut), "-q"]),
+                                        *(["-o", str(cut)] if wanted == 3 else [])], cwd=ROOT, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            began = time.monotonic()
+            while process.poll() is None and time.monotonic() - began < 0.25 * wanted:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        if not (cut / "summary.json").exists():
+            resumed = clast("pack", "--resume", cut, "--quiet", "-j", "1")
+            self.assertEqual(resumed.code, 0, resumed.err)
+        for name in ("state.h5", "walls.csv", "load.csv", "series.csv", "summary.json"):
+            self.assertEqual((whole / name).read_bytes(), (cut / name).read_bytes(), name)
+
+    def test_a_table_and_a_formula_are_one_motion(self):
+        """Rows of a straight motion, and its velocity: the same places to rounding."""
+        plate, table = self.folder / "plate.stl", self.folder / "way.csv"
+        write_plate(plate, 20, 0)
+        table.write_text("time_s,z_m,angle_rad\n0,0,0\n1,0.05,2\n", encoding="utf-8")
+        ends = []
+        for k, words in enumerate(("move 0,0,50mm/s axis 0,0,1 rotate 2rad/s", f"axis 0,0,1 table {table}")):
+            run = self.folder / f"run{k}"
+            result = clast(*BED, "--mass", "3g", "--floor=no", "--wall", f"plate {plate} mm {words}", "--max-steps", "8000", "-o", run)
+            self.assertEqual(result.code, 0, result.err)
+            ends.append(rows(run / "walls.csv")[-1])
+        self.assertAlmostEqual(ends[0]["plate_z_m"], 50e-3 * ends[0]["time_s"], 12)
+        for key in ("plate_z_m", "plate_angle_rad"):
+            self.assertAlmostEqual(ends[0][key], ends[1][key], 12)
+        self.assertAlmostEqual(ends[0]["plate_force_z_N"], ends[1]["plate_force_z_N"], 3)
+
+    def test_shear_by_a_stress_comes_to_it_or_says_so(self):
+        cell = ["pack", "--curve", "4mm", "--mass", "5g", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--floor=no",
+                "--gravity", "0", "--fluid-density", "0", "--load-rate", "4/s", "--seed", "3", "--quiet", "-j", "1"]
+        run = self.folder / "run"
+        result = clast(*cell, "--stages", "isotropic 20kPa until stress", "--stages", "shear 3kPa 20kPa until rest", "--stages",
+                       "shear -3kPa 20kPa until rest", "--energy", "--load-rest", "0.01", "-o", run, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        table = rows(run / "load.csv")
+        second = [row for row in table if row["stage"] == 2][-1]
+        self.assertLess(abs(second["stress_xz_Pa"] / -3e3 - 1), 0.02)
+        self.assertLess(abs(table[-1]["stress_xz_Pa"] / 3e3 - 1), 0.02)
+        self.assertGreater(second["shear_strain"], table[-1]["shear_strain"])
+        self.assertLess(abs(result.json["energy"]["rest"]), 1e-10 * result.json["energy"]["put_in"])
+        self.assert_fails(5, *cell, "--stages", "isotropic 5kPa until stress", "--stages", "shear 8kPa 5kPa until rest", "--max-load-time",
+                          "0.3s", says=("stage 2", "has not come to its end"))
+
+    def test_bad_walls_are_said(self):
+        plate, table = self.folder / "plate.stl", self.folder / "way.csv"
+        write_plate(plate, 11, 30)
+        wall = f"plate {plate} mm"
+        bed = [*BED, "--mass", "3g"]
+        self.assert_fails(2, *bed, "--wall", f"plate {plate}", says=("wall 1", "unit"))
+        self.assert_fails(2, *bed, "--wall", wall + " move 1,2mm/s", says=("wall 1", "expected a velocity"))
+        self.assert_fails(2, *bed, "--wall", wall + " fly", says=("wall 1", "expected move"))
+        self.assert_fails(2, *bed, "--wall", wall + " rotate 3rpm", says=("wall 1", "no axis"))
+        self.assert_fails(2, *bed, "--wall", wall, "--wall", wall, says=("wall 2", "has this name"))
+        self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-40m/s", says=("wall 1", "faster than half"))
+        self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate=1kPa", says=("stage 1", "direction"))
+        self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate until time 1s", says=("stage 1", "no motion"))
+        self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
+        self.assert_fails(2, *bed, "--stages", "hold", says=("stages", "neither"))
+        self.assert_fails(2, *bed, "--outlet", "down", says=("outlet 1", "half-space"))
+        self.assert_fails(2, *bed, "--wall", "floor axis 1,0,0 rotate 3rpm", says=("wall 1", "turns about its normal"))
+        self.assert_fails(2, *bed, "--domain", "periodic", "--width", "30mm", "--wall", wall, says=("wall 1", "periodic"))
+        table.write_text("time_s,z_m\n0,0\n0,1\n", encoding="utf-8")
+        self.assert_fails(3, *bed, "--wall", wall + f" table {table}", says=("row 2", "rise"))
+        missing = self.folder / "none.stl"
+        self.assert_fails(3, *bed, "--wall", f"plate {missing} mm", says=("none.stl",))
+        run = self.folder / "run"
+        self.assert_fails(5, *bed, "--wall", wall + " press 0,0,-1", "--stages", "plate=20mm/s until way 40mm", "-o", run,
+                          says=("walls floor and plate cross",))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,23 @@
+// ClastWorkers under node: workers.mjs PACKAGE CORES -> {one, many, same, aborted, first}: seconds of runs one after the other and side by side.
+import { pathToFileURL } from 'node:url';
+
+const { load, loadWorkers } = await import(pathToFileURL(`${process.argv[2]}/clast.mjs`).href);
+const bed = { curve: '4mm', mass: '1g', width: '20mm', height: '30mm', shaking_time: '0.01s', max_steps: 12000 };
+const seeds = [1, 2];
+const clast = await load();
+const workers = await loadWorkers(undefined, Number(process.argv[3]));
+const alone = [];
+let begun = performance.now();
+for (const seed of seeds) alone.push((await clast.pack({ ...bed, seed })).state_hash);
+const one = (performance.now() - begun) / 1e3;
+begun = performance.now();
+let heard = 0;
+const beside = await Promise.all(seeds.map((seed) => workers.pack({ ...bed, seed }, { onProgress: () => { heard += 1; } })));
+const many = (performance.now() - begun) / 1e3;
+const stop = new AbortController();
+setTimeout(() => stop.abort(), 300);
+begun = performance.now();
+const aborted = await workers.pack({ ...bed, max_steps: 1000000, shaking_time: '5s' }, { signal: stop.signal }).then(() => 'done', (fault) => fault.name);
+const took = performance.now() - begun;
+const refused = await workers.pack({ curve: '4' }).then(() => 'done', (fault) => fault.name);
+process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, took, refused }));

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Reports as a reader sees and prints them, in headless Chromium: tools/check_report.py [--clast FILE] [--grains N] [--pictures FOLDER]
+
+A small run of each command that has a report is made. Looked at on each page: no table wider than its card (1200 px wide, all parts open; a
+phone may scroll within a card, never the page), printed on A4 nothing beyond the paper, no number that a person would write with another
+prefix (0.0003 m, 27,000,000 Pa, 2e-12 m3), no message on the console, nothing fetched, no serious finding of axe-core (where it is at hand).
+A bed of --grains (40,000) spheres is reported too: its page is under 30 MB and its first picture there within 3 s; its frames a second on
+this machine's processor are told.
+"""
+import argparse
+import base64
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+from browser import AXE, WEBGL, Browser, axe_source, told
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DATA = ROOT / "data"
+CUBE = ["--domain", "box:0,0,0,1,1,1"]
+SPHERES = ["--curve", "4mm", "--mass", "2g", "--width", "20mm", "--height", "30mm", "--shaking-time", "0.01s", "--seed", "3"]
+RUNS = {
+    "pack": ["pack", *SPHERES, "--frame-time", "10ms", "--shapes", "ellipsoid:1,0.8,0.6"],
+    "cell": ["pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "10g", "--max-steps", "4000"],
+    "porosity": ["porosity", "pack", "--trim", "1mm", "--local", "--pores", "20"],
+    "decompose": ["decompose", DATA / "d2sd/points_b3_n500.csv", *CUBE, "--beta-dt", "1e-6", "--sizes", "2"],
+    "flat": ["decompose", DATA / "d2sd/points_s2_n500.csv", "--domain", "box:0,0,1,1"],
+    "agglomerate": ["agglomerate", DATA / "d2sd/points_u3_n50.csv", *CUBE, "--constant", "0.02", "--duration", "2", "--n-step", "2"],
+    "evolve": ["evolve", "--domain", "box:0,0,0,1mm,1mm,5mm", "--particles", "300", "--curve", "lognormal:20um,8um,9um,50um", "--kernel", "settling",
+               "--weight", "9", "--duration", "0.5s", "--rows", "5", "--frames", "1", "--keep", "2", "--out-of-range", "extrapolate"],
+    "aggregate": ["aggregate", "--core", DATA / "standin63/grain00.ply", "--core-size", "270um", "--coat", DATA / "standin63/grain01.ply", "--size", "60um",
+                  "--unit", "um", "--replicate", "10", "--repeats", "2", "--rays", "4", "--orientations", "2", "--envelope", "surface_hull"],
+    "shape": ["shape", *sorted((DATA / "standin63").glob("grain0*.ply")), "--unit", "um", "--statistics"],
+    "predict": ["predict", "beds.csv"],
+    "fit": ["fit", "beds.csv"],
+    "load": ["pack", "--curve", "4mm", "--mass", "2g", "--domain", "cell", "--width", "16mm", "--height", "16mm", "--floor=no", "--gravity", "0",
+             "--fluid-density", "0", "--load-rate", "4/s", "--seed", "3", "--stages", "isotropic 20kPa until rest", "--energy"],
+    "study": ["study", "--run", "pack", *(f"--argument={a}" for a in SPHERES), "--argument=--max-steps=3000", "--vary", "seed=1|2"],
+}
+# Tables wider than their place, all parts open: what stands in the first cell, and by how many pixels.
+WIDE = """[...document.querySelectorAll('table')].map(t => [t, t.scrollWidth - t.closest('.scroll, .card, main').clientWidth])
+    .filter(([t, over]) => over > 1).map(([t, over]) => `table "${t.rows[0].innerText.slice(0, 60)}" is ${over} px too wide`)"""
+BEYOND = """(() => { const limit = document.documentElement.clientWidth + 1;
+    return [...document.querySelectorAll('table, figure, .card, .figures, h1, h2, p, .view-box')].filter(e => e.getBoundingClientRect().right > limit)
+    .map(e => `${e.tagName} "${e.innerText.slice(0, 50)}" ends ${Math.round(e.getBoundingClientRect().right - limit)} px beyond the paper`); })()"""
+# Every number with its unit: of cells that end in one, and of columns whose head has one.
+NUMBERS = r"""(() => { const out = [];
+    const own = (text) => { for (const m of text.matchAll(/(-?[\d,]*\.?\d+(?:e[-+]?\d+)?)\s*(m[²³23]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·])/g)) out.push([m[1], m[2], text.slice(0, 80)]); };
+    for (const e of document.querySelectorAll('td, .figure b')) {
+        own(e.innerText);
+        for (const m of e.innerText.matchAll(/[\d.]+\s×\s10\S+\s*(µ|n|f|p|k)?(m[²³]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·])/g)) out.push(['1e-99', m[2], m[0]]);
+    }
+    for (const t of document.querySelectorAll('table')) {
+        [...(t.rows[0]?.cells ?? [])].forEach((head, k) => {
+            const unit = /\(([^()]+)\)\s*$/.exec(head.innerText)?.[1];
+            if (!unit || !head.querySelector('small')) return;
+            const column = [...t.rows].slice(1).map(r => r.cells[k]?.innerText.replaceAll(',', '')).filter(x => /^-?[\d.]+(e[-+]?\d+)?$/.test(x));
+            const most = column.map(Number).reduce((a, b) => Math.abs(b) > Math.abs(a) ? b : a, 0);
+            if (column.length) out.push([String(most), unit, `column ${head.innerText}`]);
+        });
+    }
+    return out; })()"""
+AXE_RUN = """axe.run(document).then(r => r.violations.filter(v => ["serious", "critical"].includes(v.impact))
+    .map(v => `axe ${v.id}: ${v.nodes[0].html.slice(0, 160)}`))"""
+PREFIXED = {"Pa s", "m", "s", "Pa", "kg", "N", "J", "g", "m2", "m3", "m\u00b2", "m\u00b3"}
+TURNS = 12
+DRAWN = """new Promise(done => { const look = () => clastViews.open.length ? requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())))
+    : requestAnimationFrame(look); look(); })"""
+TURNED = """(async (n) => { const v = clastViews.open[0], times = [], gl = v.renderer.getContext(), one = new Uint8Array(4); let coarse = 0;
+    for (let k = 0; k < n; k += 1) { const t = performance.now(); v.turn(0.05, 0); await new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)));
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one); times.push(performance.now() - t); coarse += v.level === 'dots'; }
+    times.sort((a, b) => a - b); return [times[n >> 1], coarse]; })"""
+
+
+def raw(number, unit):
+    """Would a person write this number with another prefix?"""
+    value = abs(float(number.replace(",", "")))
+    power = {"2": 2, "\u00b2": 2, "3": 3, "\u00b3": 3}.get(unit[-1], 1)
+    return unit in PREFIXED and value != 0 and not 0.99e-2**power <= value < 1.01e4**power
+
+
+def make_runs(clast, folder):
+    beds = "".join(f"{0.4 + 0.01 * (k % 30)},{0.5 + 0.013 * (k * 7 % 29)},{0.36 + 0.001 * (k * 5 % 17)}\n" for k in range(40))
+    (folder / "beds.csv").write_text("flatness,elongation,porosity\n" + beds)
+    for name, words in RUNS.items():
+        out = [name] if words[-1] == "--statistics" else ["-o", name]
+        for command in ([clast, *words, *out, "-q"], [clast, "report", name]):
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+            if done.returncode:
+                sys.exit(f"report: {' '.join(map(str, command))}: {done.stderr.strip()}")
+
+
+def look(browser, page, axe, pictures):
+    faults = []
+    browser.screen(1200, 900, False)
+    refused = browser.open(page.as_uri())
+    if refused:
+        return [f"does not load: {refused}"]
+    browser.value("document.querySelectorAll('details').forEach(d => { d.open = true; })")
+    faults += browser.value(WIDE)
+    faults += [f"{number} {unit} ({where})" for number, unit, where in browser.value(NUMBERS) if raw(number, unit)]
+    if axe:
+        browser.value("window.eval(" + json.dumps(axe) + "), 0")
+        faults += browser.value(AXE_RUN)
+    if pictures:
+        shot(browser, pictures / f"{page.parent.name}.png")
+    browser.screen(375, 812, False)
+    over = browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    faults += [f"the page is {over} px wider than a phone"] if over > 1 else []
+    browser.screen(718, 1000, False)  # A4 less its margins, at 96 px an inch
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    faults += [f"printed: {fault}" for fault in browser.value(BEYOND)]
+    if pictures:
+        pdf = browser.call("Page.printToPDF", printBackground=True, paperWidth=8.27, paperHeight=11.69, preferCSSPageSize=True)
+        (pictures / f"{page.parent.name}.pdf").write_bytes(base64.b64decode(pdf["data"]))
+    browser.call("Emulation.setEmulatedMedia", media="")
+    return faults + list(told(browser.events))
+
+
+def shot(browser, path):
+    """The whole page, as far as 12,000 px down."""
+    height = min(browser.value("document.documentElement.scrollHeight"), 12000)
+    picture = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip={"x": 0, "y": 0, "width": 1200, "height": height, "scale": 1})
+    path.write_bytes(base64.b64decode(picture["data"]))
+
+
+def make_bed(clast, folder, n):
+    """A bed of n spheres on a lattice that have just begun to fall: contacts with their forces, without the hours of settling."""
+    edge = math.ceil(n ** (1 / 3))
+    with open(folder / "start.csv", "w", encoding="utf-8") as file:
+        file.write("x_mm,y_mm,z_mm,diameter_mm\n")
+        for k in range(n):
+            i, j, h = k % edge, k // edge % edge, k // edge**2
+            file.write(f"{i + 0.5 - edge / 2:g},{j + 0.5 - edge / 2:g},{h + 0.4998:g},{1.0003 - 0.3 * (k % 7 == 0):.6g}\n")
+    words = ["pack", "--start", "start.csv", "--domain", "periodic", "--width", f"{edge}mm", "--height", f"{edge + 4}mm", "--max-steps", "40", "--shaking-time", "0s", "-o", "bed", "-q"]
+    done = subprocess.run([clast, *words], cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 5):
+        sys.exit(f"report: {' '.join(words)}: {done.stderr.strip()}")
+    subprocess.run([clast, "report", "bed"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return folder / "bed/report.html"
+
+
+def measure(browser, page, n, pictures):
+    """Size, time to the first picture, frames a second while it turns; CPU seconds too, for a busy machine."""
+    browser.screen(1200, 900, False)
+    began = browser.cpu()
+    browser.open(page.as_uri())
+    browser.value("document.querySelector('.view').scrollIntoView()")
+    first = browser.value(DRAWN) / 1e3
+    cost = browser.cpu() - began
+    while browser.value("clastViews.open[0].isSlow === undefined"):
+        time.sleep(0.1)
+    began = browser.cpu()
+    took, coarse = browser.value(f"{TURNED}({TURNS})")
+    turning = (browser.cpu() - began) / TURNS
+    began = browser.cpu()
+    whole = browser.value("clastViews.timeDrawing(clastViews.open[0])")
+    drawn = browser.cpu() - began
+    size = page.stat().st_size
+    print(f"report: {n} grains, {size / 1e6:.1f} MB; first picture after {first:.2f} s ({cost:.2f} s of CPU); turning {1e3 / took:.1f} frames a second "
+          f"({turning * 1e3:.0f} ms of CPU a frame, {coarse} of {TURNS} as dots); all surfaces {whole:.0f} ms ({drawn * 1e3:.0f} ms of CPU); no graphics card", flush=True)
+    if pictures:
+        browser.picture(pictures / f"bed-{n}.png")
+    more = max(1, n / 40000)
+    return ([f"{n} grains: {size} bytes"] * (size > 30e6 * more)
+            + [f"{n} grains: first picture after {first:.1f} s, {cost:.1f} s of CPU"] * (min(first, cost) > 3 * more))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--clast", type=pathlib.Path, default=ROOT / "build/release/clast")
+    parser.add_argument("--grains", type=int, action="append")
+    parser.add_argument("--pictures", type=pathlib.Path)
+    parser.add_argument("--only", default="")
+    asked = parser.parse_args()
+    if not shutil.which("chromium"):
+        print("report: no chromium here, reports were not looked at (tools/setup.sh site)")
+        return 0
+    began, axe, faults, clast = time.monotonic(), axe_source(), [], asked.clast.resolve()
+    if asked.pictures:
+        asked.pictures.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        make_runs(clast, folder)
+        browser = Browser(WEBGL)
+        for run in RUNS:
+            if asked.only in run:
+                faults += [f"{run}: {fault}" for fault in look(browser, folder / run / "report.html", axe, asked.pictures)]
+        for n in asked.grains or [40000]:
+            faults += measure(browser, make_bed(clast, folder, n), n, asked.pictures)
+        browser.close()
+    for fault in faults:
+        print(f"report: {fault}")
+    print(f"report: {len(RUNS)} reports read in {time.monotonic() - began:.0f} s ({AXE if axe else 'no axe-core here'}), {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
