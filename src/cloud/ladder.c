@@ -304,6 +304,7 @@ typedef struct {
     const ladder_walk *w;
     clx_keyed *keyed; ///< where points have weights
     uint64_t *code;
+    int shift; ///< bits that are left out
 } code_context;
 
 static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -314,7 +315,8 @@ static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const bool is_real = clx_sample_number(s, i) >= 0;
-        const uint64_t code = is_real ? code_of(c->w, clx_sample_point(s, i, held)) : UINT64_MAX;
+        const uint64_t code =
+            is_real ? code_of(c->w, clx_sample_point(s, i, held)) >> c->shift : UINT64_MAX;
         if (c->keyed != NULL) {
             c->keyed[i] = (clx_keyed){code, (uint64_t)i};
         } else {
@@ -392,12 +394,14 @@ static ladder_cell cell_of_all(const ladder_walk *w)
     return all;
 }
 
-/// Points of the grid whose shift is set, in order.
-static clast_status order_points(ladder_walk *w)
+/// Points of grid m, whose shift is set, in order: all bits of the first, which is looked at to the
+/// deepest cells, of the others those of the deepest rung. With weights all bits, for their order.
+static clast_status order_points(ladder_walk *w, int m)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    code_context c = {w, NULL, NULL};
+    const bool is_deep = m == 0 || w->weight != NULL;
+    code_context c = {w, NULL, NULL, is_deep ? 0 : bits_below(w, w->ladder->first + w->ladder->n)};
     const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
     clx_ranked_free(&w->point);
     status = clx_alloc(&c.code, s->n, sizeof *c.code);
@@ -412,7 +416,13 @@ static clast_status order_points(ladder_walk *w)
     clx_free(c.keyed);
     c.keyed = NULL;
     const int64_t n = leave_out_ghosts(s, c.code);
-    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit, &w->point));
+    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit >> c.shift, &w->point));
+    for (int64_t i = 0; c.shift > 0 && i < w->point.n; ++i) {
+        w->point.key[i] <<= c.shift;
+    }
+    for (int32_t k = 0; k <= w->comm->n_rank; ++k) {
+        w->point.first[k] <<= c.shift;
+    }
     CLX_TRY(count_shared(w));
 done:
     clx_free(c.keyed);
@@ -466,10 +476,12 @@ static clast_status order_whole(ladder_walk *w)
     const clx_sample *s = w->sample;
     const int32_t d = w->ladder->d;
     uint64_t *code = NULL;
+    double held[3];
     CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] >= 0) {
-            w->in_grid[w->n_some++] = (clx_keyed){code_of(w, s->u + i * d), (uint64_t)i};
+        if (clx_sample_number(s, i) >= 0) {
+            w->in_grid[w->n_some++] =
+                (clx_keyed){code_of(w, clx_sample_point(s, i, held)), (uint64_t)i};
         }
     }
     CLX_TRY(clx_sort_keyed(w->in_grid, w->n_some));
@@ -478,7 +490,7 @@ static clast_status order_whole(ladder_walk *w)
     for (int64_t i = 0; i < w->n_some; ++i) {
         code[i] = w->in_grid[i].key;
         w->some[i] = (sampled){.code = code[i], .own = 1.0};
-        memcpy(w->some[i].u, s->u + (int64_t)w->in_grid[i].item * d,
+        memcpy(w->some[i].u, clx_sample_point(s, (int64_t)w->in_grid[i].item, held),
                (size_t)d * sizeof *w->some[i].u);
     }
     CLX_TRY(clx_ranked_of_sorted(&code, w->n_some, UINT64_C(1) << bits_below(w, 0), &w->point));
@@ -656,7 +668,7 @@ static clast_status walk_grid(ladder_walk *w, int m)
     clast_status status = CLAST_OK;
     set_shift(w, m);
     if (m > 0 && !w->sorts_once) {
-        CLX_TRY(order_points(w));
+        CLX_TRY(order_points(w, m));
     }
     CLX_TRY(order_sampled(w, m));
     for (int64_t i = 0; w->sorts_once && i < w->n_some; ++i) {
@@ -729,7 +741,7 @@ static clast_status count(ladder_walk *w)
     const bool is_whole =
         w->comm->n_rank == 1 && w->weight == NULL && w->sample->n_real < MOST_WHOLE;
     set_shift(w, 0);
-    CLX_TRY(is_whole ? order_whole(w) : order_points(w));
+    CLX_TRY(is_whole ? order_whole(w) : order_points(w, 0));
     ladder_cell all = cell_of_all(w);
     w->n_all = w->point.n_all;
     tally(w, &all);

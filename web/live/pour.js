@@ -229,7 +229,7 @@ class PourRoom extends Room {
     }
     const series = columnsOf(text('bed/series.csv'));
     const x = { title: 'time (s)', values: series.time_s ?? [], from: 0 };
-    drawChart(this.$('height'), { title: 'Height of the bed', x, y: { title: 'height (mm)', from: 0 },
+    drawChart(this.$('level'), { title: 'Height of the bed', x, y: { title: 'height (mm)', from: 0 },
       lines: [{ name: 'highest grain', values: (series.top_m ?? []).map((z) => 1e3 * z) }, { name: 'mean of the grains', values: (series.mean_height_m ?? []).map((z) => 1e3 * z) }] });
     drawChart(this.$('energy'), { title: 'Motion', x, y: { title: 'kinetic energy (log\u2081\u2080 J)' },
       lines: [{ name: 'kinetic energy', values: (series.kinetic_energy_J ?? []).map((e) => (e > 0 ? Math.log10(e) : NaN)) }] });
