@@ -94,6 +94,15 @@ static const char *unit_of(const export_config *config, clast_export_format form
     return config->unit[0] != '\0' ? config->unit : is_bare && is_known ? "mm" : NULL;
 }
 
+/// A run's grains, or those of another program's file.
+static clast_status read_grains(const char *path, clast_assembly *assembly)
+{
+    const size_t n = strlen(path);
+    const bool is_state = n >= 3 && strcmp(path + n - 3, ".h5") == 0;
+    return is_state ? clast_state_read_assembly(path, assembly)
+                    : clast_packing_read(path, NULL, assembly);
+}
+
 static clast_status export_assembly(const cli_common *common, const char *state,
                                     const export_config *config)
 {
@@ -102,7 +111,7 @@ static clast_status export_assembly(const cli_common *common, const char *state,
     clast_export_options options = {
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_state_read_assembly(state, &assembly));
+    CLI_TRY(read_grains(state, &assembly));
     options.unit = unit_of(config, clast_export_format_of_path(common->output), &assembly);
     CLI_TRY(clast_assembly_write(&assembly, common->output, &options, &report));
     CLI_TRY(report_assembly(common, &assembly, &report));
@@ -117,12 +126,12 @@ static clast_status run(const cli_common *common, void *context)
     char state[CLAST_RUN_PATH];
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "where to? give -o NAME.3mf (or .stl, .obj, .ply, .vtu, "
-                                       ".csv, .json, .dump)");
+                                       ".csv, .json, .dump, .data, .txt, .voro, .xyzd, .conf)");
     }
     if (clast_export_format_of_path(common->output) == CLAST_EXPORT_ANY) {
         return cli_fail(CLAST_E_USAGE,
                         "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, "
-                        ".json or .dump",
+                        ".json, .dump, .data, .txt, .voro, .xyzd or .conf",
                         common->output);
     }
     const clast_status status = clast_run_folder_state(common->argument[0], state);
@@ -136,18 +145,23 @@ static clast_status run(const cli_common *common, void *context)
 const cli_command cli_export = {
     .name = "export",
     .arguments = "RUN",
-    .summary = "write a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV or LAMMPS dump",
+    .summary =
+        "write a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV, or for LAMMPS, YADE, Rockable",
     .example = {"clast export run/ -o grains.vtu", "clast export run/ -o grains.3mf --level 4",
                 "clast export run/ --table history -o history.json"},
     .details =
-        "RUN is a run's folder or its state.h5. The output's name tells the format:\n"
+        "RUN is a run's folder, its state.h5, or another program's packing as clast porosity "
+        "reads\n"
+        "it. The output's name tells the format:\n"
         "  .3mf   for printers: names its unit, mm\n"
         "  .stl   binary, all grains; .obj a group a grain; .ply grain and colour a face: in mm,\n"
         "         or as --unit says; the unit stands in the file's header\n"
         "  .vtu   ParaView: surfaces with grain, order, shape and size, or --points\n"
         "  .csv   a row a grain: pose, scale, length, volume, density, mass, contacts\n"
         "  .json  the same table\n"
-        "  .dump  LAMMPS: ellipsoids of equal volume and moments (OVITO shows them)\n"
+        "  .dump  LAMMPS: ellipsoids of equal moments (OVITO shows them); .data LAMMPS's input\n"
+        "  .txt   YADE: x y z r, spheres and clumps; .voro voro++; .xyzd: spheres\n"
+        "  .conf  Rockable: spheres and convex surfaces, whose shapes go into the .shp beside\n"
         "Other lengths are in the run's unit (m); --table NAME writes a table of the run.",
     .fields = fields,
     .config_size = sizeof(export_config),

@@ -130,10 +130,10 @@ static void print_ranks(const clast_pack_ranks *r)
         (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
                      r->n_idle, r->n);
     }
-    (void)printf("%-26s %.4g ghosts and %.4g bytes a step, %.4g bytes for lists; %lld grains moved "
-                 "in %lld partitions\n",
-                 "between ranks", r->ghosts, r->step_bytes, r->list_bytes, (long long)r->n_migrated,
-                 (long long)r->n_balance);
+    (void)printf("%-26s %.4g ghosts, %.4g bytes and %.4g messages a step, %.4g bytes for lists; "
+                 "%lld grains moved in %lld partitions\n",
+                 "between ranks", r->ghosts, r->step_bytes, r->messages, r->list_bytes,
+                 (long long)r->n_migrated, (long long)r->n_balance);
 }
 
 /// What a loaded bed carries; stresses of contacts and motion.

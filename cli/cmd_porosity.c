@@ -16,10 +16,11 @@
 
 typedef struct {
     char *bed;
-    char *floor, *layer, *trim, *gap, *diameter; ///< as typed: the run's unit says how to read them
+    char *floor, *layer, *trim, *gap, *diameter,
+        *fields; ///< as typed: the run's unit says how to read them
     int32_t method;
     double cut;
-    bool at_slice, local;
+    bool at_slice, local, chains;
     int32_t rings;
     double core;
     int64_t pores;
@@ -29,7 +30,7 @@ typedef struct {
 
 /// What was typed, in the run's unit.
 typedef struct {
-    double floor, layer, trim, gap, diameter;
+    double floor, layer, trim, gap, diameter, fields;
 } lengths;
 
 #define FIELD(type, member) #member, .offset = offsetof(porosity_config, member), type
@@ -67,6 +68,13 @@ static const clast_field fields[] = {
      "porosity over the radius of a cylinder too, in this many rings", NULL, .common = true},
     {FIELD(CLAST_FIELD_I64, pores), 0, 0, 1e8, "-",
      "sizes of pores too, from this many even points of the bed", NULL, .common = true},
+    {FIELD(CLAST_FIELD_TEXT, fields), 0, 0, 0, "-",
+     "coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide "
+     "(its standard deviation, as 3mm), in cells as wide; 0: not",
+     "0", .common = true},
+    {FIELD(CLAST_FIELD_BOOL, chains), 0, 0, 1, "-",
+     "force chains too (chains.vtp, .csv, .svg), of runs that know their forces", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
      "spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed "
      "over); none: by their names",
@@ -110,14 +118,9 @@ static clast_status read_input(const char *input, const porosity_config *config,
     }
     CLI_GUARD(clast_state_read_assembly(path, &s->assembly));
     s->has_bed = clast_bed_read(path, &s->bed, &s->surface) == CLAST_OK;
-    (void)clast_state_read_table(path, "contacts", &s->contacts); // other programs have none
+    (void)clast_state_read_table(path, "contacts", &s->contacts); // aggregates have none
+    (void)clast_state_read_table(path, "velocities", &s->velocities);
     return CLAST_OK;
-}
-
-static double mean_diameter(const clast_assembly *a)
-{
-    return a->n_grain > 0 ? 2.0 * cbrt(0.75 / CLAST_PI * clast_assembly_volume(a) / a->n_grain)
-                          : 1.0;
 }
 
 /// File of --bed mesh:FILE,UNIT, or "".
@@ -155,7 +158,8 @@ static clast_status read_lengths(const porosity_config *config, const char *unit
                   {"layer", config->layer, &out->layer},
                   {"trim", config->trim, &out->trim},
                   {"gap", config->gap, &out->gap},
-                  {"diameter", config->diameter, &out->diameter}};
+                  {"diameter", config->diameter, &out->diameter},
+                  {"fields", config->fields, &out->fields}};
     for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; ++k) {
         CLI_GUARD(cli_read_length(wanted[k].name, wanted[k].text, unit, wanted[k].value));
     }
@@ -191,7 +195,9 @@ static clast_status measure_run(const char *input, const porosity_config *config
                                   .core = config->core,
                                   .local = config->local,
                                   .rings = config->rings,
-                                  .pores = config->pores};
+                                  .pores = config->pores,
+                                  .fields = typed.fields,
+                                  .chains = config->chains};
     clast_porosity_options *options = &wanted.options;
     options->method = (clast_porosity_method)config->method;
     options->cut = config->cut;
@@ -200,7 +206,7 @@ static clast_status measure_run(const char *input, const porosity_config *config
     if (typed.layer > 0.0) {
         options->layer = typed.layer;
     } else if (strcmp(s->assembly.unit, "m") != 0) {
-        options->layer = 0.1 * mean_diameter(&s->assembly);
+        options->layer = 0.1 * cli_porosity_mean_diameter(&s->assembly);
     }
     return cli_porosity_measure(s, &wanted, found);
 }
@@ -332,7 +338,7 @@ const cli_command cli_porosity = {
         "fabric.csv (directions of contacts and grains), coordination.csv where contacts are "
         "known,\n"
         "local.csv with --local, radial.csv and .svg with --rings, pores.csv and .svg with "
-        "--pores.",
+        "--pores,\nfields.csv and .vti with --fields, chains.csv, .vtp and .svg with --chains.",
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,

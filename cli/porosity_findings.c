@@ -18,6 +18,8 @@ void cli_porosity_free(cli_porosity_findings *f)
     clast_pores_free(&f->pores);
     clast_table_free(&f->stress);
     clast_table_free(&f->stress_profile);
+    clast_table_free(&f->fields);
+    clast_table_free(&f->chains);
 }
 
 /// Mean and standard deviation of the local porosity of grains whose cell no wall cuts.
@@ -59,6 +61,47 @@ static json_t *profile_json(const cli_porosity_findings *f)
     return rows;
 }
 
+/// How many contacts of a force chain there are, and how many chains.
+static void count_chains(const clast_table *chains, int64_t *n_link, int64_t *n_chain)
+{
+    const double *chain = clast_table_numbers(chains, "chain");
+    *n_link = 0;
+    *n_chain = 0;
+    for (int64_t k = 0; chain != NULL && k < chains->n_row; ++k) {
+        *n_link += chain[k] > 0.0 ? 1 : 0;
+        *n_chain = chain[k] > (double)*n_chain ? (int64_t)chain[k] : *n_chain;
+    }
+}
+
+/// Sum of density times volume over all cells.
+static double mass_of(const clast_table *fields)
+{
+    const double *density = clast_table_numbers(fields, "density_kg/m^3");
+    const double *side[3] = {clast_table_numbers(fields, "dx_m"),
+                             clast_table_numbers(fields, "dy_m"),
+                             clast_table_numbers(fields, "dz_m")};
+    double sum = 0.0;
+    for (int64_t k = 0; k < fields->n_row; ++k) {
+        sum += density[k] * side[0][k] * side[1][k] * side[2][k];
+    }
+    return sum;
+}
+
+static void add_chains(json_t *object, const cli_porosity_findings *f)
+{
+    int64_t n_link = 0;
+    int64_t n_chain = 0;
+    if (f->chains.n_column > 0) {
+        count_chains(&f->chains, &n_link, &n_chain);
+        cli_json_count(object, "n_chain", n_chain);
+        cli_json_count(object, "n_chain_contact", n_link);
+    }
+    if (f->fields.n_column > 0) {
+        cli_json_count(object, "n_field_cell", f->fields.n_row);
+        cli_json_number(object, "field_mass", mass_of(&f->fields));
+    }
+}
+
 json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_findings *f)
 {
     json_t *object = json_object();
@@ -97,6 +140,7 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
         cli_json_number(object, "pore_mean", f->pores.mean);
         cli_json_number(object, "pore_porosity", f->pores.porosity);
     }
+    add_chains(object, f);
     json_t *fabric = json_object();
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         cli_json_number(fabric, f->fabric.column[0].text[k], f->fabric.column[1].number[k]);
@@ -122,7 +166,8 @@ static clast_status write_tables(const clast_run_folder *run, const clast_assemb
     } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
                  {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
                  {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes},
-                 {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
+                 {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile},
+                 {"fields.csv", &f->fields},   {"chains.csv", &f->chains}};
     for (size_t k = 0; k < sizeof files / sizeof files[0]; ++k) {
         if (files[k].table->n_column > 0) {
             if (strcmp(assembly->unit, "m") != 0) {
@@ -131,6 +176,24 @@ static clast_status write_tables(const clast_run_folder *run, const clast_assemb
             CLI_GUARD(clast_run_folder_file(run, files[k].name, path));
             CLI_GUARD(clast_table_write_csv(files[k].table, path));
         }
+    }
+    return CLAST_OK;
+}
+
+/// Force chains and fields for ParaView, and the picture of the chains.
+static clast_status write_vtk(const clast_run_folder *run, const cli_porosity_findings *f,
+                              const char *unit)
+{
+    char path[CLAST_RUN_PATH];
+    if (f->fields.n_column > 0) {
+        CLI_GUARD(clast_run_folder_file(run, "fields.vti", path));
+        CLI_GUARD(clast_table_write_vti(&f->fields, path));
+    }
+    if (f->chains.n_column > 0) {
+        CLI_GUARD(clast_run_folder_file(run, "chains.vtp", path));
+        CLI_GUARD(clast_table_write_vtp(&f->chains, path));
+        CLI_GUARD(clast_run_folder_file(run, "chains.svg", path));
+        CLI_GUARD(clast_chart_chains(&f->chains, unit, path));
     }
     return CLAST_OK;
 }
@@ -154,6 +217,7 @@ clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembl
         CLI_GUARD(clast_run_folder_file(run, "pores.svg", path));
         CLI_GUARD(clast_chart_pores(&f->pores.sizes, assembly->unit, path));
     }
+    CLI_GUARD(write_vtk(run, f, assembly->unit));
     return write_tables(run, assembly, f);
 }
 
@@ -245,6 +309,17 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
         (void)printf("%-20s %.4g %s   %s\n", f->stress.column[0].text[k],
                      f->stress.column[1].number[k], f->stress.column[2].text[k],
                      f->stress.column[3].text[k]);
+    }
+    if (f->fields.n_column > 0) {
+        (void)printf("fields              %lld cells, which hold %.6g kg\n",
+                     (long long)f->fields.n_row, mass_of(&f->fields));
+    }
+    if (f->chains.n_column > 0) {
+        int64_t n_link = 0;
+        int64_t n_chain = 0;
+        count_chains(&f->chains, &n_link, &n_chain);
+        (void)printf("force chains        %lld, of %lld of %lld contacts\n", (long long)n_chain,
+                     (long long)n_link, (long long)f->chains.n_row);
     }
     if (common->output != NULL) {
         (void)printf("tables and profile.svg are in %s\n", common->output);

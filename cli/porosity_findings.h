@@ -13,6 +13,8 @@ typedef struct cli_porosity_findings {
     clast_pores pores;
     clast_table stress; ///< without columns where forces are not known, as the next
     clast_table stress_profile;
+    clast_table fields; ///< without columns unless asked for, as the next
+    clast_table chains;
     clast_porosity_bulk bulk;
     clast_bed_walls walls;
     clast_porosity_core core; ///< where asked for

@@ -10,6 +10,31 @@ void cli_porosity_bed_free(cli_porosity_bed *s)
     clast_assembly_free(&s->assembly);
     clast_mesh_free(&s->surface);
     clast_table_free(&s->contacts);
+    clast_table_free(&s->velocities);
+}
+
+double cli_porosity_mean_diameter(const clast_assembly *a)
+{
+    return a->n_grain > 0 ? 2.0 * cbrt(0.75 / CLAST_PI * clast_assembly_volume(a) / a->n_grain)
+                          : 1.0;
+}
+
+/// Fields and force chains, where they are asked for.
+static clast_status measure_forces(const cli_porosity_bed *s, const cli_porosity_wanted *wanted,
+                                   cli_porosity_findings *f)
+{
+    const bool has_forces = s->contacts.n_column > 0;
+    if (wanted->fields > 0.0) {
+        CLI_GUARD(clast_bed_fields(&s->bed, &s->assembly, has_forces ? &s->contacts : NULL,
+                                   s->velocities.n_column > 0 ? &s->velocities : NULL,
+                                   wanted->fields, &f->fields));
+    }
+    if (wanted->chains && !has_forces) {
+        return cli_fail(CLAST_E_USAGE, "force chains (--chains) are of runs of clast pack, which "
+                                       "know their contact forces; this bed knows none");
+    }
+    return wanted->chains ? clast_bed_chains(&s->bed, &s->assembly, &s->contacts, &f->chains)
+                          : CLAST_OK;
 }
 
 /// Contacts, directions and overlaps. The contacts of a run of clast pack overlap by what their
@@ -84,5 +109,5 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
         CLI_GUARD(clast_stress(&s->contacts, bed, z, &f->stress));
         CLI_GUARD(clast_stress_profile(&s->contacts, bed, &f->profile, &f->stress_profile));
     }
-    return CLAST_OK;
+    return measure_forces(s, wanted, f);
 }

@@ -6,8 +6,9 @@
 typedef struct cli_porosity_bed {
     clast_assembly assembly;
     clast_bed bed;
-    clast_mesh surface;   ///< of the bed, or empty
-    clast_table contacts; ///< forces, without columns where the run does not know them
+    clast_mesh surface;     ///< of the bed, or empty
+    clast_table contacts;   ///< forces, without columns where the run does not know them
+    clast_table velocities; ///< likewise
     bool has_bed;
 } cli_porosity_bed;
 
@@ -19,9 +20,14 @@ typedef struct cli_porosity_wanted {
     bool local;
     int32_t rings; ///< of radial porosity
     int64_t pores; ///< points
+    double fields; ///< width of their kernel
+    bool chains;
 } cli_porosity_wanted;
 
 void cli_porosity_bed_free(cli_porosity_bed *s);
+
+/// Of the sphere of the grains' mean volume; 1 without grains.
+double cli_porosity_mean_diameter(const clast_assembly *assembly);
 
 /// Wraps the grains of a periodic bed into it, then measures. CLAST_E_GEOMETRY for a bed that holds
 /// more solid than room.

@@ -8,7 +8,7 @@ LINE, POINTS = 0, 2
 
 class Series(c.Structure):
     _fields_ = [("kind", c.c_int), ("label", c.c_char_p), ("x", DOUBLES), ("y", DOUBLES), ("low", DOUBLES), ("high", DOUBLES),
-                ("value", DOUBLES), ("n", c.c_int64), ("colour", c.c_int32), ("dashed", c.c_bool)]
+                ("value", DOUBLES), ("n", c.c_int64), ("colour", c.c_int32), ("dashed", c.c_bool), ("width", c.c_double)]
 
 
 class Axis(c.Structure):

@@ -44,6 +44,12 @@ class Page:
         """Two frames later."""
         self.ask("new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))")
 
+    def rest(self):
+        """Until the camera has come to rest and surfaces are drawn, a minute at the most."""
+        until = time.monotonic() + 60
+        while self.ask(f"{VIEW}.level !== 'surfaces' || {VIEW}.isMoving === true") and time.monotonic() < until:
+            self.settle()
+
     def press(self, key, shift=False):
         self.ask(f"{VIEW}.stage.dispatchEvent(new KeyboardEvent('keydown', {{key: {json.dumps(key)}, shiftKey: {json.dumps(shift)}, bubbles: true}}))")
         self.settle()
@@ -195,6 +201,8 @@ def check_time(page, folder, pictures):
         page.hold(off < 0.01, f"grains of frame {k} are turned by {off:.2g} from their frame's")
         page.close_to(float(page.ask(f"{VIEW}.parts.when.textContent").split()[0]), float(frames[k][0]) * 1e3, 1e-3, "time in ms")
         page.hold(page.ask(f"{VIEW}.parts.chains.disabled"), "force chains of a moment that has none")
+        page.press("0")
+        page.hold(covered(page.picture(240))[0] > 0.02, f"frame {k} is not in sight after key 0")
         page.settle()
         if pictures:
             page.browser.picture(pictures / f"time-{k}.png")
@@ -222,18 +230,18 @@ def check_levels(page):
     """Dots while the camera moves where surfaces are slow, surfaces when it rests; both look alike."""
     shot = lambda: read_png(base64.b64decode(page.ask(f"(() => {{ const v = {VIEW}; v.render(); return v.renderer.domElement.toDataURL('image/png').split(',')[1]; }})()")))
     page.ask(f"{VIEW}.frame()")
-    page.settle()
+    page.rest()
     page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail at rest")
     surfaces = covered(shot())
-    page.ask(f"{VIEW}.isSlow = true; {VIEW}.turn(0, 0); {VIEW}.controls.dispatchEvent({{type: 'change'}})")
+    page.ask(f"{VIEW}.isSlow = true; {VIEW}.controls.dispatchEvent({{type: 'change'}}); clearTimeout({VIEW}.resting)")  # it never rests
     page.settle()
     page.equal(page.ask(f"{VIEW}.level"), "dots", "level of detail in motion")
     dots = covered(shot())
     page.close_to(dots[0], surfaces[0], 0.08, "share of the picture that dots cover")
     for k, colour in enumerate(("red", "green", "blue")):
         page.hold(abs(dots[1][k] - surfaces[1][k]) < 16, f"dots' mean {colour}: {dots[1][k]:.0f}, surfaces' {surfaces[1][k]:.0f}")
-    time.sleep(0.4)
-    page.settle()
+    page.ask(f"{VIEW}.draw()")
+    page.rest()
     page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail after a rest")
     page.ask(f"{VIEW}.isSlow = false")
 

@@ -12,6 +12,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIMIT = 3_000_000
+SCRIPTS = ("common", "chart", "state", "room", "grow", "pour", "split", "main")  # one after the other
+GRAINS = ("grain00.ply", "grain12.ply", "grain31.ply", "grain47.ply")  # of data/standin63
 ICON = "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E%3Ccircle cx='6' cy='9' r='5' fill='%230072b2'/%3E%3Ccircle cx='12' cy='4' r='3' fill='%23e69f00'/%3E%3C/svg%3E"
 
 
@@ -22,13 +24,19 @@ def inside(text):
     return text
 
 
+def packed(data):
+    return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
+
+
 def page(build):
     web = ROOT / "web"
-    script = "\n" + inside((web / "live/live.js").read_text())
+    script = "\n" + inside("\n".join((web / f"live/{name}.js").read_text() for name in SCRIPTS))
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     policy = (f"default-src 'none'; script-src 'sha256-{digest}' blob: 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; "
               "img-src data: blob:; connect-src blob:; base-uri 'none'; form-action 'none'")
-    program = base64.b64encode(gzip.compress((build / "npm/clast.wasm").read_bytes(), 9, mtime=0)).decode()
+    program = packed((build / "npm/clast.wasm").read_bytes())
+    viewer = packed((web / "dist/view.js").read_bytes())
+    grains = [f'<script type="text/plain" data-grain="{name}">{base64.b64encode((ROOT / "data/standin63" / name).read_bytes()).decode()}</script>' for name in GRAINS]
     version = json.loads((build / "npm/package.json").read_text())["version"]
     style = (web / "page.css").read_text() + (web / "live/live.css").read_text()
     body = (web / "live/page.html").read_text().replace("{version}", html.escape(version))
@@ -37,9 +45,10 @@ def page(build):
         '<!doctype html>', '<html lang="en">', '<head>', '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">', '<meta name="color-scheme" content="light dark">',
-        '<title>clast live: split a cloud</title>', f'<link rel="icon" href="{ICON}">', f"<style>\n{style}</style>", '</head>', '<body>', body,
-        f'<footer><details><summary>Licences</summary><pre>{html.escape((ROOT / "LICENSE").read_text() + chr(10) + notice)}</pre></details></footer>',
+        '<title>clast live</title>', f'<link rel="icon" href="{ICON}">', f"<style>\n{style}</style>", '</head>', '<body>', body,
+        f'<footer><details><summary>Licences</summary><pre>{html.escape((ROOT / "LICENSE").read_text() + chr(10) + (web / "dist/LICENSE-three.txt").read_text() + chr(10) + notice)}</pre></details></footer>',
         f'<script type="text/plain" id="clast-module">{inside((build / "npm/clast.mjs").read_text())}</script>',
+        f'<script type="text/plain" id="clast-view">{viewer}</script>', *grains,
         f'<script type="text/plain" id="clast-wasm">{program}</script>', f"<script>{script}</script>", '</body>', '</html>', ''])
 
 

@@ -26,6 +26,8 @@ export interface How {{
   files?: Files;
   /** Called while the command runs, at most five times a second. */
   onProgress?: (progress: Progress) => void;
+  /** Called with each file that the run has written whole while it goes on: checkpoints, tables. */
+  onFile?: (path: string, bytes: Uint8Array) => void;
   /** Of ClastWorkers: ends the run at once, which then rejects with the signal's reason. */
   signal?: AbortSignal;
 }}

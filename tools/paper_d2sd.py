@@ -395,14 +395,15 @@ def wanted_rows(share):
 
 
 def table_matrix(_, share):
-    """Densities by places by numbers of points: bench_resolution, a row at a time, closed surfaces last of their size."""
+    """Densities by places by numbers of points: bench_resolution, a row at a time: by rule, size and place, closed surfaces last."""
     table = MATRIX_CSV if share >= 1 else pathlib.Path("build/d2sd_matrix.csv")
     key = digest("matrix_rows", share)
     kept = [r for r in read_rows(MATRIX_KEPT) if r["key"] == key]
     rows = {row_name(r): r for r in read_rows(table)}
     rows.update({row_name(r): {k: v for k, v in r.items() if k != "key"} for r in kept})
     wanted = wanted_rows(share)
-    missing = sorted(set(wanted) - {row_name(r) for r in kept}, key=lambda name: (float(name[3]), name[2] == "surface", list(wanted).index(name)))
+    order = {name: (rows.get(name, {}).get("rule", ""), float(name[3]), name[2] == "surface", k) for k, name in enumerate(wanted)}
+    missing = sorted(set(wanted) - {row_name(r) for r in kept}, key=order.get)  # those of the oldest rule first
     for name in missing[:MOST_ROWS]:
         row = {**bench("bench_resolution", *wanted[name])[0], "rule": RULE}
         rows[name] = row

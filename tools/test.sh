@@ -29,6 +29,7 @@ tools/check_install.sh
 say "commands of the documents"; python3 tools/check_docs_commands.py build/release/clast
 say "ranks (mpirun), Python"
 ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
+say "ranks with MPICH"; tools/check_mpich.sh | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
 say "WebAssembly"; skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
 say "packages"

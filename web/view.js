@@ -3,11 +3,11 @@ import {
   AmbientLight, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { grow, listen, makeControls } from './view/controls.js';
-import { makeCut, turnCap } from './view/cut.js';
-import { readData } from './view/data.js';
+import { grow, listen, makeControls, showChains } from './view/controls.js';
+import { makeCut, setCut, turnCap } from './view/cut.js';
+import { isEnd, readData } from './view/data.js';
 import { dropDots, measureSpeed, setLevel, settle, timeDrawing, touch } from './view/dots.js';
-import { makeGrains, meanOf, paintGrains, radiusOf } from './view/grains.js';
+import { extentOf, makeGrains, meanOf, paintGrains, radiusOf } from './view/grains.js';
 import { drawLegend, drawScale, tag } from './view/legend.js';
 import { roomOf } from './view/moments.js';
 import { dropNear, freeNear } from './view/near.js';
@@ -35,10 +35,12 @@ function addLights(scene, camera) {
 
 /// What a view can do with its camera.
 const camera = {
+  /// Shows all grains where they are at this moment.
   frame() {
     const half = (this.camera.fov * Math.PI) / 360;
-    this.camera.position.copy(SIGHT).setLength((1.04 * this.radius) / Math.sin(half * Math.min(1, this.camera.aspect)));
-    this.controls.target.set(0, 0, 0);
+    const { middle, radius } = isEnd(this) ? { middle: new Vector3(), radius: this.radius } : extentOf(this.meshes);
+    this.camera.position.copy(SIGHT).setLength((1.04 * radius) / Math.sin(half * Math.min(1, this.camera.aspect))).add(middle);
+    this.controls.target.copy(middle);
     this.controls.update();
   },
   turn(right, up) {
@@ -280,6 +282,41 @@ for (const source of sources) {
   }
 }
 
+/// For the live page: a view in `host` of the data that an element holds, or null without WebGL.
+function show(host, element, name) {
+  start({ host, element, name });
+  return open.find((view) => view.source.host === host) ?? null;
+}
+
+/// For the live page: other grains in an open view; its camera, colours and cut stay. Growth goes on at its end.
+function replace(view, element) {
+  const hasChains = Boolean(view.chains?.visible);
+  dropDots(view);
+  freeNear(view);
+  for (const near of view.near ?? []) if (near) view.scene.remove(near);
+  Object.assign(view, { near: null, fine: [], base: null });
+  for (const mesh of view.chains ? [...view.meshes, view.chains] : view.meshes) {
+    view.scene.remove(mesh);
+    mesh.geometry.dispose();
+    mesh.material.dispose();
+    mesh.dispose();
+  }
+  view.chains = null;
+  view.data = readData(element);
+  view.meshes = makeGrains(view.data, roomOf(view.data), view.cut.cap);
+  view.moment = view.data.frames?.frame.length ?? 0;
+  view.mean = meanOf(view.meshes);
+  view.scene.add(...view.meshes);
+  view.radius = radiusOf(view.meshes);
+  setCut(view, view.cut.axis);
+  Object.assign(view.parts.grow, { max: view.data.n_shown, value: view.data.n_shown });
+  if (view.picked >= view.data.n_shown) pick(view, -1);
+  view.parts.chains.textContent = view.data.contacts?.force ? 'Force chains' : 'Contacts';
+  grow(view, view.data.n_shown);
+  if (hasChains && view.data.contacts) showChains(view, true);
+  view.paint();
+}
+
 /// Paper is white.
 function dress(view, isDark) {
   view.stage.classList.toggle('dark', isDark);
@@ -296,4 +333,4 @@ window.addEventListener('afterprint', () => open.forEach((view) => {
 }));
 
 /// For tests and for people at the browser's console: what the page shows, and what it can draw.
-window.clastViews = { open, drawPicture, grainAt, pick, timeDrawing };
+window.clastViews = { open, drawPicture, grainAt, pick, timeDrawing, show, replace };

@@ -1,9 +1,35 @@
 // clast-mpi: the same command on the ranks of an MPI job.
 #include "command.h"
+#include "watch.h"
 
 #include <clast/mpi.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
+
+/// Whether a launcher began several processes, each of which sees itself alone: they would all do
+/// the same work, into the same files.
+static bool is_alone_by_mistake(const clast_comm *comm)
+{
+    static const char *const name[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                                          {"PMI_SIZE", "PMI_RANK"}};
+    for (int k = 0; comm->n_rank == 1 && k < 2; ++k) {
+        const char *size = getenv(name[k][0]); // NOLINT(concurrency-mt-unsafe)
+        const char *rank = getenv(name[k][1]); // NOLINT(concurrency-mt-unsafe)
+        if (size == NULL || strtol(size, NULL, 10) < 2) {
+            continue;
+        }
+        if (rank == NULL || strtol(rank, NULL, 10) == 0) {
+            (void)fprintf(stderr,
+                          "clast-mpi: its launcher began %s processes, but each sees itself alone: "
+                          "mpirun and clast-mpi are of different MPI libraries; take the mpirun of "
+                          "the one that ldd clast-mpi names\n",
+                          size);
+        }
+        return true;
+    }
+    return false;
+}
 
 int main(int argc, char **argv)
 {
@@ -18,6 +44,14 @@ int main(int argc, char **argv)
     if (status != CLAST_OK) {
         (void)fprintf(stderr, "clast-mpi: MPI does not start: %s\n", clast_status_text(status));
         return clast_status_exit_code(status);
+    }
+    if (is_alone_by_mistake(&comm)) {
+        clast_mpi_end(&comm);
+        return clast_status_exit_code(CLAST_E_CONFIG);
+    }
+    if (!cli_watch_begin(argc > 1 ? argv[1] : "", &comm)) {
+        clast_mpi_end(&comm);
+        return clast_status_exit_code(CLAST_E_CONFIG);
     }
     const int code = cli_main(argc, argv, &comm);
     // All is said: where a rank ends with a failure, mpirun's SIGTERM to the others is no news.

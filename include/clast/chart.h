@@ -30,6 +30,7 @@ typedef struct clast_series {
     int64_t n;
     int32_t colour; ///< 0..7 of the colour-blind-safe set (Okabe and Ito); -1: grey
     bool dashed;
+    double width; ///< of a line, points; 0: 1.6
 } clast_series;
 
 typedef struct clast_axis {
@@ -184,6 +185,13 @@ CLAST_API clast_status clast_chart_porosity_band(const clast_table *band, const 
 
 /// Normal stresses over height, of clast_stress_profile.
 CLAST_API clast_status clast_chart_stress(const clast_table *profile, const char *unit,
+                                          const char *path);
+
+/// Force chains of clast_bed_chains seen along y: lines as thick as their force, in four steps of
+/// the mean; contacts that are no link of a chain are grey.
+///
+/// @param unit  of the places; "m" is drawn in mm
+CLAST_API clast_status clast_chart_chains(const clast_table *chains, const char *unit,
                                           const char *path);
 
 // Charts of a set of grains in the style of Rettinger et al. 2022, Fig. 2 and 3, and of a fitted

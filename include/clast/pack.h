@@ -166,6 +166,7 @@ typedef struct clast_pack_ranks {
     int64_t n_balance;  ///< partitions
     int64_t n_migrated; ///< grains that went to another rank
     double ghosts;      ///< grains that ranks read of others in a step, in the mean
+    double messages;    ///< sent in a step by all ranks, but for the sum that ends it
     double step_bytes;  ///< sent in a step by all ranks
     double list_bytes;  ///< the same for lists and migration, in the mean over steps
     double imbalance;   ///< greatest over mean counted cost of a rank, after the last partition

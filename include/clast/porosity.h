@@ -313,4 +313,35 @@ CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed
 CLAST_API clast_status clast_stress_profile(const clast_table *contacts, const clast_bed *bed,
                                             const clast_table *profile, clast_table *table);
 
+/// Continuum fields from grains and contacts on a grid [Goldhirsch2010], exact at walls
+/// [Weinhart2012]: a row a cell, x fastest, with the mean of each field over the cell.
+///
+/// Columns x_m, y_m, z_m (its middle), dx_m, dy_m, dz_m (its sides), density_kg/m^3, solid (volume
+/// of grains over that of the cell), velocity_x_m/s .. (NaN where nothing is), stress_xx_Pa .. yz
+/// (contacts), kinetic_stress_.. (beside that velocity), wall_force_x_N/m^3 .. (of walls on
+/// grains). The kernel is a Gaussian of standard deviation `width` in each direction, cut off at 5
+/// of them. Cells are as wide, or what divides a period; the grid holds all of the kernels, so that
+/// sums over cells are those over grains: mass, momentum, sum f l. [docs/theory/load.md]
+///
+/// @param contacts    of clast_dem_contact_table, in the assembly's order; NULL: no stress
+/// @param velocities  a row a grain, columns velocity_x_m/s, .. y, .. z; NULL: at rest
+/// @param width       of the kernel, at most a period [m]
+/// @param table       must be empty; written only on success
+/// @return CLAST_E_LIMIT beyond 5e7 cells; CLAST_E_FORMAT for tables that are none of these
+CLAST_API clast_status clast_bed_fields(const clast_bed *bed, const clast_assembly *assembly,
+                                        const clast_table *contacts, const clast_table *velocities,
+                                        double width, clast_table *table);
+
+/// Contacts as lines from a's centre to b's, or to a wall, and which are links of a force chain: of
+/// three grains or more whose greatest principal pressure is above the mean of all, within 45
+/// degrees of its direction.                                                       [Peters2005]
+///
+/// Columns a, b (-1: a wall), x0_m .. z0_m, x1_m .. z1_m, force_x_N .. (of a on b), force_N,
+/// force_share (over the mean), chain (from 1; 0: none), pressure_a_Pa, pressure_b_Pa.
+///
+/// @param contacts  of clast_dem_contact_table, in the assembly's order
+/// @param table     must be empty; written only on success
+CLAST_API clast_status clast_bed_chains(const clast_bed *bed, const clast_assembly *assembly,
+                                        const clast_table *contacts, clast_table *table);
+
 CLAST_END

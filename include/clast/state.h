@@ -69,13 +69,16 @@ typedef struct clast_packing_options {
     double diameter;     ///< of all spheres, in place of the file's; 0: the file's
 } clast_packing_options;
 
-/// Reads a packing of spheres that another program made, as scaled unit spheres of density 1.
+/// Reads a packing that another program made; densities are 1 where the file does not tell them.
 ///
-/// Delimited text (CSV, blanks), LAMMPS dumps, VTK points and .xyz (a count, a comment, then
-/// element x y z and perhaps a radius) by the names of their columns: x, y, z and radius, r,
-/// diameter or d, with or without a unit (x_mm). Without names by place: x y z r, id x y z (voro++;
-/// give the diameter) or id x y z r, where the ids are the whole numbers from 0 or 1 on. `.xyzd`
-/// holds little-endian doubles x, y, z, diameter (packing-generation).
+/// LAMMPS and LIGGGHTS data files and dumps: spheres and ellipsoids (shapex .. quatk) with their
+/// densities, shapes named after their types. Rockable's .conf and the library of shapes that it
+/// names: convex polyhedra. YADE's text, "#format x_y_z_r" above it: spheres, and clumps by
+/// clumpId. Else spheres: Delimited text (CSV, blanks), LAMMPS dumps, VTK points and .xyz (a count,
+/// a comment, then element x y z and perhaps a radius) by the names of their columns: x, y, z and
+/// radius, r, diameter or d, with or without a unit (x_mm). Without names by place: x y z r, id x y
+/// z (voro++; give the diameter) or id x y z r, where the ids are the whole numbers from 0 or 1 on.
+/// `.xyzd` holds little-endian doubles x, y, z, diameter (packing-generation).
 ///
 /// @param assembly  empty; filled on success; in metres where all four columns say their unit, else
 ///                  "model"
@@ -95,7 +98,13 @@ typedef enum {
     CLAST_EXPORT_3MF,  ///< millimetres; needs a unit
     CLAST_EXPORT_CSV,  ///< a row a grain
     CLAST_EXPORT_DUMP, ///< LAMMPS dump: ellipsoids of equal mass and moments
-    CLAST_EXPORT_JSON  ///< the CSV's table as JSON
+    CLAST_EXPORT_JSON, ///< the CSV's table as JSON
+    CLAST_EXPORT_DATA, ///< LAMMPS data file: atoms of style sphere, or ellipsoid
+    CLAST_EXPORT_TXT,  ///< YADE's text, x y z r and perhaps clumpId: spheres and clumps
+    CLAST_EXPORT_VORO, ///< voro++'s text, id x y z r: spheres
+    CLAST_EXPORT_XYZD, ///< little-endian doubles x, y, z, diameter: spheres
+    CLAST_EXPORT_CONF  ///< Rockable's configuration, its shapes in the .shp beside: spheres, convex
+                       ///< surfaces
 } clast_export_format;
 
 typedef enum {

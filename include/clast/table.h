@@ -102,4 +102,14 @@ CLAST_API clast_status clast_table_write_csv_note(const clast_table *table, cons
 /// does not have, become null. The file appears whole or not at all.
 CLAST_API clast_status clast_table_write_json(const clast_table *table, const char *path);
 
+/// Writes rows that are cells of an even grid, x fastest, as a VTK image (.vti) for ParaView:
+/// columns x, y, z (middles) and dx, dy, dz (sides), each perhaps with a unit behind it (x_m); the
+/// other columns of numbers are its cell data, by their names.
+///
+/// @return CLAST_E_USAGE for a table that is no such grid; CLAST_E_DISK
+CLAST_API clast_status clast_table_write_vti(const clast_table *table, const char *path);
+
+/// Writes rows that are lines as VTK polydata (.vtp): columns x0, y0, z0, x1, y1, z1, as above.
+CLAST_API clast_status clast_table_write_vtp(const clast_table *table, const char *path);
+
 CLAST_END

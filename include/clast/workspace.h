@@ -58,6 +58,8 @@ typedef struct clast_workspace_policy {
     double cells_level;  ///< of the chi-square test that finds the cloud changed
     int32_t pairs_every; ///< calls at least between two counts of the pairs of a cloud that cells
                          ///< do not resolve; 0: at each cut
+    int32_t pairs_most;  ///< points that such a count takes at the most, of a greater cloud a part
+                         ///< chosen by their places; 0: all, else at least 1000
 } clast_workspace_policy;
 
 /// Fields of clast_workspace_policy: keys, defaults, ranges and units; ends with a row of zeros.

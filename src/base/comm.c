@@ -107,7 +107,9 @@ clast_status clast_comm_agree(const clast_comm *comm, clast_status status, const
                        text != NULL ? text : clast_error_detail());
     }
     comm->broadcast(comm->context, who, &word, (int64_t)sizeof word);
-    if (who == 0 || word.text[0] == '\0' || word.status == CLAST_E_STOPPED) {
+    // what fails on the first rank fails on all alike, but for files: each has its own disk
+    const bool is_file = word.status == CLAST_E_IO || word.status == CLAST_E_DISK;
+    if ((who == 0 && !is_file) || word.text[0] == '\0' || word.status == CLAST_E_STOPPED) {
         return clx_fail((clast_status)word.status, "%s", word.text);
     }
     return clx_fail((clast_status)word.status, "rank %d: %s", (int)who, word.text);
@@ -207,15 +209,15 @@ clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const in
     CLAST_ASSERT(in->bytes == NULL);
     clast_status status = CLAST_OK;
     const int32_t n_rank = comm->n_rank;
-    int64_t *table = NULL; // [from][to], then one's own column
+    int64_t *n_in = NULL; // [2 n_rank]: bytes from each, then those of such a number
     clx_gathered made = {0};
-    CLX_TRY(clast_comm_agree(comm, clx_alloc(&table, ((int64_t)n_rank + 1) * n_rank, sizeof *table),
-                             NULL));
-    memcpy(table + (int64_t)comm->rank * n_rank, n_out, (size_t)n_rank * sizeof *table);
-    clx_comm_sum(comm, table, (int64_t)n_rank * n_rank);
-    int64_t *n_in = table + (int64_t)n_rank * n_rank;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&n_in, INT64_C(2) * n_rank, sizeof *n_in), NULL));
+    int64_t *word = n_in + n_rank;
     for (int32_t k = 0; k < n_rank; ++k) {
-        n_in[k] = table[(int64_t)k * n_rank + comm->rank];
+        word[k] = (int64_t)sizeof *n_in;
+    }
+    comm->exchange(comm->context, n_out, word, n_in, word);
+    for (int32_t k = 0; k < n_rank; ++k) {
         made.n += n_in[k];
     }
     CLX_TRY(clast_comm_agree(comm, clx_alloc(&made.bytes, made.n, 1), NULL));
@@ -224,7 +226,7 @@ clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const in
     made = (clx_gathered){0};
 done:
     clx_gathered_free(&made);
-    clx_free(table);
+    clx_free(n_in);
     return status;
 }
 

@@ -148,8 +148,9 @@ clast_status clx_bins_count(clx_bins *bins, const clx_part *part)
     }
     CLX_TRY(clast_comm_agree(part->comm, status, NULL));
     memset(bins->count, 0, (size_t)bins->n_bin * sizeof *bins->count);
+    double held[3];
     for (int64_t i = 0; i < part->n; ++i) {
-        ++bins->count[clx_bins_of(bins, part->u + i * bins->d)];
+        ++bins->count[clx_bins_of(bins, clx_part_point(part, i, held))];
     }
     clx_bins_add_ranks(part->comm, bins);
 done:

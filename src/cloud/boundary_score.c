@@ -241,9 +241,10 @@ typedef struct {
 static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const key_context *c = context;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const double *u = c->part->u + i * c->part->d;
+        const double *u = clx_part_point(c->part, i, held);
         const double z = (c->axis < 0 ? clx_depth_of(c->law, u) : u[c->axis]) + 0.0; // no -0
         CLAST_ASSERT(z >= 0.0 && z <= 1.0);
         memcpy(&c->key[i], &z, sizeof z);

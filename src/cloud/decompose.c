@@ -174,9 +174,10 @@ done:
 static void tell_points(const clx_sample *m, const int32_t *of_sample, clast_cells *cells)
 {
     for (int64_t i = 0; i < m->n; ++i) {
-        if (m->number[i] >= 0) {
+        const int64_t number = clx_sample_number(m, i);
+        if (number >= 0) {
             const int32_t c = of_sample != NULL ? of_sample[i] : 0;
-            cells->of_point[m->number[i]] = c;
+            cells->of_point[number] = c;
             ++cells->count[c];
         }
     }
@@ -246,10 +247,16 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
                                                config->tree_least, config->variable_tolerance,
                                                config->tree_refine};
     CLX_TRY(take_variable(cloud, m, &variable));
-    const clx_uniformity_tree_points points = {
-        m->comm, m->u, m->n_test, m->n, d, variable, is_uneven(&result->before, config)};
-    CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&of_sample, m->n, sizeof *of_sample), NULL));
-    CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_sample));
+    const clx_part part = clx_sample_part(m, m->n);
+    const clx_uniformity_tree_points points = {&part, m->n_test, variable,
+                                               is_uneven(&result->before, config)};
+    int32_t *of_point = cells->of_point; // of the sample too, where it is the cloud
+    if (m->number != NULL) {
+        status = clx_alloc(&of_sample, m->n, sizeof *of_sample);
+        of_point = of_sample;
+    }
+    CLX_TRY(clast_comm_agree(m->comm, status, NULL));
+    CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_point));
     CLX_TRY(clast_comm_agree(m->comm, alloc_cells(cells, tree.n), NULL));
     for (int32_t c = 0; c < tree.n; ++c) {
         cells->volume[c] = 1.0;
@@ -259,7 +266,7 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
             cells->volume[c] *= tree.high[c][j] - tree.low[c][j];
         }
     }
-    tell_points(m, of_sample, cells);
+    tell_points(m, of_point, cells);
     result->stop = tree_stop(&result->before, &tree);
     cells->key = tree.key;
     cells->group = tree.group;
@@ -306,7 +313,8 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     int32_t *cell = NULL;
     int32_t *of_sample = NULL;
     int32_t n_cell = 0;
-    const clx_part part = clx_part_of(m->comm, m->u, m->n_test, m->domain->dimension);
+    double held[3];
+    const clx_part part = clx_sample_part(m, m->n_test);
     CLX_TRY(clx_passes_run(&part, m->domain, config, result, &passes));
     CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&cell, passes.bins.n_bin, sizeof *cell), NULL));
     const int32_t kind = config->mesh == CLAST_CELLS_AUTO ? CLAST_CELLS_BOXES : config->mesh;
@@ -319,7 +327,7 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     CLAST_ASSERT(of_sample != NULL);
     gather_bins(&passes, cell, &result->cells);
     for (int64_t i = 0; i < m->n; ++i) {
-        of_sample[i] = cell[clx_bins_of(&passes.bins, m->u + i * m->domain->dimension)];
+        of_sample[i] = cell[clx_bins_of(&passes.bins, clx_sample_point(m, i, held))];
     }
     tell_points(m, of_sample, &result->cells);
     memcpy(result->cells.nb, passes.bins.nb, sizeof result->cells.nb);
@@ -517,8 +525,7 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
     clast_status status = CLAST_OK;
     clast_uniformity_config vote;
     double side[3];
-    const clx_part part =
-        clx_part_of(sample->comm, sample->u, sample->n_test, sample->domain->dimension);
+    const clx_part part = clx_sample_part(sample, sample->n_test);
     clx_domain_sides(sample->domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
     CLX_TRY(clx_uniformity_test(&part, side, &vote, found));

@@ -117,7 +117,7 @@ clast_status clx_discrepancy_test(const clx_part *part, clast_sums method,
     double pair[CLAST_N_DISCREPANCY];
     const int32_t d = part->d;
     const double n = (double)part->n_all;
-    CLX_TRY(clx_part_sum(part, part->u, point_terms, &d, 2 * CLAST_N_DISCREPANCY, total));
+    CLX_TRY(clx_part_sum(part, point_terms, &d, 2 * CLAST_N_DISCREPANCY, total));
     CLX_TRY(pair_sums(part, method, pair));
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
         clast_discrepancy *r = &result[k];

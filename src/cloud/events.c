@@ -6,11 +6,13 @@
 #include "base/comm.h"
 #include "cloud/pair_count.h"
 #include "cloud/pair_events.h"
+#include "cloud/place_hash.h"
 #include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <clast/machine.h>
 #include <math.h>
+#include <string.h>
 
 enum { MOST_PARTS = 8, N_POWER = 4 };
 
@@ -97,18 +99,20 @@ static clast_status fill_parts(count *n)
     clast_status status = CLAST_OK;
     const clx_sample *m = n->sample;
     const int32_t d = n->cloud->dimension;
+    double held[3];
     for (int64_t i = 0; i < m->n; ++i) {
-        if (m->number[i] < 0) {
+        const int64_t number = clx_sample_number(m, i);
+        if (number < 0) {
             continue;
         }
-        const int32_t c = n->cells->of_point[m->number[i]];
-        const double w = n->cloud->weight != NULL ? n->cloud->weight[m->number[i]] : 1.0;
+        const int32_t c = n->cells->of_point[number];
+        const double w = n->cloud->weight != NULL ? n->cloud->weight[number] : 1.0;
         CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0",
-                  (long long)m->number[i] + 1, w);
+                  "the weight of point %lld is %g; it must be a number > 0", (long long)number + 1,
+                  w);
         const int32_t k = halved(n->cells, c);
         if (k >= 0) {
-            add_weight(&n->half[k << d | half_of(n->cells, c, m->u + i * d, d)], w);
+            add_weight(&n->half[k << d | half_of(n->cells, c, clx_sample_point(m, i, held), d)], w);
         }
         if (n->cloud->weight != NULL) {
             add_weight(&n->cell[c], w);
@@ -356,20 +360,46 @@ static clx_resolution scaled(clx_resolution shown, double factor)
     return shown;
 }
 
+/// About `most` of the points, by a hash of their places: a sample that does not depend on their
+/// order.
+static clast_status thin_out(const clast_cloud *cloud, int64_t most, clast_cloud *some)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = cloud->dimension;
+    const double share = (double)most / (double)cloud->n;
+    const uint64_t limit = (uint64_t)(share * 0x1p64); // share < 1
+    CLAST_ASSERT(most < cloud->n && cloud->weight == NULL);
+    CLX_TRY(clast_cloud_alloc(cloud->n, d, some));
+    some->n = 0;
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        if (clx_place_hash(cloud->x + i * d, d) < limit) {
+            memcpy(some->x + some->n++ * d, cloud->x + i * d, (size_t)d * sizeof *some->x);
+        }
+    }
+done:
+    return status;
+}
+
 /// Puts what pairs of all distances show in the place of cells that do not resolve the cloud. The
 /// interval is of Poisson points, whose number is one more thing that varies.
-static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_resolution *shown,
-                              clast_decomposition *r)
+static clast_status ask_pairs(const count *n, const clx_ladder *ladder, int64_t most,
+                              clx_resolution *shown, clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
     clast_pairs pairs = {0};
+    clast_cloud some = {0};
+    const bool is_part = most > 0 && n->cloud->n > most && !n->config->pairs;
     clast_pairs_config how;
     const double own = (double)r->n;
     const double factor = own * (own - 1.0);
     CLX_TRY(clast_fields_default(clast_pairs_fields, &how));
     how.radius = n->config->pairs_radius;
     how.outside = n->config->outside;
-    CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, n->cloud, &how, ladder, &pairs));
+    if (is_part) {
+        CLX_TRY(thin_out(n->cloud, most, &some));
+    }
+    CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, is_part ? &some : n->cloud, &how,
+                            is_part ? NULL : ladder, &pairs));
     clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
     if (e.resolved && isinf(pairs.integral.scale) && n->cells->n > 1) { // the tests saw structure
         e.resolved = false;
@@ -377,13 +407,14 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_reso
         pairs.integral.n_needed = INFINITY;
     }
     if (isfinite(e.value)) {
-        *shown = (clx_resolution){.value = factor * e.value,
-                                  .low = factor * e.low,
-                                  .high = factor * e.high,
-                                  .resolved = e.resolved,
-                                  .n_factor = fmin(shown->n_factor, pairs.integral.n_needed / own),
-                                  .halvings = shown->halvings,
-                                  .is_by_pairs = true};
+        *shown = (clx_resolution){
+            .value = factor * e.value,
+            .low = factor * e.low,
+            .high = factor * e.high,
+            .resolved = e.resolved,
+            .n_factor = fmin(shown->n_factor, pairs.integral.n_needed / (double)pairs.n),
+            .halvings = shown->halvings,
+            .is_by_pairs = true};
     }
     if (n->config->pairs) {
         clast_pairs_free(&r->pairs);
@@ -392,6 +423,7 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_reso
     }
 done:
     clast_pairs_free(&pairs);
+    clast_cloud_free(&some);
     return status;
 }
 
@@ -441,7 +473,8 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
     if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
         !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {
         if (cached == NULL || n->config->pairs || !carry_over(cached, &ladder, &found->relative)) {
-            CLX_TRY(ask_pairs(n, &ladder, &found->relative, r));
+            const int64_t most = cached != NULL ? cached->pairs_most : 0;
+            CLX_TRY(ask_pairs(n, &ladder, most, &found->relative, r));
             remember_count(&found->relative, &ladder, cached);
         }
     }

@@ -15,6 +15,7 @@ typedef struct clx_shown {
     clx_resolution relative; ///< value, low and high over that sum
     clx_resolution cells;    ///< the same by cells alone
     bool may_carry;          ///< the caller's: `counted` may stand for a count
+    int64_t pairs_most;      ///< the caller's: points of a count at the most, 0: all
     bool is_counted;         ///< by this call
     clx_counted counted;     ///< the last count
 } clx_shown;

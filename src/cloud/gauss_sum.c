@@ -12,10 +12,12 @@
 enum {
     ROWS_A_BLOCK = 64,
     POINTS_A_BLOCK = 16384,
+    NODES_A_BLOCK = 65536,
     HALF_WIDTH = 26, ///< kernel coefficients kept on each side
     SYSTEM = 40,     ///< half-size of the system that finds them
     CHUNK = 1 << 20, ///< points that are put in order at once
     TILE = 64,       ///< lines that are convolved side by side
+    PLANES = 16,     ///< slabs of axis 0 that are convolved at once
     GROUP = 8, ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
     MARGIN = 2 ///< nodes beyond the outermost points
 };
@@ -107,10 +109,10 @@ typedef struct {
     double low[3];    ///< of node 0
     int64_t nodes[3]; ///< along each axis, 1 beyond d
     int64_t size;
-    int64_t *count;       ///< [size] of this rank's points, then of all
-    double *node, *other; ///< [size], on rank 0
-    int64_t *start;       ///< [nodes[0] + 1] points by slab of axis 0
-    clx_keyed *order;     ///< [CHUNK] points by column
+    int64_t *count;   ///< [size] of this rank's points, then of all
+    double *node;     ///< [size] what was counted, in its memory, on rank 0
+    int64_t *start;   ///< [nodes[0] + 1] points by slab of axis 0
+    clx_keyed *order; ///< [CHUNK] points by column
     double kernel[HALF_WIDTH + 1];
 } grid;
 
@@ -213,41 +215,40 @@ enum { N_SPAN = 64 };
 
 /// Least and greatest coordinates of N_SPAN stretches of points.
 typedef struct {
-    const grid *g;
+    const clx_part *part;
     double low[N_SPAN][3], high[N_SPAN][3];
 } spans;
 
 static void take_spans(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     spans *s = context;
-    const int32_t d = s->g->d;
+    const clx_part *part = s->part;
+    double held[3];
     (void)worker;
     for (int64_t span = begin; span < end; ++span) {
-        for (int32_t j = 0; j < d; ++j) {
-            s->low[span][j] = s->g->y[j];
-            s->high[span][j] = s->g->y[j];
+        for (int32_t j = 0; j < part->d; ++j) {
+            s->low[span][j] = (double)INFINITY;
+            s->high[span][j] = -(double)INFINITY;
         }
-        for (int64_t i = s->g->n * span / N_SPAN; i < s->g->n * (span + 1) / N_SPAN; ++i) {
-            for (int32_t j = 0; j < d; ++j) {
-                const double y = s->g->y[i * d + j];
-                s->low[span][j] = y < s->low[span][j] ? y : s->low[span][j];
-                s->high[span][j] = y > s->high[span][j] ? y : s->high[span][j];
+        for (int64_t i = part->n * span / N_SPAN; i < part->n * (span + 1) / N_SPAN; ++i) {
+            const double *y = clx_part_point(part, i, held);
+            for (int32_t j = 0; j < part->d; ++j) {
+                s->low[span][j] = y[j] < s->low[span][j] ? y[j] : s->low[span][j];
+                s->high[span][j] = y[j] > s->high[span][j] ? y[j] : s->high[span][j];
             }
         }
     }
 }
 
 /// Least and greatest coordinates of all ranks' points.
-static void find_ends(const clx_part *part, grid *g, double low[3], double high[3])
+static void find_ends(const clx_part *part, double low[3], double high[3])
 {
-    spans s = {.g = g};
-    if (part->n > 0) {
-        clx_parallel_for(N_SPAN, 1, take_spans, &s);
-    }
-    for (int32_t j = 0; j < g->d; ++j) {
-        low[j] = part->n > 0 ? s.low[0][j] : (double)INFINITY;
-        high[j] = part->n > 0 ? s.high[0][j] : -(double)INFINITY;
-        for (int span = 1; span < N_SPAN && part->n > 0; ++span) {
+    spans s = {.part = part};
+    clx_parallel_for(N_SPAN, 1, take_spans, &s);
+    for (int32_t j = 0; j < part->d; ++j) {
+        low[j] = s.low[0][j];
+        high[j] = s.high[0][j];
+        for (int span = 1; span < N_SPAN; ++span) {
             low[j] = fmin(low[j], s.low[span][j]);
             high[j] = fmax(high[j], s.high[span][j]);
         }
@@ -262,7 +263,7 @@ static clast_status lay_grid(const clx_part *part, grid *g)
     double low[3] = {0};
     double high[3] = {0};
     g->size = 1;
-    find_ends(part, g, low, high);
+    find_ends(part, low, high);
     for (int32_t j = 0; j < 3; ++j) {
         g->low[j] = 0.0;
         g->nodes[j] = 1;
@@ -287,110 +288,129 @@ done:
     return status;
 }
 
+/// Nodes along an axis across which the memory runs.
 typedef struct {
-    const grid *g;
-    const double *from;
-    double *to;
-    int64_t length, stride; ///< of a line along the axis
-    const double *zero;     ///< [TILE] zeros
-    double *padded;         ///< a row between zeros for each worker
-} convolution;
+    const double *kernel;
+    const double *from; ///< node 0 of the first of neighbouring lines
+    int64_t length, stride;
+} lines;
 
-/// One output node of `width` neighbouring lines, whose nodes lie side by side.
-static void convolve_node(const convolution *c, int64_t start, int64_t i, int64_t width)
+/// Node i of `width` neighbouring lines, at most TILE.
+static void convolve_node(const lines *c, int64_t i, int64_t width, double *to)
 {
-    const double *kernel = c->g->kernel;
-    const double *from = c->from + start;
+    static const double zero[TILE] = {0};
     double sum[TILE];
     for (int64_t l = 0; l < width; ++l) {
-        sum[l] = kernel[0] * from[i * c->stride + l];
+        sum[l] = c->kernel[0] * c->from[i * c->stride + l];
     }
     for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
-        const double *left = i >= m ? from + (i - m) * c->stride : c->zero;
-        const double *right = i + m < c->length ? from + (i + m) * c->stride : c->zero;
+        const double *left = i >= m ? c->from + (i - m) * c->stride : zero;
+        const double *right = i + m < c->length ? c->from + (i + m) * c->stride : zero;
         for (int64_t l = 0; l < width; ++l) {
-            sum[l] += kernel[m] * (left[l] + right[l]);
+            sum[l] += c->kernel[m] * (left[l] + right[l]);
         }
     }
-    memcpy(c->to + start + i * c->stride, sum, (size_t)width * sizeof *sum);
+    memcpy(to, sum, (size_t)width * sizeof *sum);
 }
 
-/// Lines across which the memory runs, TILE of them at a time.
-static void convolve_tiles(int64_t begin, int64_t end, int32_t worker, void *context)
+/// Slabs first .. first + n - 1 of K g.
+typedef struct {
+    const grid *g;
+    int64_t first, n;
+    int64_t plane;      ///< nodes of a slab
+    double *to, *other; ///< [PLANES][plane]; what is convolved lies in `to`
+    double *padded;     ///< a row between zeros for each worker
+} batch;
+
+/// Along axis 0: TILE nodes of all slabs at a time.
+static void convolve_slabs(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    const convolution *c = context;
-    const int64_t n_tile = (c->stride + TILE - 1) / TILE;
+    const batch *b = context;
     (void)worker;
     for (int64_t tile = begin; tile < end; ++tile) {
-        const int64_t first = tile % n_tile * TILE;
-        const int64_t width = c->stride - first < TILE ? c->stride - first : TILE;
-        for (int64_t i = 0; i < c->length; ++i) {
-            convolve_node(c, tile / n_tile * c->stride * c->length + first, i, width);
+        const int64_t first = tile * TILE;
+        const int64_t width = b->plane - first < TILE ? b->plane - first : TILE;
+        const lines c = {b->g->kernel, b->g->node + first, b->g->nodes[0], b->plane};
+        for (int64_t k = 0; k < b->n; ++k) {
+            convolve_node(&c, b->first + k, width, b->to + k * b->plane + first);
+        }
+    }
+}
+
+/// Along axis 1 of a grid in space, from `from` to `to`.
+static void convolve_columns(const grid *g, const double *from, double *to)
+{
+    const int64_t stride = g->nodes[2];
+    for (int64_t first = 0; first < stride; first += TILE) {
+        const int64_t width = stride - first < TILE ? stride - first : TILE;
+        const lines c = {g->kernel, from + first, g->nodes[1], stride};
+        for (int64_t i = 0; i < c.length; ++i) {
+            convolve_node(&c, i, width, to + i * stride + first);
         }
     }
 }
 
 /// Lines along the memory: copied between zeros, so that every node has all its neighbours.
-static void convolve_rows(int64_t begin, int64_t end, int32_t worker, void *context)
+static void convolve_rows(const grid *g, int64_t n, int64_t length, double *padded, double *row)
 {
-    const convolution *c = context;
-    double *padded = c->padded + worker * (c->length + 2 * HALF_WIDTH);
-    for (int64_t row = begin; row < end; ++row) {
-        double *to = c->to + row * c->length;
-        memcpy(padded + HALF_WIDTH, c->from + row * c->length, (size_t)c->length * sizeof *padded);
-        for (int64_t i = 0; i < c->length; ++i) {
-            to[i] = c->g->kernel[0] * padded[HALF_WIDTH + i];
+    for (; n > 0; --n, row += length) {
+        memcpy(padded + HALF_WIDTH, row, (size_t)length * sizeof *row);
+        for (int64_t i = 0; i < length; ++i) {
+            row[i] = g->kernel[0] * padded[HALF_WIDTH + i];
         }
         for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
-            const double weight = c->g->kernel[m];
+            const double weight = g->kernel[m];
             const double *left = padded + HALF_WIDTH - m;
             const double *right = padded + HALF_WIDTH + m;
-            for (int64_t i = 0; i < c->length; ++i) {
-                to[i] += weight * (left[i] + right[i]);
+            for (int64_t i = 0; i < length; ++i) {
+                row[i] += weight * (left[i] + right[i]);
             }
         }
     }
 }
 
-static clast_status convolve(convolution *c)
+/// Along axes 1 and 2, slab by slab.
+static void convolve_within(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    clast_status status = CLAST_OK;
-    if (c->stride == 1) {
-        CLX_TRY(clx_alloc(&c->padded, clx_parallel_workers() * (c->length + 2 * HALF_WIDTH),
-                          sizeof *c->padded));
-        clx_parallel_for(c->g->size / c->length, 16, convolve_rows, c);
-    } else {
-        const int64_t n_tile = (c->stride + TILE - 1) / TILE;
-        clx_parallel_for(c->g->size / (c->length * c->stride) * n_tile, 1, convolve_tiles, c);
+    const batch *b = context;
+    const grid *g = b->g;
+    const int64_t length = g->nodes[g->d - 1];
+    double *padded = b->padded + worker * (length + 2 * HALF_WIDTH);
+    for (int64_t k = begin; k < end; ++k) {
+        double *slab = b->to + k * b->plane;
+        if (g->d == 3) {
+            double *held = b->other + k * b->plane;
+            memcpy(held, slab, (size_t)b->plane * sizeof *slab);
+            convolve_columns(g, held, slab);
+        }
+        convolve_rows(g, b->plane / length, length, padded, slab);
     }
-done:
-    clx_free(c->padded);
-    return status;
 }
 
-/// (g, K g): one axis at a time; the last axis is needed only as a sum.
-static clast_status quadratic_form(grid *g, double *sum)
+/// (g, K g), added in the order of the nodes, with room for some slabs of K g alone.
+static clast_status quadratic_form(const grid *g, double *sum)
 {
     clast_status status = CLAST_OK;
-    double *spare = NULL;
-    double *from = g->node;
-    double *to = g->other;
-    int64_t stride = g->size;
-    const double zero[TILE] = {0};
-    CLX_TRY(clx_alloc(&spare, g->d > 1 ? g->size : 1, sizeof *spare));
-    for (int32_t j = 0; j < g->d; ++j) {
-        stride /= g->nodes[j];
-        convolution c = {g, from, to, g->nodes[j], stride, zero, NULL};
-        CLX_TRY(convolve(&c));
-        from = to;
-        to = to == g->other ? spare : g->other;
-    }
+    batch b = {.g = g, .plane = g->size / g->nodes[0]};
+    const int64_t length = g->nodes[g->d - 1] + 2 * HALF_WIDTH;
+    CLX_TRY(clx_alloc(&b.to, PLANES * b.plane, sizeof *b.to));
+    CLX_TRY(clx_alloc(&b.other, g->d == 3 ? PLANES * b.plane : 0, sizeof *b.other));
+    CLX_TRY(clx_alloc(&b.padded, clx_parallel_workers() * length, sizeof *b.padded));
     *sum = 0.0;
-    for (int64_t i = 0; i < g->size; ++i) {
-        *sum += g->node[i] * from[i];
+    for (; b.first < g->nodes[0]; b.first += PLANES) {
+        b.n = g->nodes[0] - b.first < PLANES ? g->nodes[0] - b.first : PLANES;
+        clx_parallel_for((b.plane + TILE - 1) / TILE, 4, convolve_slabs, &b);
+        if (g->d > 1) {
+            clx_parallel_for(b.n, 1, convolve_within, &b);
+        }
+        for (int64_t i = 0; i < b.n * b.plane; ++i) {
+            *sum += g->node[b.first * b.plane + i] * b.to[i];
+        }
     }
 done:
-    clx_free(spare);
+    clx_free(b.to);
+    clx_free(b.other);
+    clx_free(b.padded);
     return status;
 }
 
@@ -398,9 +418,16 @@ done:
 static clast_status spread(const clx_part *part, grid *g)
 {
     clast_status status = CLAST_OK;
+    double *made = NULL;
+    if (part->u == NULL) {
+        CLX_TRY(clx_alloc(&made, (part->n < CHUNK ? part->n : CHUNK) * g->d, sizeof *made));
+    }
     for (int64_t at = 0; at < part->n; at += CHUNK) {
-        g->y = part->u + at * g->d;
         g->n = part->n - at < CHUNK ? part->n - at : CHUNK;
+        g->y = part->u != NULL ? part->u + at * g->d : made;
+        if (made != NULL) {
+            clx_part_copy(part, at, g->n, made);
+        }
         CLX_TRY(sort_by_column(g));
         for (int parity = 0; parity < 2; ++parity) {
             colour c = {g, parity};
@@ -408,23 +435,28 @@ static clast_status spread(const clx_part *part, grid *g)
         }
     }
 done:
+    clx_free(made);
     return status;
+}
+
+/// What was counted as numbers, in the same memory.
+static void take_nodes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const grid *g = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double value = (double)g->count[i] / g->unit;
+        memcpy(g->count + i, &value, sizeof value);
+    }
 }
 
 /// The quadratic form of all ranks' nodes, on rank 0.
 static clast_status evaluate(grid *g, double *sum)
 {
-    clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc(&g->node, g->size, sizeof *g->node));
-    for (int64_t i = 0; i < g->size; ++i) {
-        g->node[i] = (double)g->count[i] / g->unit;
-    }
-    clx_free(g->count);
+    clx_parallel_for(g->size, NODES_A_BLOCK, take_nodes, g);
+    g->node = (void *)g->count;
     g->count = NULL;
-    CLX_TRY(clx_alloc(&g->other, g->size, sizeof *g->other));
-    CLX_TRY(quadratic_form(g, sum));
-done:
-    return status;
+    return quadratic_form(g, sum);
 }
 
 /// A power of two that lets n weights of at most 1 be added in 62 bits.
@@ -441,11 +473,7 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
 {
     CLAST_ASSERT(part->n_all > 0 && part->d >= 1 && part->d <= 3 && beta > 0.0);
     clast_status status = CLAST_OK;
-    grid g = {.y = part->u,
-              .n = part->n,
-              .d = part->d,
-              .h = SPACING / beta,
-              .unit = unit_of(part->n_all)};
+    grid g = {.d = part->d, .h = SPACING / beta, .unit = unit_of(part->n_all)};
     kernel_coefficients(g.kernel);
     CLX_TRY(lay_grid(part, &g));
     CLX_TRY(clast_comm_agree(part->comm, spread(part, &g), NULL));
@@ -462,7 +490,6 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
 done:
     clx_free(g.count);
     clx_free(g.node);
-    clx_free(g.other);
     clx_free(g.start);
     clx_free(g.order);
     return status;

@@ -13,28 +13,39 @@
 
 enum { EXACT_LIMIT = 2000, POINTS_A_BLOCK = 16384 };
 
+/// What scores are made of, and what sums over them need.
 typedef struct {
-    const double *u;
+    const clx_part *part;
     int32_t d;
-    double *y;
-} score_context;
-
-static void take_scores(int64_t begin, int64_t end, int32_t worker, void *context)
-{
-    const score_context *c = context;
-    (void)worker;
-    for (int64_t i = begin * c->d; i < end * c->d; ++i) {
-        c->y[i] = clx_normal_quantile(fmin(fmax(c->u[i], 0x1p-53), 1.0 - 0x1p-53));
-    }
-}
-
-/// What sums over the scores need.
-typedef struct {
-    int32_t d;
+    bool is_white; ///< centre and l are known, and scores are made whitened
     double centre[3];
     double l[3][3]; ///< Cholesky factor
     double narrow;  ///< of the exponential
 } scores;
+
+static void whiten(const scores *c, double *y)
+{
+    for (int32_t a = 0; a < c->d; ++a) {
+        double sum = y[a] - c->centre[a];
+        for (int32_t b = 0; b < a; ++b) {
+            sum -= c->l[a][b] * y[b];
+        }
+        y[a] = sum / c->l[a][a];
+    }
+}
+
+static void make_score(const void *context, int64_t i, double *y)
+{
+    const scores *c = context;
+    double held[3];
+    const double *u = clx_part_point(c->part, i, held);
+    for (int32_t j = 0; j < c->d; ++j) {
+        y[j] = clx_normal_quantile(fmin(fmax(u[j], 0x1p-53), 1.0 - 0x1p-53));
+    }
+    if (c->is_white) {
+        whiten(c, y);
+    }
+}
 
 static void score_terms(const double *y, clx_exact_sum *sum, const void *context)
 {
@@ -55,17 +66,16 @@ static void product_terms(const double *y, clx_exact_sum *sum, const void *conte
 }
 
 /// Mean, then covariance about it.
-static clast_status moments(const clx_part *part, const double *y, scores *c,
-                            clast_henze_zirkler *r)
+static clast_status moments(const clx_part *part, scores *c, clast_henze_zirkler *r)
 {
     clast_status status = CLAST_OK;
     double product[3][3];
-    CLX_TRY(clx_part_sum(part, y, score_terms, c, 3, c->centre));
+    CLX_TRY(clx_part_sum(part, score_terms, c, 3, c->centre));
     for (int32_t j = 0; j < c->d; ++j) {
         c->centre[j] /= (double)part->n_all;
         r->centre[j] = c->centre[j];
     }
-    CLX_TRY(clx_part_sum(part, y, product_terms, c, 9, product[0]));
+    CLX_TRY(clx_part_sum(part, product_terms, c, 9, product[0]));
     for (int32_t a = 0; a < c->d; ++a) {
         for (int32_t b = 0; b <= a; ++b) {
             r->covariance[a][b] = product[a][b] / (double)part->n_all;
@@ -107,17 +117,9 @@ typedef struct {
 static void whiten_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const whitening *w = context;
-    const scores *c = w->scores;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        double *y = w->y + i * c->d;
-        for (int32_t a = 0; a < c->d; ++a) {
-            double sum = y[a] - c->centre[a];
-            for (int32_t b = 0; b < a; ++b) {
-                sum -= c->l[a][b] * y[b];
-            }
-            y[a] = sum / c->l[a][a];
-        }
+        whiten(w->scores, w->y + i * w->scores->d);
     }
 }
 
@@ -151,24 +153,23 @@ static void null_law(double b2, int32_t dimension, clast_henze_zirkler *r)
 }
 
 /// Sum over pairs of whitened scores: one by one of a few, else on a grid.
-static clast_status pair_sum(const clx_part *part, double *y, clast_sums sums, double beta,
-                             double *pairs)
+static clast_status pair_sum(const clx_part *white, clast_sums sums, double beta, double *pairs)
 {
     clast_status status = CLAST_OK;
     double *all = NULL;
-    const clx_part white = {part->comm, y, part->n, part->n_all, part->d};
-    if (sums == CLAST_SUMS_EXACT || (sums == CLAST_SUMS_AUTO && part->n_all <= EXACT_LIMIT)) {
-        CLX_TRY(clx_part_share(&white, &all));
-        status = clx_gauss_sum_exact(all, part->n_all, part->d, beta, pairs);
-        CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    if (sums == CLAST_SUMS_EXACT || (sums == CLAST_SUMS_AUTO && white->n_all <= EXACT_LIMIT)) {
+        CLX_TRY(clx_part_share(white, &all));
+        status = clx_gauss_sum_exact(all, white->n_all, white->d, beta, pairs);
+        CLX_TRY(clast_comm_agree(white->comm, status, NULL));
     } else {
-        CLX_TRY(clx_gauss_sum_gridded(&white, beta, pairs));
+        CLX_TRY(clx_gauss_sum_gridded(white, beta, pairs));
     }
 done:
     clx_free(all);
     return status;
 }
 
+/// @param y  the scores of `part` where they are kept: they become white
 static clast_status statistic(const clx_part *part, double *y, clast_sums sums, scores *c,
                               clast_henze_zirkler *r)
 {
@@ -180,9 +181,12 @@ static clast_status statistic(const clx_part *part, double *y, clast_sums sums, 
     const double b2 = r->beta * r->beta;
     whitening w = {c, y};
     c->narrow = b2 / (2.0 * (1.0 + b2));
-    clx_parallel_for(part->n, POINTS_A_BLOCK, whiten_block, &w);
-    CLX_TRY(clx_part_sum(part, y, gauss_terms, c, 1, &singles));
-    CLX_TRY(pair_sum(part, y, sums, r->beta, &pairs));
+    c->is_white = true;
+    if (y != NULL) {
+        clx_parallel_for(part->n, POINTS_A_BLOCK, whiten_block, &w);
+    }
+    CLX_TRY(clx_part_sum(part, gauss_terms, c, 1, &singles));
+    CLX_TRY(pair_sum(part, sums, r->beta, &pairs));
     r->HZ = pairs / n - 2.0 * pow(1.0 + b2, -d / 2.0) * singles + n * pow(1.0 + 2.0 * b2, -d / 2.0);
 done:
     return status;
@@ -195,16 +199,25 @@ clast_status clx_henze_zirkler_test(const clx_part *part, clast_sums sums,
     clast_henze_zirkler made = {0};
     const int32_t d = part->d;
     const double n = (double)part->n_all;
-    score_context context = {part->u, d, NULL};
-    scores c = {.d = d};
-    CLX_TRY(
-        clast_comm_agree(part->comm, clx_alloc(&context.y, part->n * d, sizeof *context.y), NULL));
-    clx_parallel_for(part->n, POINTS_A_BLOCK, take_scores, &context);
+    double *y = NULL;
+    scores c = {.part = part, .d = d};
+    clx_part score = *part;
+    score.u = NULL;
+    score.make = make_score;
+    score.context = &c;
+    if (part->u != NULL) { // where places are made when they are asked for, so are scores
+        status = clx_alloc(&y, part->n * d, sizeof *y);
+    }
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    if (y != NULL) {
+        clx_part_copy(&score, 0, part->n, y);
+        score.u = y;
+    }
     made.beta = pow((2.0 * d + 1.0) * n / 4.0, 1.0 / (d + 4.0)) / sqrt(2.0);
     null_law(made.beta * made.beta, d, &made);
-    CLX_TRY(moments(part, context.y, &c, &made));
+    CLX_TRY(moments(&score, &c, &made));
     if (factor(made.covariance, d, c.l)) {
-        CLX_TRY(statistic(part, context.y, sums, &c, &made));
+        CLX_TRY(statistic(&score, y, sums, &c, &made));
     } else {
         made.HZ = 4.0 * n;
     }
@@ -213,7 +226,7 @@ clast_status clx_henze_zirkler_test(const clx_part *part, clast_sums sums,
     made.p_paper = clx_normal_sf(log(made.HZ));
     *result = made;
 done:
-    clx_free(context.y);
+    clx_free(y);
     return status;
 }
 

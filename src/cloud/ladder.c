@@ -24,7 +24,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { N_SHIFT = 5, DEEPEST = 18, POINTS_A_BLOCK = 16384 };
+enum { N_SHIFT = 5, DEEPEST = 18, POINTS_A_BLOCK = 16384, AHEAD = 16 };
 
 /// A rung needs so many pairs beside those of repeated points: less say nothing.
 static const double least_pairs = 4.0;
@@ -37,7 +37,7 @@ static const double enough_pairs = 500.0;
 static const double least_part = 0.02;
 
 /// Points that tell the covariance: a stratified sample of so many errs by less than 1 %.
-enum { ENOUGH = 32768 };
+enum { ENOUGH = 32768, MOST_WHOLE = 2 * ENOUGH };
 
 /// Bits of a code by which sampled ones are looked up.
 enum { LOOK_UP_BITS = 16 };
@@ -67,7 +67,7 @@ typedef struct {
                       ///< both
     int64_t next;     ///< of in_grid: those before have been met or passed
     double *met;      ///< [n_some][rungs] weight of its neighbours over volume, summed over shifts
-    double *met_here; ///< the same of one grid
+    double *met_here; ///< the same of one grid, NULL on a single rank
     clx_ladder *ladder;
     double sum[CLX_LADDER_RUNGS], inverse[CLX_LADDER_RUNGS]; ///< weight and 1 / volume of the cells
                                                              ///< of the branch that is walked
@@ -176,11 +176,16 @@ static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
     while (w->next < w->n_some && w->in_grid[w->next].key < cell->low) {
         ++w->next;
     }
+    double *all = w->met_here != NULL ? w->met_here : w->met;
+    const int32_t n = w->ladder->n;
     for (; w->next < w->n_some && w->in_grid[w->next].key < end; ++w->next) {
         const int64_t item = (int64_t)w->in_grid[w->next].item;
-        double *met = w->met_here + item * CLX_LADDER_RUNGS;
+        const int64_t later = w->next + AHEAD < w->n_some ? w->next + AHEAD : w->next;
+        const double own = w->weight != NULL ? w->some[item].own : 1.0;
+        double *met = all + item * n;
+        __builtin_prefetch(all + (int64_t)w->in_grid[later].item * n, 1);
         for (int32_t q = 0; q <= r && cell->is_counted; ++q) {
-            met[q] = (w->sum[q] - w->some[item].own) * w->inverse[q];
+            met[q] += (w->sum[q] - own) * w->inverse[q];
         }
     }
 }
@@ -299,17 +304,19 @@ typedef struct {
     const ladder_walk *w;
     clx_keyed *keyed; ///< where points have weights
     uint64_t *code;
+    int shift; ///< bits that are left out
 } code_context;
 
 static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const code_context *c = context;
     const clx_sample *s = c->w->sample;
-    const int32_t d = c->w->ladder->d;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const bool is_real = s->number[i] >= 0;
-        const uint64_t code = is_real ? code_of(c->w, s->u + i * d) : UINT64_MAX;
+        const bool is_real = clx_sample_number(s, i) >= 0;
+        const uint64_t code =
+            is_real ? code_of(c->w, clx_sample_point(s, i, held)) >> c->shift : UINT64_MAX;
         if (c->keyed != NULL) {
             c->keyed[i] = (clx_keyed){code, (uint64_t)i};
         } else {
@@ -329,7 +336,7 @@ static clast_status order_weighted(ladder_walk *w, clx_keyed *keyed, uint64_t *c
     CLX_TRY(clx_alloc(&w->own, s->n, sizeof *w->own));
     for (int64_t i = 0; i < s->n; ++i) {
         code[i] = keyed[i].key;
-        const int64_t number = s->number[keyed[i].item];
+        const int64_t number = clx_sample_number(s, (int64_t)keyed[i].item);
         w->own[i] = number >= 0 ? w->weight[number] : 0.0;
     }
 done:
@@ -387,12 +394,14 @@ static ladder_cell cell_of_all(const ladder_walk *w)
     return all;
 }
 
-/// Points of the grid whose shift is set, in order.
-static clast_status order_points(ladder_walk *w)
+/// Points of grid m, whose shift is set, in order: all bits of the first, which is looked at to the
+/// deepest cells, of the others those of the deepest rung. With weights all bits, for their order.
+static clast_status order_points(ladder_walk *w, int m)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    code_context c = {w, NULL, NULL};
+    const bool is_deep = m == 0 || w->weight != NULL;
+    code_context c = {w, NULL, NULL, is_deep ? 0 : bits_below(w, w->ladder->first + w->ladder->n)};
     const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
     clx_ranked_free(&w->point);
     status = clx_alloc(&c.code, s->n, sizeof *c.code);
@@ -407,7 +416,13 @@ static clast_status order_points(ladder_walk *w)
     clx_free(c.keyed);
     c.keyed = NULL;
     const int64_t n = leave_out_ghosts(s, c.code);
-    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit, &w->point));
+    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit >> c.shift, &w->point));
+    for (int64_t i = 0; c.shift > 0 && i < w->point.n; ++i) {
+        w->point.key[i] <<= c.shift;
+    }
+    for (int32_t k = 0; k <= w->comm->n_rank; ++k) {
+        w->point.first[k] <<= c.shift;
+    }
     CLX_TRY(count_shared(w));
 done:
     clx_free(c.keyed);
@@ -438,6 +453,52 @@ static bool is_before(const sampled *a, const sampled *b, int32_t d)
     return a->own < b->own;
 }
 
+/// Gives codes that some points share the first of these points.
+static void merge_repeated(ladder_walk *w)
+{
+    w->sorts_once = true;
+    for (int64_t i = 0, next = 0; i < w->n_some; i = next) {
+        sampled first = w->some[i];
+        for (next = i + 1; next < w->n_some && w->some[next].code == first.code; ++next) {
+            first = is_before(&w->some[next], &first, w->ladder->d) ? w->some[next] : first;
+            w->sorts_once = false;
+        }
+        for (; i < next; ++i) {
+            w->some[i] = first;
+        }
+    }
+}
+
+/// Points of grid 0 in order, of a single rank that samples them all: each is found by its number.
+static clast_status order_whole(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    const clx_sample *s = w->sample;
+    const int32_t d = w->ladder->d;
+    uint64_t *code = NULL;
+    CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
+    for (int64_t i = 0; i < s->n; ++i) {
+        if (s->number[i] >= 0) {
+            w->in_grid[w->n_some++] = (clx_keyed){code_of(w, s->u + i * d), (uint64_t)i};
+        }
+    }
+    CLX_TRY(clx_sort_keyed(w->in_grid, w->n_some));
+    CLX_TRY(clx_alloc(&code, w->n_some, sizeof *code));
+    CLX_TRY(clx_alloc(&w->some, w->n_some, sizeof *w->some));
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        code[i] = w->in_grid[i].key;
+        w->some[i] = (sampled){.code = code[i], .own = 1.0};
+        memcpy(w->some[i].u, s->u + (int64_t)w->in_grid[i].item * d,
+               (size_t)d * sizeof *w->some[i].u);
+    }
+    CLX_TRY(clx_ranked_of_sorted(&code, w->n_some, UINT64_C(1) << bits_below(w, 0), &w->point));
+    CLX_TRY(count_shared(w));
+    merge_repeated(w);
+done:
+    clx_free(code);
+    return status;
+}
+
 /// First sampled point with each value of the leading bits of a code; first [2^LOOK_UP_BITS + 1].
 static void index_sampled(const ladder_walk *w, int shift, int64_t *first)
 {
@@ -460,16 +521,19 @@ static clast_status find_sampled(ladder_walk *w)
     const int bits = bits_below(w, 0);
     const int shift = bits > LOOK_UP_BITS ? bits - LOOK_UP_BITS : 0;
     int64_t *first = NULL;
+    double held[3];
     CLX_TRY(clast_comm_agree(
         w->comm, clx_alloc(&first, (INT64_C(1) << LOOK_UP_BITS) + 1, sizeof *first), NULL));
     index_sampled(w, shift, first);
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] < 0) {
+        const int64_t number = clx_sample_number(s, i);
+        if (number < 0) {
             continue;
         }
-        sampled own = {.code = code_of(w, s->u + i * d), .own = 1.0};
-        memcpy(own.u, s->u + i * d, (size_t)d * sizeof *own.u);
-        own.own = w->weight != NULL ? w->weight[s->number[i]] : 1.0;
+        const double *u = clx_sample_point(s, i, held);
+        sampled own = {.code = code_of(w, u), .own = 1.0};
+        memcpy(own.u, u, (size_t)d * sizeof *own.u);
+        own.own = w->weight != NULL ? w->weight[number] : 1.0;
         int64_t at = first[own.code >> shift];
         int64_t end = first[(own.code >> shift) + 1];
         while (at < end) {
@@ -505,11 +569,8 @@ static clast_status merge_sampled(ladder_walk *w)
         sampled *own = &w->some[i % w->n_some];
         *own = is_before(&other, own, d) ? other : *own;
     }
-    w->sorts_once = w->comm->n_rank == 1 && w->weight == NULL && w->n_some == w->point.n;
     for (int64_t i = 1; i < w->n_some; ++i) { // found under the first of equal codes
-        const bool is_repeated = w->some[i].code == w->some[i - 1].code;
-        w->some[i] = is_repeated ? w->some[i - 1] : w->some[i];
-        w->sorts_once = w->sorts_once && !is_repeated;
+        w->some[i] = w->some[i].code == w->some[i - 1].code ? w->some[i - 1] : w->some[i];
     }
 done:
     clx_gathered_free(&all);
@@ -524,7 +585,7 @@ static clast_status take_sample(ladder_walk *w)
     int thin = 0;
     clx_gathered all = {0};
     sampled *own = NULL;
-    while (w->n_all >> thin >= 2 * ENOUGH) {
+    while (w->n_all >> thin >= MOST_WHOLE) {
         ++thin;
     }
     const clx_ranked *p = &w->point;
@@ -541,42 +602,59 @@ static clast_status take_sample(ladder_walk *w)
     all = (clx_gathered){0};
     CLX_TRY(find_sampled(w));
     CLX_TRY(merge_sampled(w));
-    status = clx_alloc(&w->in_grid, w->n_some, sizeof *w->in_grid);
-    if (status == CLAST_OK) {
-        status = clx_alloc(&w->met, w->n_some * CLX_LADDER_RUNGS, sizeof *w->met);
-    }
-    if (status == CLAST_OK) {
-        status = clx_alloc(&w->met_here, w->n_some * CLX_LADDER_RUNGS, sizeof *w->met_here);
-    }
-    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&w->in_grid, w->n_some, sizeof *w->in_grid), NULL));
 done:
     clx_gathered_free(&all);
     clx_free(own);
     return status;
 }
 
-/// Sampled points of the grid whose shift is set, in order.
-static clast_status order_sampled(ladder_walk *w)
+static clast_status alloc_met(ladder_walk *w)
 {
-    for (int64_t i = 0; i < w->n_some; ++i) {
-        w->in_grid[i] = (clx_keyed){code_of(w, w->some[i].u), (uint64_t)i};
+    const int64_t size = w->n_some * w->ladder->n;
+    clast_status status = clx_alloc(&w->met, size, sizeof *w->met);
+    if (status == CLAST_OK && w->comm->n_rank > 1) {
+        status = clx_alloc(&w->met_here, size, sizeof *w->met_here);
     }
-    return clast_comm_agree(w->comm, clx_sort_keyed(w->in_grid, w->n_some), NULL);
+    return clast_comm_agree(w->comm, status, NULL);
 }
 
-/// What sampled points have met on all ranks in this grid; each was met on one of them.
+/// Sampled points of the grid whose shift is set, in the order of the deepest cells. They are along
+/// the curve of grid 0.
+static clast_status order_sampled(ladder_walk *w, int m)
+{
+    clast_status status = CLAST_OK;
+    const int shift = bits_below(w, w->ladder->first + w->ladder->n);
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        const uint64_t code = m == 0 ? w->some[i].code : code_of(w, w->some[i].u);
+        w->in_grid[i] = (clx_keyed){code >> shift, (uint64_t)i};
+    }
+    if (m > 0) {
+        status = clast_comm_agree(w->comm, clx_sort_keyed(w->in_grid, w->n_some), NULL);
+    }
+    for (int64_t i = 0; i < w->n_some; ++i) {
+        w->in_grid[i].key <<= shift;
+    }
+    return status;
+}
+
+/// Adds what sampled points have met on all ranks in this grid; each was met on one of them.
 static clast_status share_met(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
-    const int64_t size = w->n_some * CLX_LADDER_RUNGS;
+    const int64_t size = w->n_some * w->ladder->n;
     int64_t *bits = NULL;
-    if (w->comm->n_rank == 1 || size == 0) {
+    if (w->met_here == NULL || size == 0) {
         return CLAST_OK;
     }
     CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&bits, size, sizeof *bits), NULL));
     memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
     clx_comm_sum(w->comm, bits, size); // of all ranks' numbers one is not 0
     memcpy(w->met_here, bits, (size_t)size * sizeof *bits);
+    for (int64_t i = 0; i < size; ++i) {
+        w->met[i] += w->met_here[i];
+    }
+    memset(w->met_here, 0, (size_t)size * sizeof *w->met_here);
 done:
     clx_free(bits);
     return status;
@@ -586,23 +664,18 @@ done:
 static clast_status walk_grid(ladder_walk *w, int m)
 {
     clast_status status = CLAST_OK;
-    const int64_t size = w->n_some * CLX_LADDER_RUNGS;
     set_shift(w, m);
     if (m > 0 && !w->sorts_once) {
-        CLX_TRY(order_points(w));
+        CLX_TRY(order_points(w, m));
     }
-    CLX_TRY(order_sampled(w));
+    CLX_TRY(order_sampled(w, m));
     for (int64_t i = 0; w->sorts_once && i < w->n_some; ++i) {
         w->point.key[i] = w->in_grid[i].key;
     }
-    memset(w->met_here, 0, (size_t)size * sizeof *w->met_here);
     w->next = 0;
     ladder_cell all = cell_of_all(w);
     visit(w, &all);
     CLX_TRY(share_met(w));
-    for (int64_t i = 0; i < size; ++i) {
-        w->met[i] += w->met_here[i];
-    }
 done:
     return status;
 }
@@ -613,7 +686,7 @@ static void add_thrice(const ladder_walk *w, double thrice[CLX_LADDER_RUNGS][CLX
     const double weight = w->n_some > 0 ? (double)w->n_all / (double)w->n_some : 0.0;
     for (int64_t i = 0; i < w->n_some; ++i) {
         const double square = weight * w->some[i].own * w->some[i].own;
-        const double *met = w->met + i * CLX_LADDER_RUNGS;
+        const double *met = w->met + i * w->ladder->n;
         for (int32_t r = 0; r < w->ladder->n && met[r] > 0.0; ++r) {
             const double own = square * met[r];
             for (int32_t q = 0; q <= r; ++q) {
@@ -663,14 +736,17 @@ static void set_sizes(ladder_walk *w)
 static clast_status count(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
+    const bool is_whole =
+        w->comm->n_rank == 1 && w->weight == NULL && w->sample->n_real < MOST_WHOLE;
     set_shift(w, 0);
-    CLX_TRY(order_points(w));
+    CLX_TRY(is_whole ? order_whole(w) : order_points(w, 0));
     ladder_cell all = cell_of_all(w);
     w->n_all = w->point.n_all;
     tally(w, &all);
     clx_comm_sum(w->comm, w->tally, DEEPEST + 1);
     choose_rungs(w, w->ladder);
-    CLX_TRY(take_sample(w));
+    CLX_TRY(is_whole ? CLAST_OK : take_sample(w));
+    CLX_TRY(alloc_met(w));
     for (int m = 0; m < N_SHIFT && w->n_all > 1; ++m) {
         CLX_TRY(walk_grid(w, m));
     }

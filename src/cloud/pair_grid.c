@@ -30,7 +30,7 @@ static int32_t cells_an_axis(int32_t d)
 }
 
 typedef struct {
-    const double *u;
+    const clx_part *points;
     int64_t n, size; ///< points; moments in the tensor, (2 G)^d
     int32_t d, g;
     int n_chunk;
@@ -102,10 +102,11 @@ static void add_point(tensor *t, int32_t chunk, const double *x)
 static void add_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     tensor *t = context;
+    double held[3];
     (void)worker;
     for (int64_t chunk = begin; chunk < end; ++chunk) {
         for (int64_t i = t->n * chunk / t->n_chunk; i < t->n * (chunk + 1) / t->n_chunk; ++i) {
-            add_point(t, (int32_t)chunk, t->u + i * t->d);
+            add_point(t, (int32_t)chunk, clx_part_point(t->points, i, held));
         }
     }
 }
@@ -271,7 +272,7 @@ clast_status clx_pair_sums_binned(const clx_part *part, double sum[CLAST_N_DISCR
     double *b = NULL;
     status = clx_alloc(&t, 1, sizeof *t);
     if (status == CLAST_OK) {
-        *t = (tensor){.u = part->u,
+        *t = (tensor){.points = part,
                       .n = part->n,
                       .d = d,
                       .g = cells_an_axis(d),

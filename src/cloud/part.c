@@ -13,12 +13,37 @@ enum { POINTS_A_BLOCK = 16384 };
 
 clx_part clx_part_whole(const double *u, int64_t n, int32_t d)
 {
-    return (clx_part){clast_comm_one(), u, n, n, d};
+    return (clx_part){.comm = clast_comm_one(), .u = u, .n = n, .n_all = n, .d = d};
 }
 
 clx_part clx_part_of(const clast_comm *comm, const double *u, int64_t n, int32_t d)
 {
-    return (clx_part){comm, u, n, clx_comm_total(comm, n), d};
+    return (clx_part){.comm = comm, .u = u, .n = n, .n_all = clx_comm_total(comm, n), .d = d};
+}
+
+typedef struct {
+    const clx_part *part;
+    int64_t begin;
+    double *u;
+} copy_context;
+
+static void copy_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const copy_context *c = context;
+    const int32_t d = c->part->d;
+    double held[3];
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double *place = clx_part_point(c->part, c->begin + i, held);
+        memcpy(c->u + i * d, place, (size_t)d * sizeof *place);
+    }
+}
+
+void clx_part_copy(const clx_part *part, int64_t begin, int64_t n, double *u)
+{
+    copy_context c = {part, begin, u};
+    CLAST_ASSERT(begin >= 0 && begin + n <= part->n);
+    clx_parallel_for(n, POINTS_A_BLOCK, copy_block, &c);
 }
 
 static int by_place(const void *a, const void *b, int32_t d)
@@ -48,32 +73,75 @@ static int by_place3(const void *a, const void *b)
     return by_place(a, b, 3);
 }
 
-clast_status clx_part_share(const clx_part *part, double **u)
+/// Key in the order of the numbers; -0 is 0.
+static uint64_t ordered_key(double value)
+{
+    const double own = value + 0.0;
+    uint64_t bits = 0;
+    memcpy(&bits, &own, sizeof bits);
+    return (bits >> 63) != 0 ? ~bits : bits | (UINT64_C(1) << 63);
+}
+
+/// Points [n][d] by their first coordinate, those with one in common by the others.
+static clast_status sort_places(const double *u, int64_t n, int32_t d, double *sorted)
 {
     static int (*const order[3])(const void *, const void *) = {by_place1, by_place2, by_place3};
     clast_status status = CLAST_OK;
+    const size_t size = (size_t)d * sizeof *u;
+    clx_keyed *entry = NULL;
+    CLX_TRY(clx_alloc(&entry, n, sizeof *entry));
+    for (int64_t i = 0; i < n; ++i) {
+        entry[i] = (clx_keyed){ordered_key(u[i * d]), (uint64_t)i};
+    }
+    CLX_TRY(clx_sort_keyed(entry, n));
+    for (int64_t i = 0; i < n; ++i) {
+        memcpy(sorted + i * d, u + (int64_t)entry[i].item * d, size);
+    }
+    for (int64_t i = 0, next = 0; i < n; i = next) {
+        for (next = i + 1; next < n && entry[next].key == entry[i].key; ++next) {
+        }
+        if (next > i + 1) {
+            qsort(sorted + i * d, (size_t)(next - i), size, order[d - 1]);
+        }
+    }
+done:
+    clx_free(entry);
+    return status;
+}
+
+clast_status clx_part_share(const clx_part *part, double **u)
+{
+    clast_status status = CLAST_OK;
     clx_gathered all = {0};
     double *made = NULL;
-    const size_t size = (size_t)part->d * sizeof *made;
-    CLX_TRY(clx_comm_share(part->comm, part->u, part->n * (int64_t)size, &all));
-    CLAST_ASSERT(all.n == part->n_all * (int64_t)size);
-    CLX_TRY(
-        clast_comm_agree(part->comm, clx_alloc(&made, part->n_all * part->d, sizeof *made), NULL));
-    if (all.n > 0) {
-        memcpy(made, all.bytes, (size_t)all.n);
+    double *own = NULL;
+    const int64_t size = part->d * (int64_t)sizeof *made;
+    if (part->u == NULL) {
+        status = clx_alloc(&own, part->n * part->d, sizeof *own);
     }
-    qsort(made, (size_t)part->n_all, size, order[part->d - 1]);
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    if (own != NULL) {
+        clx_part_copy(part, 0, part->n, own);
+    }
+    CLX_TRY(clx_comm_share(part->comm, own != NULL ? own : part->u, part->n * size, &all));
+    CLAST_ASSERT(all.n == part->n_all * size);
+    status = clx_alloc(&made, part->n_all * part->d, sizeof *made);
+    if (status == CLAST_OK) {
+        status = sort_places((const void *)all.bytes, part->n_all, part->d, made);
+    }
+    CLX_TRY(clast_comm_agree(part->comm, status, NULL));
     *u = made;
     made = NULL;
 done:
     clx_gathered_free(&all);
+    clx_free(own);
     clx_free(made);
     return status;
 }
 
 typedef struct {
-    const double *y;
-    int32_t d, n_sum;
+    const clx_part *part;
+    int32_t n_sum;
     clx_part_terms terms;
     const void *context;
     clx_exact_sum *sum; ///< [workers][n_sum]
@@ -83,18 +151,19 @@ static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const sum_context *c = context;
     clx_exact_sum *own = c->sum + (int64_t)worker * c->n_sum;
+    double held[3];
     for (int64_t i = begin; i < end; ++i) {
-        c->terms(c->y + i * c->d, own, c->context);
+        c->terms(clx_part_point(c->part, i, held), own, c->context);
     }
 }
 
-clast_status clx_part_sum(const clx_part *part, const double *y, clx_part_terms terms,
-                          const void *context, int32_t n_sum, double *value)
+clast_status clx_part_sum(const clx_part *part, clx_part_terms terms, const void *context,
+                          int32_t n_sum, double *value)
 {
     CLAST_ASSERT(n_sum >= 1 && n_sum <= CLX_PART_MOST_SUMS);
     clast_status status = CLAST_OK;
     const int32_t n_worker = clx_parallel_workers();
-    sum_context c = {y, part->d, n_sum, terms, context, NULL};
+    sum_context c = {part, n_sum, terms, context, NULL};
     CLX_TRY(clast_comm_agree(part->comm,
                              clx_alloc(&c.sum, (int64_t)n_worker * n_sum, sizeof *c.sum), NULL));
     clx_parallel_for(part->n, POINTS_A_BLOCK, sum_block, &c);
@@ -210,6 +279,20 @@ clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, 
 done:
     clx_ranked_free(&made);
     clx_free(count);
+    return status;
+}
+
+clast_status clx_ranked_of_sorted(uint64_t **key, int64_t n, uint64_t limit, clx_ranked *ranked)
+{
+    clx_ranked made = {.key = *key, .n = n, .n_all = n};
+    const clast_status status = clx_alloc(&made.first, 2, sizeof *made.first);
+    *key = NULL;
+    if (status == CLAST_OK) {
+        made.first[1] = limit;
+        *ranked = made;
+    } else {
+        clx_ranked_free(&made);
+    }
     return status;
 }
 

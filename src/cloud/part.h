@@ -5,14 +5,32 @@
 #include "base/comm.h"
 #include "math/exact_sum.h"
 
+/// Makes the place [d] of point i.
+typedef void (*clx_part_make)(const void *context, int64_t i, double *place);
+
 /// One rank's points. Functions that take a part are called by all ranks; what fails on one fails
 /// on all.
 typedef struct clx_part {
     const clast_comm *comm; ///< borrowed
-    const double *u;        ///< [n][d], borrowed
+    const double *u;        ///< [n][d], borrowed; NULL: places are made when they are asked for
     int64_t n, n_all;       ///< points here, and on all ranks
     int32_t d;
+    clx_part_make make; ///< where u is NULL
+    const void *context;
 } clx_part;
+
+/// Place [d] of point i: one of u, or made in `held`.
+static inline const double *clx_part_point(const clx_part *part, int64_t i, double held[3])
+{
+    if (part->u != NULL) {
+        return part->u + i * part->d;
+    }
+    part->make(part->context, i, held);
+    return held;
+}
+
+/// Copies the places of n points from `begin` on, with threads.
+void clx_part_copy(const clx_part *part, int64_t begin, int64_t n, double *u);
 
 /// The only rank's points.
 clx_part clx_part_whole(const double *u, int64_t n, int32_t d);
@@ -27,10 +45,8 @@ clast_status clx_part_share(const clx_part *part, double **u);
 typedef void (*clx_part_terms)(const double *point, clx_exact_sum *sum, const void *context);
 
 /// Sums [n_sum] over the points of all ranks: `value` of each, on every rank.
-///
-/// @param y  [part->n][d] what the terms are of: part->u, or something that goes with it
-clast_status clx_part_sum(const clx_part *part, const double *y, clx_part_terms terms,
-                          const void *context, int32_t n_sum, double *value);
+clast_status clx_part_sum(const clx_part *part, clx_part_terms terms, const void *context,
+                          int32_t n_sum, double *value);
 
 enum { CLX_PART_MOST_SUMS = 16 };
 
@@ -50,6 +66,10 @@ typedef struct clx_ranked {
 /// @param key  [n] from clx_alloc; *key is taken over (NULL afterwards), also on failure
 clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
                              clx_ranked *ranked);
+
+/// The same of keys that are in order already and all here.
+clast_status clx_ranked_of_sorted(uint64_t **key, int64_t n, uint64_t limit, clx_ranked *ranked);
+
 /// First of this rank's keys that is at least `key`: its place.
 int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key);
 void clx_ranked_free(clx_ranked *ranked);

@@ -386,7 +386,7 @@ done:
     return status;
 }
 
-static clast_status alloc_work(work *w, const clx_part *part)
+static clast_status alloc_work(work *w)
 {
     clast_status status = CLAST_OK;
     const int64_t n_bin = w->passes->bins.n_bin;
@@ -394,7 +394,6 @@ static clast_status alloc_work(work *w, const clx_part *part)
     CLX_TRY(clx_alloc(&w->active, n_bin, 1));
     CLX_TRY(clx_alloc(&w->label, n_bin, 1));
     CLX_TRY(clx_alloc(&w->best, n_bin, 1));
-    CLX_TRY(clx_grow(&w->u, &w->capacity, part->n, (size_t)part->d * sizeof *w->u));
     CLX_TRY(clx_alloc(&w->depth_count, N_CHUNK * ((int64_t)w->n_grid + 1), sizeof *w->depth_count));
 done:
     return status;
@@ -404,12 +403,14 @@ static clast_status prepare(work *w, const clx_part *part)
 {
     clast_status status = CLAST_OK;
     double width[3];
-    CLX_TRY(clx_bins_choose(part, width, &w->passes->bins));
+    clx_part own = *part;
+    status = clx_grow(&w->u, &w->capacity, part->n + 1, (size_t)part->d * sizeof *w->u);
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+    clx_part_copy(part, 0, part->n, w->u);
+    own.u = w->u;
+    CLX_TRY(clx_bins_choose(&own, width, &w->passes->bins));
     choose_grid(w);
-    CLX_TRY(clast_comm_agree(w->comm, alloc_work(w, part), NULL));
-    if (part->n > 0) {
-        memcpy(w->u, part->u, (size_t)part->n * (size_t)part->d * sizeof *part->u);
-    }
+    CLX_TRY(clast_comm_agree(w->comm, alloc_work(w), NULL));
     memset(w->active, 1, (size_t)w->passes->bins.n_bin);
     w->n = part->n;
     w->n_all = part->n_all;

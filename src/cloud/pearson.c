@@ -34,11 +34,11 @@ static clast_status moments(const clx_part *part, double product[3][3])
 {
     clast_status status = CLAST_OK;
     centre c = {.d = part->d};
-    CLX_TRY(clx_part_sum(part, part->u, coordinates, &c, 3, c.mean));
+    CLX_TRY(clx_part_sum(part, coordinates, &c, 3, c.mean));
     for (int32_t a = 0; a < part->d; ++a) {
         c.mean[a] /= (double)part->n_all;
     }
-    CLX_TRY(clx_part_sum(part, part->u, products, &c, 9, product[0]));
+    CLX_TRY(clx_part_sum(part, products, &c, 9, product[0]));
 done:
     return status;
 }

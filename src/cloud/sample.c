@@ -19,6 +19,30 @@ void clx_sample_free(clx_sample *sample)
     *sample = (clx_sample){0};
 }
 
+const double *clx_sample_point(const clx_sample *sample, int64_t i, double held[3])
+{
+    const int32_t d = sample->domain->dimension;
+    if (sample->u != NULL) {
+        return sample->u + i * d;
+    }
+    (void)clast_domain_map(sample->domain, sample->x + clx_sample_number(sample, i) * d, held);
+    return held;
+}
+
+static void make_place(const void *context, int64_t i, double *place)
+{
+    const clx_sample *s = context;
+    (void)clast_domain_map(s->domain, s->x + clx_sample_number(s, i) * s->domain->dimension, place);
+}
+
+clx_part clx_sample_part(const clx_sample *sample, int64_t n)
+{
+    clx_part part = clx_part_of(sample->comm, sample->u, n, sample->domain->dimension);
+    part.make = make_place;
+    part.context = sample;
+    return part;
+}
+
 /// `before`: points of the ranks before this one, for messages.
 static clast_status check_points(const clast_cloud *cloud, int64_t before)
 {
@@ -53,15 +77,16 @@ typedef struct {
     uint64_t seed;
 } map_context;
 
-/// Images in place; number becomes -1 outside.
+/// Images in place, where they are kept; number becomes -1 outside.
 static void map_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const map_context *c = context;
     const int32_t d = c->cloud->dimension;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const bool inside =
-            clast_domain_map(c->sample->domain, c->cloud->x + i * d, c->sample->u + i * d);
+        double *place = c->sample->u != NULL ? c->sample->u + i * d : held;
+        const bool inside = clast_domain_map(c->sample->domain, c->cloud->x + i * d, place);
         c->sample->number[i] = inside ? i : -1;
     }
 }
@@ -72,13 +97,17 @@ static void close_gaps(const clast_cloud *cloud, clx_sample *s)
     const int32_t d = cloud->dimension;
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (s->number[i] >= 0) {
-            if (s->n < i) {
+            if (s->n < i && s->u != NULL) {
                 memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
             }
             s->number[s->n++] = i;
         }
     }
     s->n_real = s->n_test = s->n;
+    if (s->u == NULL && s->n == cloud->n) {
+        clx_free(s->number);
+        s->number = NULL;
+    }
 }
 
 static clast_status map_points(const clast_cloud *cloud, const clast_decompose_config *config,
@@ -90,9 +119,10 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
     int64_t total = 0;
     CLX_TRY(clx_comm_before(s->comm, cloud->n, &before, &total));
     status = check_points(cloud, before);
-    if (status == CLAST_OK) {
+    if (status == CLAST_OK && s->comm->n_rank == 1) {
         status = clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u);
     }
+    s->x = cloud->x;
     if (status == CLAST_OK) {
         status = clx_alloc(&s->number, cloud->n, sizeof *s->number);
     }

@@ -1,19 +1,35 @@
 #pragma once
 // The points that are tested and cut into cells, in the unit cube.
+#include "cloud/part.h"
+
 #include <clast/cloud.h>
 #include <clast/decompose.h>
 
 /// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
-/// (thinned out for their weights).
+/// (thinned out for their weights). One rank keeps their images in the unit cube. Of several ranks
+/// none does: they are made of the cloud's positions each time they are asked for, in a third of
+/// the memory.
 typedef struct clx_sample {
     const clast_domain *domain; ///< borrowed
     const clast_comm *comm;     ///< ranks that have a part of the points each; borrowed
     int64_t n_test, n;          ///< tested, and all; here
     int64_t n_real;
     int64_t n_real_all, n_outside_all; ///< on all ranks
-    double *u;                         ///< [n][d]
-    int64_t *number;                   ///< [n] which point of the cloud, -1: a ghost
+    double *u;                         ///< [n][d], or NULL
+    const double *x;                   ///< of the cloud, where u is NULL; borrowed
+    int64_t *number; ///< [n] which point of the cloud, -1: a ghost; with x NULL for all of them
 } clx_sample;
+
+static inline int64_t clx_sample_number(const clx_sample *sample, int64_t i)
+{
+    return sample->number != NULL ? sample->number[i] : i;
+}
+
+/// Place [d] of point i in the unit cube: one of u, or made in `held`.
+const double *clx_sample_point(const clx_sample *sample, int64_t i, double held[3]);
+
+/// The first n points, beside those of the other ranks; borrows the sample.
+clx_part clx_sample_part(const clx_sample *sample, int64_t n);
 
 /// Maps a cloud's points, the part of this rank; called by all ranks. On one rank with a mesh
 /// domain round(n (V_box / V - 1)) uniform ghosts fill the rest of the box, and of weighted points

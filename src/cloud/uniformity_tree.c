@@ -30,6 +30,7 @@ typedef struct {
 
 typedef struct {
     const clx_uniformity_tree_points *points;
+    const clx_part *part; ///< of the points
     int32_t d;
     const clx_uniformity_tree_config *config;
     clx_keyed *point;  ///< [n] by Morton code, on the only rank
@@ -62,9 +63,11 @@ static uint64_t code_at(const growth *g, int64_t i)
 static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const growth *g = context;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        g->point[i] = (clx_keyed){clx_morton_of(g->points->u + i * g->d, g->d), (uint64_t)i};
+        const double *u = clx_part_point(g->part, i, held);
+        g->point[i] = (clx_keyed){clx_morton_of(u, g->d), (uint64_t)i};
     }
 }
 
@@ -117,7 +120,7 @@ static bool is_shared(const growth *g, const node *cell)
 {
     const uint64_t end = cell->key + (UINT64_C(1) << bits_below(g, cell->depth));
     bool is_cut = false;
-    for (int32_t k = 1; k < g->points->comm->n_rank && !is_cut; ++k) {
+    for (int32_t k = 1; k < g->part->comm->n_rank && !is_cut; ++k) {
         is_cut = g->ranked.first[k] > cell->key && g->ranked.first[k] < end;
     }
     return is_cut;
@@ -126,7 +129,7 @@ static bool is_shared(const growth *g, const node *cell)
 /// Whether the cell begins in this rank's stretch of the curve: it is then this rank's to tell.
 static bool is_own(const growth *g, const node *cell)
 {
-    const clast_comm *comm = g->points->comm;
+    const clast_comm *comm = g->part->comm;
     return comm->n_rank == 1 || (cell->key >= g->ranked.first[comm->rank] &&
                                  cell->key < g->ranked.first[comm->rank + 1]);
 }
@@ -146,9 +149,9 @@ static clast_status count_shared(growth *g, const node *cell, int levels, int64_
     }
     CLAST_ASSERT(g->is_survey);
     CLX_TRY(clast_comm_agree(
-        g->points->comm,
+        g->part->comm,
         clx_grow(&g->shared, &g->shared_capacity, g->n_shared + 1, sizeof *g->shared), NULL));
-    clx_comm_sum(g->points->comm, count, n_block);
+    clx_comm_sum(g->part->comm, count, n_block);
     shared_cell *made = &g->shared[g->n_shared++];
     *made = (shared_cell){.key = cell->key, .depth = cell->depth, .levels = levels};
     memcpy(made->count, count, (size_t)n_block * sizeof *count);
@@ -178,7 +181,7 @@ static clast_status count_tested(growth *g, const node *cell, int levels, int64_
     CLX_TRY(count_points(g, cell, levels, start, count));
     *n = 0;
     for (int b = 0; b < n_block; ++b) {
-        for (int64_t i = start[b]; i < start[b + 1] && g->points->n_test < g->points->n; ++i) {
+        for (int64_t i = start[b]; i < start[b + 1] && g->points->n_test < g->part->n; ++i) {
             count[b] -= g->point[i].item < (uint64_t)g->points->n_test ? 0 : 1;
         }
         *n += count[b];
@@ -414,9 +417,9 @@ static void number_points(int64_t begin, int64_t end, int32_t worker, void *cont
 static clast_status order_points(growth *g)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc(&g->point, g->points->n, sizeof *g->point));
-    clx_parallel_for(g->points->n, POINTS_A_BLOCK, take_keys, g);
-    CLX_TRY(clx_sort_keyed(g->point, g->points->n));
+    CLX_TRY(clx_alloc(&g->point, g->part->n, sizeof *g->point));
+    clx_parallel_for(g->part->n, POINTS_A_BLOCK, take_keys, g);
+    CLX_TRY(clx_sort_keyed(g->point, g->part->n));
 done:
     return status;
 }
@@ -424,7 +427,7 @@ done:
 static clast_status grow_alone(growth *g)
 {
     clast_status status = CLAST_OK;
-    const node root = {.end = g->points->n, .n = g->points->n};
+    const node root = {.end = g->part->n, .n = g->part->n};
     CLX_TRY(order_points(g));
     CLX_TRY(grow(g, &root));
     CLX_TRY(clx_alloc(&g->begin, g->cells->n, sizeof *g->begin));
@@ -444,9 +447,10 @@ typedef struct {
 static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const code_context *c = context;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        c->code[i] = clx_morton_of(c->g->points->u + i * c->g->d, c->g->d);
+        c->code[i] = clx_morton_of(clx_part_point(c->g->part, i, held), c->g->d);
     }
 }
 
@@ -454,7 +458,7 @@ static clast_status order_codes(growth *g)
 {
     clast_status status = CLAST_OK;
     code_context c = {g, NULL};
-    const clx_uniformity_tree_points *p = g->points;
+    const clx_part *p = g->part;
     CLX_TRY(clast_comm_agree(p->comm, clx_alloc(&c.code, p->n, sizeof *c.code), NULL));
     clx_parallel_for(p->n, POINTS_A_BLOCK, take_codes, &c);
     CLX_TRY(clx_ranked_sort(p->comm, &c.code, p->n, UINT64_C(1) << bits_below(g, 0), &g->ranked));
@@ -481,7 +485,7 @@ done:
 static clast_status share_cells(const growth *g)
 {
     clast_status status = CLAST_OK;
-    const clast_comm *comm = g->points->comm;
+    const clast_comm *comm = g->part->comm;
     clx_uniformity_tree_cells *c = g->cells;
     int64_t group = 0;
     int64_t untested = 0;
@@ -510,17 +514,18 @@ done:
 static void locate_points(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const growth *g = context;
+    double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        g->of_point[i] =
-            clx_uniformity_tree_locate(g->cells->key, g->cells->n, g->points->u + i * g->d, g->d);
+        g->of_point[i] = clx_uniformity_tree_locate(g->cells->key, g->cells->n,
+                                                    clx_part_point(g->part, i, held), g->d);
     }
 }
 
 static clast_status grow_over_ranks(growth *g)
 {
     clast_status status = CLAST_OK;
-    CLAST_ASSERT(g->points->n_test == g->points->n && g->points->variable == NULL);
+    CLAST_ASSERT(g->points->n_test == g->part->n && g->points->variable == NULL);
     CLX_TRY(order_codes(g));
     const node root = {.end = g->ranked.n, .n = g->ranked.n_all};
     g->is_survey = true;
@@ -529,9 +534,10 @@ static clast_status grow_over_ranks(growth *g)
     g->n_group = 0;
     g->n_untested = 0;
     g->cells->n_deepest = 0;
-    CLX_TRY(clast_comm_agree(g->points->comm, grow(g, &root), NULL));
+    CLX_TRY(clast_comm_agree(g->part->comm, grow(g, &root), NULL));
+    clx_ranked_free(&g->ranked);
     CLX_TRY(share_cells(g));
-    clx_parallel_for(g->points->n, POINTS_A_BLOCK, locate_points, g);
+    clx_parallel_for(g->part->n, POINTS_A_BLOCK, locate_points, g);
 done:
     return status;
 }
@@ -541,9 +547,14 @@ clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point)
 {
     clast_status status = CLAST_OK;
-    const int64_t n = clx_comm_total(points->comm, points->n);
-    growth g = {
-        .points = points, .d = points->d, .config = config, .cells = cells, .of_point = of_point};
+    const clx_part *part = points->part;
+    const int64_t n = part->n_all;
+    growth g = {.points = points,
+                .part = part,
+                .d = part->d,
+                .config = config,
+                .cells = cells,
+                .of_point = of_point};
     *cells = (clx_uniformity_tree_cells){0};
     CLX_CHECK(n <= INT32_MAX, CLAST_E_LIMIT, "%lld points are too many for one tree (2^31 - 1)",
               (long long)n);
@@ -552,7 +563,7 @@ clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
         g.limit[0][levels] = critical(0.5 * config->level, freedom);
         g.limit[1][levels] = critical(0.5 * config->root_level, freedom);
     }
-    CLX_TRY(points->comm->n_rank == 1 ? grow_alone(&g) : grow_over_ranks(&g));
+    CLX_TRY(part->comm->n_rank == 1 ? grow_alone(&g) : grow_over_ranks(&g));
 done:
     if (status != CLAST_OK) {
         clx_uniformity_tree_free(cells);

@@ -1,6 +1,6 @@
 #pragma once
 // The uniformity tree: a box is split in all axes while a chi-square test finds its points uneven.
-#include "base/comm.h"
+#include "cloud/part.h"
 
 /// Cells of the tree as boxes of the unit cube, along the Morton curve.
 typedef struct clx_uniformity_tree_cells {
@@ -24,13 +24,11 @@ typedef struct clx_uniformity_tree_config {
 
 /// What is split.
 typedef struct clx_uniformity_tree_points {
-    const clast_comm *comm; ///< ranks that have a part of the points each
-    const double *u;        ///< [n][d] of this rank
-    int64_t n_test; ///< the first so many are tested, the others only put into cells; n with ranks
-    int64_t n;
-    int32_t d;
-    const double *variable; ///< [n] cells shall be uniform in it too; NAN: not known; or NULL, as
-                            ///< with ranks
+    const clx_part *part; ///< borrowed
+    int64_t n_test; ///< the first so many are tested, the others only put into cells; all with
+                    ///< ranks
+    const double *variable; ///< [part->n] cells shall be uniform in it too; NAN: not known; or
+                            ///< NULL, as with ranks
     bool is_uneven;         ///< all points together are known to be
 } clx_uniformity_tree_points;
 
@@ -40,7 +38,7 @@ typedef struct clx_uniformity_tree_points {
 ///
 /// Called by all ranks; cells are those of all points, on every rank.
 ///
-/// @param of_point  [n] cell of each point of this rank
+/// @param of_point  [part->n] cell of each point of this rank
 /// @return CLAST_E_LIMIT for more than 2^31 - 1 points
 /// @note O(n); depth at most 20, so that equal points end; bytes do not depend on threads
 /// nor ranks

@@ -11,6 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+/// Points of a count of pairs: fewer seldom resolve a cloud.
+enum { LEAST_COUNTED = 1000 };
+
 #define FIELD(type, name) #name, .offset = offsetof(clast_workspace_policy, name), type
 const clast_field clast_workspace_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, tests), CLAST_TESTS_EACH, 0, 0, "-",
@@ -29,6 +32,10 @@ const clast_field clast_workspace_fields[] = {
     {FIELD(CLAST_FIELD_I32, pairs_every), 0, 0, 1e9, "-",
      "calls at least between two counts of the pairs of a cloud that cells do not resolve; 0: at "
      "each cut",
+     NULL},
+    {FIELD(CLAST_FIELD_I32, pairs_most), 0, 0, 1e9, "-",
+     "points that a count of pairs takes at the most, of a greater cloud a part chosen by their "
+     "places; 0: all, else at least 1000",
      NULL},
     {0}};
 #undef FIELD
@@ -353,6 +360,7 @@ static clast_status run_call(call *c, const clast_domain *domain)
     }
     c->workspace->shown.may_carry =
         c->workspace->since_pairs + 1 < c->workspace->policy.pairs_every;
+    c->workspace->shown.pairs_most = c->workspace->policy.pairs_most;
     CLX_TRY(clx_decompose_events(&c->cloud, &c->sample, c->config, &c->workspace->shown, &c->made));
 done:
     return status;
@@ -372,6 +380,9 @@ static clast_status check_policy(const clast_workspace_policy *policy,
               CLAST_E_CONFIG,
               "tests = never: these cells are cut where the tests reject; take mesh = tree, or "
               "variant = fast");
+    CLX_CHECK(policy->pairs_most == 0 || policy->pairs_most >= LEAST_COUNTED, CLAST_E_CONFIG,
+              "pairs_most = %d: a count of pairs takes %d points or more; 0 for all",
+              policy->pairs_most, LEAST_COUNTED);
 done:
     return status;
 }

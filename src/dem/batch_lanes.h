@@ -169,6 +169,26 @@ CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
     }
 }
 
+/// clx_cell_velocity, added to the velocities of contacts.
+CLX_INLINE void add_image_velocity(const clx_periodic_cell *cell, const clx_batch *p, int from,
+                                   clx_lanes velocity[3])
+{
+    clx_lanes a[4], b[4], arm_a[3], arm_b[3], n[3];
+    collect(p->a + from, offsetof(clx_grain, position), a);
+    collect(p->b + from, offsetof(clx_grain, position), b);
+    load3(p->meet.point[0] + from, arm_a);
+    load3(p->arm_b[0] + from, arm_b);
+    for (int c = 0; c < 3; ++c) {
+        n[c] = (arm_a[c] - arm_b[c]) - (b[c] - a[c]);
+    }
+    n[1] = n[1] * cell->inverse[1];
+    n[2] = n[2] * cell->inverse[2];
+    n[0] = (n[0] - cell->shift * n[2]) * cell->inverse[0];
+    velocity[0] = velocity[0] + (cell->rate[0] * n[0] + cell->shear * n[2]);
+    velocity[1] = velocity[1] + cell->rate[1] * n[1];
+    velocity[2] = velocity[2] + cell->rate[2] * n[2];
+}
+
 /// Velocities, reduced mass and friction; the pairs' displacements.
 CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
                          contact_lanes *m)
@@ -185,6 +205,9 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
     lanes_cross(w, wb, arm);
     for (int c = 0; c < 3; ++c) {
         m->velocity[c] = (w[c] + vb[c]) - (u[c] + va[c]);
+    }
+    if (__builtin_expect(dem->cell != NULL, 0)) { // which has no walls
+        add_image_velocity(dem->cell, p, from, m->velocity);
     }
     load_normal(p, from, normal);
     m->twirl = 0.5 * (lanes_dot(wa, normal) + lanes_dot(wb, normal));

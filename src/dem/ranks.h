@@ -18,6 +18,7 @@ typedef struct clx_wire {
 typedef struct clx_rank_counts {
     int64_t n_balance;        ///< partitions
     int64_t n_migrated;       ///< grains that came from other ranks, but for the first partition
+    int64_t n_message;        ///< sent in steps, to ranks that have ghosts of this one's grains
     int64_t step_bytes;       ///< sent in steps
     int64_t list_bytes;       ///< sent for lists and migration
     int64_t n_step, n_ghost;  ///< steps; ghosts, summed over steps

@@ -62,6 +62,9 @@ void clx_ranks_exchange(clast_dem *whole)
     for (int64_t k = 0; k < r->n_receive; ++k) {
         read_grain(r->local, r->receive[k], width, r->in + k * width);
     }
+    for (int32_t k = 0; k < r->comm->n_rank; ++k) {
+        r->counts.n_message += r->n_out[k] > 0 ? 1 : 0;
+    }
     r->counts.step_bytes += r->n_send * width * (int64_t)sizeof(double);
     r->counts.n_ghost += r->n_receive;
     ++r->counts.n_step;
@@ -95,15 +98,22 @@ static clast_status write_requests(clx_ranks *r)
     CLX_TRY(clx_grow(&r->wire.bytes, &r->wire.capacity,
                      (int64_t)sizeof(int32_t) * (dem->n_grain + 1), 1));
     int32_t *number = (int32_t *)(void *)r->wire.bytes;
-    for (int32_t k = 0; k < r->comm->n_rank; ++k) {
-        const int64_t before = r->n_receive;
-        for (int32_t g = 0; g < dem->n_grain; ++g) {
-            if (r->is_ghost[g] != 0 && is_read[g] != 0 && r->owner[r->number[g]] == k) {
-                number[r->n_receive] = r->number[g];
-                r->receive[r->n_receive++] = g;
-            }
+    memset(r->n_wire, 0, (size_t)r->comm->n_rank * sizeof *r->n_wire);
+    for (int32_t g = 0; g < dem->n_grain; ++g) {
+        is_read[g] = is_read[g] != 0 && r->is_ghost[g] != 0 ? 1 : 0;
+        r->n_wire[r->owner[r->number[g]]] += is_read[g];
+    }
+    for (int32_t k = 0; k < r->comm->n_rank; ++k) { // where each owner's begin, for now in n_out
+        r->n_out[k] = r->n_receive;
+        r->n_receive += r->n_wire[k];
+        r->n_wire[k] *= (int64_t)sizeof(int32_t);
+    }
+    for (int32_t g = 0; g < dem->n_grain; ++g) {
+        if (is_read[g] != 0) {
+            const int64_t at = r->n_out[r->owner[r->number[g]]]++;
+            number[at] = r->number[g];
+            r->receive[at] = g;
         }
-        r->n_wire[k] = (r->n_receive - before) * (int64_t)sizeof(int32_t);
     }
 done:
     clx_free(is_read);

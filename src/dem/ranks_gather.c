@@ -162,13 +162,15 @@ bool clx_dem_rank_counts(const clast_dem *dem, clx_rank_counts *counts)
     for (int32_t g = 0; g < r->local->n_grain; ++g) {
         own += r->is_ghost[g] == 0 ? 1 : 0;
     }
-    int64_t sum[5] = {c.n_migrated, c.step_bytes, c.list_bytes, c.n_ghost, own == 0 ? 1 : 0};
-    clx_comm_sum(r->comm, sum, 5);
+    int64_t sum[6] = {c.n_migrated, c.step_bytes,     c.list_bytes,
+                      c.n_ghost,    own == 0 ? 1 : 0, c.n_message};
+    clx_comm_sum(r->comm, sum, 6);
     c.n_migrated = sum[0];
     c.step_bytes = sum[1];
     c.list_bytes = sum[2];
     c.n_ghost = sum[3];
     c.n_idle = (int32_t)sum[4];
+    c.n_message = sum[5];
     *counts = c;
     return true;
 }

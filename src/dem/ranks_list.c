@@ -58,6 +58,20 @@ static bool meets(const clast_dem *dem, const clx_anchor *at, double reach, cons
     return true;
 }
 
+/// Whether any sphere within the box a may meet the box b.
+static bool boxes_meet(const clast_dem *dem, const box *a, const box *b)
+{
+    for (int c = 0; c < 3; ++c) {
+        const double middle = 0.5 * (a->low[c] + a->high[c]);
+        const double reach = 0.5 * (a->high[c] - a->low[c] + b->high[c] - b->low[c]);
+        const double off = wrap(dem, c, middle - 0.5 * (b->low[c] + b->high[c]), 0.0);
+        if (!(fabs(off) <= reach + 4.0 * SLACK * (reach + fabs(middle)))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool grain_meets(const clast_dem *dem, int32_t g, const box *b)
 {
     const int32_t first = clx_first_item(dem, g);
@@ -388,13 +402,15 @@ static clast_status write_candidates(clast_dem *whole, const box *boxes)
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
     const clast_dem *local = r->local;
+    const int32_t own = r->comm->rank;
     r->wire.n = 0;
     for (int32_t k = 0; k < r->comm->n_rank; ++k) {
         int64_t at = 0;
         int64_t n = 0;
+        const bool is_near = k == own || boxes_meet(local, &boxes[own], &boxes[k]);
         CLX_TRY(clx_wire_begin(&r->wire, &at));
-        for (int32_t g = 0; g < local->n_grain; ++g) {
-            if (r->is_ghost[g] == 0 && (k == r->comm->rank || grain_meets(local, g, &boxes[k]))) {
+        for (int32_t g = 0; g < local->n_grain && is_near; ++g) {
+            if (r->is_ghost[g] == 0 && (k == own || grain_meets(local, g, &boxes[k]))) {
                 CLX_TRY(clx_wire_add_grain(&r->wire, local, g, true));
                 ++n;
             }

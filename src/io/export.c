@@ -11,8 +11,8 @@
 #include <clast/table.h>
 #include <string.h>
 
-static const char *const names[] = {"any", "vtu", "stl",  "obj", "ply",
-                                    "3mf", "csv", "dump", "json"};
+static const char *const names[] = {"any",  "vtu",  "stl",  "obj", "ply",  "3mf",  "csv",
+                                    "dump", "json", "data", "txt", "voro", "xyzd", "conf"};
 enum { N_FORMAT = sizeof names / sizeof names[0] };
 
 const char *clast_export_format_name(clast_export_format format)
@@ -50,6 +50,14 @@ static clast_status write_body(clx_export *e, clast_export_format format)
         return clx_export_obj(e);
     case CLAST_EXPORT_PLY:
         return clx_export_ply(e);
+    case CLAST_EXPORT_DATA:
+        return clx_export_data(e);
+    case CLAST_EXPORT_TXT:
+        return clx_export_text(e);
+    case CLAST_EXPORT_VORO:
+        return clx_export_voro(e);
+    case CLAST_EXPORT_XYZD:
+        return clx_export_xyzd(e);
     default:
         return clx_export_dump(e);
     }
@@ -143,10 +151,11 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
     clx_export e = {.assembly = assembly, .options = o, .unit = o->unit != NULL ? o->unit : own};
     clast_export_report made = {0};
     made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
-    CLX_CHECK(
-        made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
-        "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, .json or .dump",
-        path);
+    CLX_CHECK(made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
+              "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump, "
+              ".data, "
+              ".txt, .voro, .xyzd or .conf",
+              path);
     CLX_CHECK(!o->points || made.format == CLAST_EXPORT_VTU, CLAST_E_USAGE,
               "%s: points are for .vtu only; .csv and .dump hold poses anyway", path);
     CLX_CHECK(o->unit == NULL || made.format == CLAST_EXPORT_STL ||
@@ -160,6 +169,8 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
     made.unit = made.format == CLAST_EXPORT_3MF ? "mm" : e.unit;
     if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
         CLX_TRY(write_table(assembly, made.format, path));
+    } else if (made.format == CLAST_EXPORT_CONF) {
+        CLX_TRY(clx_export_rockable(assembly, path));
     } else if (made.format == CLAST_EXPORT_3MF) {
         CLX_TRY(write_threemf(assembly, o->level, path, &made));
     } else {

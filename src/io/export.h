@@ -20,6 +20,23 @@ clast_status clx_export_stl(clx_export *e);
 clast_status clx_export_obj(clx_export *e);
 clast_status clx_export_ply(clx_export *e);
 clast_status clx_export_dump(clx_export *e);
+clast_status clx_export_data(clx_export *e); ///< LAMMPS data file
+clast_status clx_export_text(clx_export *e); ///< YADE's "#format x_y_z_r", or _clumpId
+clast_status clx_export_voro(clx_export *e); ///< voro++: id x y z r
+clast_status clx_export_xyzd(clx_export *e); ///< four doubles a sphere
+
+/// A configuration of Rockable, and its shapes in the file beside it that ends in .shp.
+clast_status clx_export_rockable(const clast_assembly *assembly, const char *path);
+
+/// Numbers with a blank before each.
+void clx_export_numbers(clx_file *file, const double *x, int n);
+
+/// LAMMPS's type of each shape [n_shape], allocated: as it came, else its index from 1.
+clast_status clx_export_types(const clast_assembly *assembly, int32_t **type);
+
+/// Diameters and orientation of the ellipsoid of grain i.
+void clx_export_ellipsoid(const clast_assembly *assembly, int32_t i, double diameter[3],
+                          double q[4]);
 
 /// Semi-axes and orientation of the ellipsoid with a shape's volume and moments: `turn` takes the
 /// ellipsoid's frame, a >= b >= c along x, y, z, to the shape's.

@@ -194,13 +194,56 @@ done:
     return status;
 }
 
-static void put_numbers(clx_file *file, const double *x, int n)
+void clx_export_numbers(clx_file *file, const double *x, int n)
 {
     for (int k = 0; k < n; ++k) {
         char text[1 + CLX_NUMBER_SIZE] = " ";
         const int length = clx_number_format(x[k], text + 1);
         (void)clx_file_write(file, text, (size_t)length + 1);
     }
+}
+
+/// Greatest type of LAMMPS that a name "type-K" or "type-K-N" may have.
+enum { MOST_TYPES = 1000000 };
+
+/// K of a name "type-K" or "type-K-N", as the readers of LAMMPS's files give it; 0 for others.
+static int32_t type_in(const char *name)
+{
+    int32_t number = 0;
+    const char *at = name + 5;
+    if (strncmp(name, "type-", 5) != 0) {
+        return 0;
+    }
+    for (; *at >= '0' && *at <= '9' && number < MOST_TYPES; ++at) {
+        number = 10 * number + (*at - '0');
+    }
+    return number <= MOST_TYPES && (*at == '\0' || *at == '-') ? number : 0;
+}
+
+clast_status clx_export_types(const clast_assembly *a, int32_t **type)
+{
+    clast_status status = CLAST_OK;
+    bool has_types = true;
+    CLX_TRY(clx_alloc(type, a->n_shape, sizeof **type));
+    for (int32_t i = 0; i < a->n_shape; ++i) {
+        (*type)[i] = type_in(a->shape[i].name);
+        has_types = has_types && (*type)[i] > 0;
+    }
+    for (int32_t i = 0; i < a->n_shape && !has_types; ++i) {
+        (*type)[i] = i + 1;
+    }
+done:
+    return status;
+}
+
+void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3], double q[4])
+{
+    double axes[3];
+    double turn[4];
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
+    clx_shape_ellipsoid(&a->shape[a->shape_id[i]], axes, turn);
+    q_mul(q, a->orientation[i], turn);
+    v3_scale(diameter, 2.0 * a->scale[i], axes);
 }
 
 static void put_bounds(clx_file *file, const clast_assembly *a)
@@ -226,6 +269,7 @@ clast_status clx_export_dump(clx_export *e)
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
     clx_file *file = &e->file;
+    int32_t *type = NULL;
     if (strcmp(e->unit, "m") == 0) { // LAMMPS's word for metre, kilogram, second
         (void)clx_file_print(file, "ITEM: UNITS\nsi\n");
     }
@@ -233,22 +277,26 @@ clast_status clx_export_dump(clx_export *e)
     put_bounds(file, a);
     (void)clx_file_print(file, "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "
                                "shapez radius density\n");
+    CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const clast_shape *shape = &a->shape[a->shape_id[i]];
+        const bool is_surface =
+            shape->kind != CLAST_SHAPE_SPHERE && shape->kind != CLAST_SHAPE_ELLIPSOID;
         double axes[3];
-        double turn[4];
         double q[4];
-        clx_shape_ellipsoid(shape, axes, turn);
-        q_mul(q, a->orientation[i], turn);
-        v3_scale(axes, 2.0 * a->scale[i], axes);
-        const double last[2] = {cbrt(0.75 / CLAST_PI * measure_of(a, i, VOLUME)), a->density[i]};
-        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, a->shape_id[i] + 1);
-        put_numbers(file, a->position[i], 3);
-        put_numbers(file, q, 4);
-        put_numbers(file, axes, 3);
-        put_numbers(file, last, 2);
+        clx_export_ellipsoid(a, i, axes, q);
+        const double radius = is_surface ? cbrt(0.75 / CLAST_PI * measure_of(a, i, VOLUME))
+                              : axes[0] == axes[2] ? 0.5 * axes[0]
+                                                   : 0.5 * cbrt(axes[0] * axes[1] * axes[2]);
+        const double last[2] = {radius, a->density[i]};
+        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, type[a->shape_id[i]]);
+        clx_export_numbers(file, a->position[i], 3);
+        clx_export_numbers(file, q, 4);
+        clx_export_numbers(file, axes, 3);
+        clx_export_numbers(file, last, 2);
         CLX_TRY(clx_file_write(file, "\n", 1));
     }
 done:
+    clx_free(type);
     return status;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 enum { ATTRIBUTE_LIMIT = 65000 }; // bytes that fit a header's message
+static const clx_h5_node nothing = {0};
 static const int64_t file_limit = INT64_C(1) << 40;
 
 clast_status clx_h5_available(void)
@@ -186,23 +187,22 @@ static clx_h5_attribute *find_attribute(const clx_h5 *h5, const char *object, co
     return NULL;
 }
 
-clast_status clx_h5_plain_attribute(clx_h5 *h5, int64_t node, const char *name, bool is_text,
-                                    clx_h5_type type, int64_t size, const void *value)
+clast_status clx_h5_plain_attribute(clx_h5 *h5, int64_t node, const clx_h5_attribute *given)
 {
-    CLAST_ASSERT(size > 0);
+    CLAST_ASSERT(given->size > 0);
     clast_status status = CLAST_OK;
     clx_h5_node *at = &h5->node[node];
-    clx_h5_attribute made = {.is_text = is_text, .type = type, .size = size};
-    CLX_CHECK(find_attribute(h5, at->name, name) == NULL, CLAST_E_USAGE,
-              "attribute %s of %s is there already", name, at->name);
-    CLX_CHECK(size <= ATTRIBUTE_LIMIT, CLAST_E_LIMIT,
-              "attribute %s of %s has %" PRId64 " bytes; built without HDF5, clast keeps %d", name,
-              at->name, size, (int)ATTRIBUTE_LIMIT);
+    clx_h5_attribute made = {.is_text = given->is_text, .type = given->type, .size = given->size};
+    CLX_CHECK(find_attribute(h5, at->name, given->name) == NULL, CLAST_E_USAGE,
+              "attribute %s of %s is there already", given->name, at->name);
+    CLX_CHECK(given->size <= ATTRIBUTE_LIMIT, CLAST_E_LIMIT,
+              "attribute %s of %s has %" PRId64 " bytes; built without HDF5, clast keeps %d",
+              given->name, at->name, given->size, (int)ATTRIBUTE_LIMIT);
     CLX_TRY(clx_grow(&at->attribute, &at->attribute_capacity, at->n_attribute + 1,
                      sizeof *at->attribute));
-    CLX_TRY(clx_alloc(&made.value, size, 1));
-    CLX_TRY(clx_alloc_text(&made.name, name));
-    memcpy(made.value, value, (size_t)size);
+    CLX_TRY(clx_alloc(&made.value, given->size, 1));
+    CLX_TRY(clx_alloc_text(&made.name, given->name));
+    memcpy(made.value, given->value, (size_t)given->size);
     at->attribute[at->n_attribute++] = made;
     made.value = NULL;
 done:
@@ -210,14 +210,13 @@ done:
     return status;
 }
 
-static clast_status write_attribute(clx_h5 *h5, const char *object, clx_h5_attribute given)
+static clast_status write_attribute(clx_h5 *h5, const char *object, const clx_h5_attribute *given)
 {
     clast_status status = CLAST_OK;
     const int64_t node = find(h5, object);
-    CLX_CHECK(node >= 0, CLAST_E_USAGE, "attribute %s of %s, which does not exist", given.name,
+    CLX_CHECK(node >= 0, CLAST_E_USAGE, "attribute %s of %s, which does not exist", given->name,
               object);
-    CLX_TRY(clx_h5_plain_attribute(h5, node, given.name, given.is_text, given.type, given.size,
-                                   given.value));
+    CLX_TRY(clx_h5_plain_attribute(h5, node, given));
 done:
     return status;
 }
@@ -225,20 +224,20 @@ done:
 clast_status clx_h5_write_text(clx_h5 *h5, const char *object, const char *name, const char *text)
 {
     return write_attribute(h5, object,
-                           (clx_h5_attribute){.name = (char *)name,
-                                              .is_text = true,
-                                              .size = (int64_t)strlen(text) + 1,
-                                              .value = (char *)text});
+                           &(clx_h5_attribute){.name = (char *)name,
+                                               .is_text = true,
+                                               .size = (int64_t)strlen(text) + 1,
+                                               .value = (char *)text});
 }
 
 clast_status clx_h5_write_number(clx_h5 *h5, const char *object, const char *name, clx_h5_type type,
                                  const void *value)
 {
     return write_attribute(h5, object,
-                           (clx_h5_attribute){.name = (char *)name,
-                                              .type = type,
-                                              .size = clx_h5_plain_width(type),
-                                              .value = (char *)value});
+                           &(clx_h5_attribute){.name = (char *)name,
+                                               .type = type,
+                                               .size = clx_h5_plain_width(type),
+                                               .value = (char *)value});
 }
 
 clast_status clx_h5_commit(clx_h5 *h5, const char *path)
@@ -309,7 +308,7 @@ clast_status clx_h5_shape(clx_h5 *h5, const char *name, clx_h5_type type, int32_
                           int64_t *shape)
 {
     clast_status status = CLAST_OK;
-    const clx_h5_node *array = NULL;
+    const clx_h5_node *array = &nothing;
     CLX_TRY(take_array(h5, name, type, rank, &array));
     memcpy(shape, array->shape, (size_t)rank * sizeof *shape);
 done:
@@ -320,7 +319,7 @@ clast_status clx_h5_read(clx_h5 *h5, const char *name, clx_h5_type type, int32_t
                          const int64_t *shape, void *data)
 {
     clast_status status = CLAST_OK;
-    const clx_h5_node *array = NULL;
+    const clx_h5_node *array = &nothing;
     CLX_TRY(take_array(h5, name, type, rank, &array));
     for (int32_t d = 0; d < rank; ++d) {
         CLX_CHECK(array->shape[d] == shape[d], CLAST_E_FORMAT,
@@ -338,7 +337,7 @@ clast_status clx_h5_read_new(clx_h5 *h5, const char *name, clx_h5_type type, int
                              int64_t *n, void *data)
 {
     clast_status status = CLAST_OK;
-    const clx_h5_node *array = NULL;
+    const clx_h5_node *array = &nothing;
     void *block = NULL;
     CLX_TRY(take_array(h5, name, type, width == 1 ? 1 : 2, &array));
     CLX_CHECK(width == 1 || array->shape[1] == width, CLAST_E_FORMAT,

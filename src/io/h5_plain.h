@@ -46,9 +46,8 @@ clast_status clx_h5_plain_begin(const char *label, clx_h5 **h5);
 /// Adds an array or folder whose folder is there; its number.
 clast_status clx_h5_plain_add(clx_h5 *h5, const char *name, int64_t *number);
 
-/// Adds an attribute of `size` bytes.
-clast_status clx_h5_plain_attribute(clx_h5 *h5, int64_t node, const char *name, bool is_text,
-                                    clx_h5_type type, int64_t size, const void *value);
+/// Adds a copy of an attribute.
+clast_status clx_h5_plain_attribute(clx_h5 *h5, int64_t node, const clx_h5_attribute *given);
 
 /// The file's bytes (clx_free them).
 clast_status clx_h5_plain_image(clx_h5 *h5, char **image, int64_t *n);

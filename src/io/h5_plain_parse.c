@@ -164,7 +164,12 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
     if (value == NULL || (is_text && value[size - 1] != '\0')) {
         return damaged(f);
     }
-    return clx_h5_plain_attribute(f->h5, number, name, is_text, type, size, value);
+    const clx_h5_attribute found = {.name = (char *)name,
+                                    .is_text = is_text,
+                                    .type = type,
+                                    .size = size,
+                                    .value = (char *)value};
+    return clx_h5_plain_attribute(f->h5, number, &found);
 }
 
 static clast_status read_node(const file *f, int64_t number, uint64_t address, int depth);

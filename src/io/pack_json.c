@@ -42,6 +42,7 @@ static json_t *ranks(const clast_pack_ranks *r)
     clx_json_set_count(o, "n_balance", r->n_balance);
     clx_json_set_count(o, "n_migrated", r->n_migrated);
     clx_json_set_number(o, "ghosts", r->ghosts);
+    clx_json_set_number(o, "messages", r->messages);
     clx_json_set_number(o, "step_bytes", r->step_bytes);
     clx_json_set_number(o, "list_bytes", r->list_bytes);
     clx_json_set_number(o, "imbalance", r->imbalance);

@@ -1,43 +1,18 @@
-// Packings of spheres from other programs' files.
+// Packings from other programs' files.
 #include <clast/state.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "io/bytes.h"
-#include "io/spheres_table.h"
+#include "io/packing.h"
 #include "io/text.h"
 #include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/table.h>
 #include <stdio.h>
+#include <string.h>
 
 #define BYTE_LIMIT (INT64_C(16) << 30)
-
-/// Little-endian doubles x, y, z, diameter.
-static clast_status parse_xyzd(const char *path, const char *bytes, int64_t n, clast_table *table)
-{
-    static const char *const name[4] = {"x", "y", "z", "diameter"};
-    enum { RECORD = 32 };
-    clast_status status = CLAST_OK;
-    clast_table made = {0};
-    CLX_CHECK(n > 0 && n % RECORD == 0, CLAST_E_FORMAT,
-              "%s: %lld bytes are no whole number of records of four doubles x, y, z, diameter",
-              path, (long long)n);
-    CLX_TRY(clast_table_init(&made, "packing", n / RECORD));
-    for (int k = 0; k < 4; ++k) {
-        double *value = NULL;
-        CLX_TRY(clast_table_add_number(&made, name[k], "-", &value));
-        for (int64_t i = 0; i < made.n_row; ++i) {
-            value[i] = clx_load_f64((const uint8_t *)bytes + i * RECORD + 8 * k);
-        }
-    }
-    *table = made;
-    made = (clast_table){0};
-done:
-    clast_table_free(&made);
-    return status;
-}
 
 /// Where the atoms of an .xyz begin: after the count and a comment; 0 where there is no count.
 static int64_t skip_count(const char *bytes, int64_t n)
@@ -56,7 +31,10 @@ static clast_status parse(const char *path, const char *bytes, int64_t n, clast_
 {
     static const clast_csv_options atoms = {.separator = ' ', .no_comment = true, .header = -1};
     if (clx_path_is(path, "xyzd")) {
-        return parse_xyzd(path, bytes, n, table);
+        return clx_xyzd(path, bytes, n, table);
+    }
+    if (clx_is_lammps_data(bytes, (size_t)n)) {
+        return clx_lammps_data(path, bytes, (size_t)n, table);
     }
     const int64_t begin = clx_path_is(path, "xyz") ? skip_count(bytes, n) : 0;
     return begin > 0 ? clast_table_parse_csv(path, bytes + begin, (size_t)(n - begin), &atoms,
@@ -64,21 +42,77 @@ static clast_status parse(const char *path, const char *bytes, int64_t n, clast_
                      : clast_cloud_parse(path, bytes, (size_t)n, NULL, table);
 }
 
-static clast_status add_spheres(const clast_spheres *spheres, bool in_metres,
-                                clast_assembly *assembly)
+/// A table of grains; its columns are the options', or those that YADE names.
+static clast_status read_table(const char *path, const char *bytes, int64_t n,
+                               const clast_packing_options *options, clast_assembly *assembly,
+                               bool *has_density)
 {
-    static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
     clast_status status = CLAST_OK;
-    clast_shape ball = {0};
-    CLX_TRY(clast_shape_sphere("sphere", 1.0, &ball));
-    CLX_TRY(clast_assembly_add_shape(assembly, &ball, NULL));
-    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", in_metres ? "m" : "model");
-    for (int32_t i = 0; i < spheres->n; ++i) {
-        CLX_TRY(clast_assembly_add_grain(assembly, 0, spheres->centre[i], upright,
-                                         spheres->radius[i], 1.0));
+    clast_table table = {0};
+    clast_packing_options o = *options;
+    char columns[CLX_YADE_COLUMNS];
+    const bool is_lammps =
+        clx_is_lammps_data(bytes, (size_t)n) || (n > 5 && memcmp(bytes, "ITEM:", 5) == 0);
+    if ((o.columns == NULL || o.columns[0] == '\0') &&
+        clx_yade_columns(bytes, (size_t)n, columns)) {
+        o.columns = columns;
     }
+    CLX_TRY(parse(path, bytes, n, &table));
+    CLX_TRY(clx_packing_of_table(&table, &o, is_lammps, assembly, has_density));
 done:
-    clast_shape_free(&ball);
+    if (status != CLAST_OK && table.n_column > 0) { // the readers name the file themselves
+        clx_fail_prefix("%s", path);
+    }
+    clast_table_free(&table);
+    return status;
+}
+
+/// A file that stands beside another one, unless its name begins at the root.
+static clast_status beside(const char *path, const char *name, char out[8192])
+{
+    const char *slash = strrchr(path, '/');
+    const int folder = name[0] == '/' || slash == NULL ? 0 : (int)(slash - path) + 1;
+    const int n = snprintf(out, 8192, "%.*s%s", folder, path, name);
+    return n > 0 && n < 8192
+               ? CLAST_OK
+               : clx_fail(CLAST_E_USAGE, "%s: the path of its shapes is too long", path);
+}
+
+static clast_status read_rockable(const char *path, const char *bytes, int64_t n,
+                                  clast_assembly *assembly, bool *has_density)
+{
+    clast_status status = CLAST_OK;
+    char library[4096];
+    char place[8192];
+    char *shapes = NULL;
+    int64_t n_shape = 0;
+    CLX_TRY(clx_rockable(path, bytes, (size_t)n, NULL, 0, library, NULL, NULL));
+    CLX_TRY(beside(path, library, place));
+    CLX_TRY(clx_file_read_all(place, BYTE_LIMIT, &shapes, &n_shape));
+    CLX_TRY(clx_rockable(path, bytes, (size_t)n, shapes, (size_t)n_shape, library, assembly,
+                         has_density));
+done:
+    clx_free(shapes);
+    return status;
+}
+
+clast_status clx_packing_read(const char *path, const clast_packing_options *options,
+                              clast_assembly *assembly, bool *has_density)
+{
+    static const clast_packing_options guess = {0};
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    clast_assembly made = {0};
+    const clast_packing_options *o = options != NULL ? options : &guess;
+    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
+    CLX_TRY(clx_path_is(path, "conf") ? read_rockable(path, bytes, n, &made, has_density)
+                                      : read_table(path, bytes, n, o, &made, has_density));
+    *assembly = made;
+    made = (clast_assembly){0};
+done:
+    clx_free(bytes);
+    clast_assembly_free(&made);
     return status;
 }
 
@@ -86,27 +120,6 @@ clast_status clast_packing_read(const char *path, const clast_packing_options *o
                                 clast_assembly *assembly)
 {
     CLX_ARGUMENTS(path, assembly);
-    static const clast_packing_options guess = {0};
-    clast_status status = CLAST_OK;
-    char *bytes = NULL;
-    int64_t n = 0;
-    double unit_m = 0.0;
-    clast_table table = {0};
-    clast_spheres spheres = {0};
-    clast_assembly made = {0};
-    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
-    CLX_TRY(parse(path, bytes, n, &table));
-    CLX_TRY(clx_spheres_of_table(&table, options != NULL ? options : &guess, &spheres, &unit_m));
-    CLX_TRY(add_spheres(&spheres, unit_m > 0.0, &made));
-    *assembly = made;
-    made = (clast_assembly){0};
-done:
-    if (status != CLAST_OK && table.n_column > 0) { // the readers name the file themselves
-        clx_fail_prefix("%s", path);
-    }
-    clx_free(bytes);
-    clast_table_free(&table);
-    clast_spheres_free(&spheres);
-    clast_assembly_free(&made);
-    return status;
+    bool has_density = false;
+    return clx_packing_read(path, options, assembly, &has_density);
 }

@@ -1,8 +1,9 @@
-// A bed to begin with: a run's state, or spheres of another program.
+// A bed to begin with: a run's state, or grains of another program.
 #include "io/start_file.h"
 
 #include "base/alloc.h"
 #include "base/path.h"
+#include "io/packing.h"
 #include <clast/assembly.h>
 #include <clast/field.h>
 #include <clast/state.h>
@@ -40,6 +41,7 @@ static clast_status to_metres(const clast_pack_config *c, clast_assembly *a)
               c->start_unit);
     CLX_TRY(clast_unit_factor(is_model ? c->start_unit : a->unit, "m", &factor));
     scale_all(a, factor);
+    (void)snprintf(a->unit, sizeof a->unit, "m");
 done:
     return status;
 }
@@ -56,14 +58,17 @@ done:
     return status;
 }
 
-static clast_status read_spheres(const clast_pack_config *c, clast_assembly *a)
+static clast_status read_others(const clast_pack_config *c, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     const clast_packing_options o = {.columns = c->start_columns, .diameter = c->start_diameter};
+    bool has_density = false;
     CLX_CHECK(c->density.n == 1 && c->density.item[0] > 0.0, CLAST_E_CONFIG,
-              "spheres of another program have one density, above 0 (density)");
-    CLX_TRY(clast_packing_read(c->start, &o, a));
-    for (int32_t i = 0; i < a->n_grain; ++i) {
+              "grains of another program have one density, above 0 (density)");
+    CLX_TRY(clx_packing_read(c->start, &o, a, &has_density));
+    CLX_CHECK(!has_density || c->density.item[0] == 2650.0, CLAST_E_CONFIG,
+              "density is the file's own; leave it out");
+    for (int32_t i = 0; i < a->n_grain && !has_density; ++i) {
         a->density[i] = c->density.item[0];
     }
 done:
@@ -202,7 +207,7 @@ clast_status clx_start_read(const clast_pack_config *config, clast_assembly *ass
     const bool is_state = clx_path_is(config->start, "h5");
     CLX_CHECK(!is_folder(config->start), CLAST_E_CONFIG, "%s is a folder; give the state.h5 in it",
               config->start);
-    CLX_TRY(is_state ? read_state(config, &made) : read_spheres(config, &made));
+    CLX_TRY(is_state ? read_state(config, &made) : read_others(config, &made));
 done:
     return finish(config, status, &made, assembly);
 }

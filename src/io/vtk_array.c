@@ -69,7 +69,7 @@ void clx_vtk_field_number(clx_file *file, const char *name, double value)
 /// Speed over size: level 6 took 4 times as long for 8 % less on placed surfaces.
 enum { LEVEL = 1 };
 
-void clx_vtk_head(clx_file *file, const char *type)
+void clx_vtk_open(clx_file *file, const char *type)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     static const char order[] = "LittleEndian";
@@ -79,8 +79,14 @@ void clx_vtk_head(clx_file *file, const char *type)
     (void)clx_file_print(file,
                          "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"1.0\" "
                          "byte_order=\"%s\" header_type=\"UInt64\" "
-                         "compressor=\"vtkZLibDataCompressor\">\n<%s>\n",
-                         type, order, type);
+                         "compressor=\"vtkZLibDataCompressor\">\n",
+                         type, order);
+}
+
+void clx_vtk_head(clx_file *file, const char *type)
+{
+    clx_vtk_open(file, type);
+    (void)clx_file_print(file, "<%s>\n", type);
 }
 
 static clast_status pack(clx_vtk_array *a)

@@ -16,7 +16,10 @@ typedef struct clx_vtk_array {
     int64_t last; ///< bytes of the last block before compression
 } clx_vtk_array;
 
-/// Writes the file's opening lines, down to <TYPE>, with this machine's byte order.
+/// Writes the file's opening lines, above <TYPE>, with this machine's byte order.
+void clx_vtk_open(clx_file *file, const char *type);
+
+/// The same down to <TYPE>.
 void clx_vtk_head(clx_file *file, const char *type);
 
 /// Arrays of one text or one number, for <FieldData>; texts: those of `text`(context, i).

@@ -8,24 +8,25 @@
 #include "base/parallel.h"
 #include <string.h>
 
-enum { BUCKET_BITS = 12, N_BUCKET = 1 << BUCKET_BITS, N_CHUNK = 16 };
+enum { BUCKET_BITS = 12, N_BUCKET = 1 << BUCKET_BITS, N_CHUNK = 16, LEAST_CHUNK = 8192 };
 enum { DIGIT_BITS = 8, N_DIGIT = 1 << DIGIT_BITS, FEW = 48, SMALL = 4096 };
 
 /// Entries of `words` 64-bit words each, the first of which is the key.
 typedef struct {
     uint64_t *entry, *scratch; ///< [n][words]
     int64_t n;
+    int n_chunk;  ///< shares of the entries, N_CHUNK of many: each has a table of all buckets
     int words;    ///< 1 or 2
     uint64_t low; ///< least key
     int shift;    ///< bucket = (key - low) >> shift
     uint64_t least[N_CHUNK], most[N_CHUNK];
-    int64_t (*at)[N_BUCKET];     ///< [N_CHUNK] counts, then where each chunk writes next
+    int64_t (*at)[N_BUCKET];     ///< [n_chunk] counts, then where each chunk writes next
     int64_t start[N_BUCKET + 1]; ///< of each bucket
 } sorting;
 
 static int64_t chunk_begin(const sorting *s, int64_t chunk)
 {
-    return s->n * chunk / N_CHUNK;
+    return s->n * chunk / s->n_chunk;
 }
 
 static void find_range(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -64,7 +65,7 @@ static void place_buckets(sorting *s)
     int64_t before = 0;
     for (int b = 0; b < N_BUCKET; ++b) {
         s->start[b] = before;
-        for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
+        for (int chunk = 0; chunk < s->n_chunk; ++chunk) {
             const int64_t here = s->at[chunk][b];
             s->at[chunk][b] = before;
             before += here;
@@ -100,7 +101,8 @@ static void insertion_sort(uint64_t *entry, int64_t n, int words)
         const uint64_t item = entry[i * words + words - 1];
         int64_t k = i;
         for (; k > 0 && entry[(k - 1) * words] > key; --k) {
-            memcpy(entry + k * words, entry + (k - 1) * words, (size_t)words * sizeof *entry);
+            entry[k * words + words - 1] = entry[k * words - 1];
+            entry[k * words] = entry[(k - 1) * words];
         }
         entry[k * words + words - 1] = item;
         entry[k * words] = key;
@@ -193,18 +195,18 @@ static int bits_of(uint64_t x)
 static void sort_many(sorting *s)
 {
     uint64_t most = 0;
-    clx_parallel_for(N_CHUNK, 1, find_range, s);
+    clx_parallel_for(s->n_chunk, 1, find_range, s);
     s->low = UINT64_MAX;
-    for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
+    for (int chunk = 0; chunk < s->n_chunk; ++chunk) {
         s->low = s->least[chunk] < s->low ? s->least[chunk] : s->low;
         most = s->most[chunk] > most ? s->most[chunk] : most;
     }
     const int bits = bits_of(most - s->low);
     s->shift = bits > BUCKET_BITS ? bits - BUCKET_BITS : 0;
     CLAST_ASSERT((most - s->low) >> s->shift < N_BUCKET);
-    clx_parallel_for(N_CHUNK, 1, count_buckets, s);
+    clx_parallel_for(s->n_chunk, 1, count_buckets, s);
     place_buckets(s);
-    clx_parallel_for(N_CHUNK, 1, scatter, s);
+    clx_parallel_for(s->n_chunk, 1, scatter, s);
     clx_parallel_for(N_BUCKET, 16, sort_buckets, s);
 }
 
@@ -213,11 +215,12 @@ static clast_status sort_entries(uint64_t *entry, int64_t n, int words)
     CLAST_ASSERT(n >= 2 && (words == 1 || words == 2));
     clast_status status = CLAST_OK;
     sorting s = {.entry = entry, .n = n, .words = words};
+    s.n_chunk = n < (int64_t)N_CHUNK * LEAST_CHUNK ? (int)(n / LEAST_CHUNK) + 1 : N_CHUNK;
     CLX_TRY(clx_alloc(&s.scratch, n * words, sizeof *s.scratch));
     if (n <= SMALL) {
         sort_bucket((bucket){entry, s.scratch, n, words, 0, 64}, entry);
     } else {
-        CLX_TRY(clx_alloc(&s.at, N_CHUNK, sizeof *s.at));
+        CLX_TRY(clx_alloc(&s.at, s.n_chunk, sizeof *s.at));
         sort_many(&s);
     }
 done:

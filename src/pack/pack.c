@@ -38,7 +38,9 @@ clast_bed clast_pack_bed(const clast_pack *pack)
     if (d->domain == CLAST_DEM_CELL) {
         clast_dem_cell cell;
         clast_dem_read_cell(pack->dem, &cell);
-        return (clast_bed){.kind = CLAST_BED_PERIODIC,
+        const bool is_upright = cell.shift == 0.0; // a sheared one repeats straight in x, y alone
+        return (clast_bed){.kind = is_upright ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC,
+                           .ceiling = cell.side[2],
                            .low = {-0.5 * cell.side[0], -0.5 * cell.side[1]},
                            .high = {0.5 * cell.side[0], 0.5 * cell.side[1]}};
     }
@@ -162,6 +164,7 @@ void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks)
                                 .n_balance = c.n_balance,
                                 .n_migrated = c.n_migrated,
                                 .ghosts = (double)c.n_ghost / steps,
+                                .messages = (double)c.n_message / steps,
                                 .step_bytes = (double)c.step_bytes / steps,
                                 .list_bytes = (double)c.list_bytes / steps,
                                 .imbalance = c.imbalance,

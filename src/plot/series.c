@@ -36,7 +36,7 @@ static void draw_path(clx_figure *f, const clast_series *e)
     }
     cairo_set_dash(cr, dash, e->dashed ? 2 : 0, 0.0);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_width(cr, 1.6);
+    cairo_set_line_width(cr, e->width > 0.0 ? e->width : 1.6);
     cairo_stroke(cr);
     cairo_set_dash(cr, NULL, 0, 0.0);
 }

@@ -4,36 +4,9 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
-#include "math/vec3.h"
+#include "porosity/contact_columns.h"
 #include "porosity/whole.h"
 #include <math.h>
-
-/// Columns of a contact table.
-typedef struct {
-    int64_t n;
-    const double *z;         ///< of the point
-    const double *branch[3]; ///< [n] each
-    const double *force[3];
-    const double *z_a; ///< of a's centre
-} contacts;
-
-static clast_status read_contacts(const clast_table *table, contacts *c)
-{
-    static const char *const branch[3] = {"branch_x_m", "branch_y_m", "branch_z_m"};
-    static const char *const force[3] = {"force_x_N", "force_y_N", "force_z_N"};
-    clast_status status = CLAST_OK;
-    contacts made = {.n = table->n_row, .z_a = clast_table_numbers(table, "centre_z_m")};
-    CLX_CHECK(made.z_a != NULL, CLAST_E_FORMAT, "table '%s' holds no contact forces", table->name);
-    for (int k = 0; k < 3; ++k) {
-        made.branch[k] = clast_table_numbers(table, branch[k]);
-        made.force[k] = clast_table_numbers(table, force[k]);
-        CLX_CHECK(made.branch[k] != NULL && made.force[k] != NULL, CLAST_E_FORMAT,
-                  "table '%s' holds no contact forces", table->name);
-    }
-    *c = made;
-done:
-    return status;
-}
 
 /// Share of a branch from z to z + length that lies between two heights.
 static double share_between(double z, double length, double low, double high)
@@ -47,7 +20,7 @@ static double share_between(double z, double length, double low, double high)
 }
 
 /// Adds f_i l_j of the parts of branches between the heights; symmetric part xx yy zz xy xz yz.
-static void add_between(const contacts *c, int64_t k, double low, double high, double sum[6])
+static void add_between(const clx_contacts *c, int64_t k, double low, double high, double sum[6])
 {
     CLAST_ASSERT(k >= 0 && k < c->n);
     static const int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
@@ -100,10 +73,10 @@ clast_status clast_stress(const clast_table *table, const clast_bed *bed, const 
     CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
-    contacts c = {0};
+    clx_contacts c = {0};
     double sum[6] = {0.0};
     double volume = 0.0;
-    CLX_TRY(read_contacts(table, &c));
+    CLX_TRY(clx_contacts_read(table, &c));
     clast_bed_volumes(bed, 1, z, &volume);
     CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %g and %g m", z[0],
               z[1]);
@@ -135,7 +108,7 @@ static int64_t slice_at(const double *edge, int64_t n, double z)
 }
 
 /// Adds all branches to the slices that they pass.
-static void gather(const contacts *c, const double *edge, int64_t n, double (*sum)[6])
+static void gather(const clx_contacts *c, const double *edge, int64_t n, double (*sum)[6])
 {
     for (int64_t k = 0; k < c->n; ++k) {
         const double z = c->z_a[k];
@@ -160,7 +133,7 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
                                         "stress_xy_Pa", "stress_xz_Pa", "stress_yz_Pa"};
     clast_status status = CLAST_OK;
     clast_table made = {0};
-    contacts c = {0};
+    clx_contacts c = {0};
     double(*sum)[6] = NULL;
     double *edge = NULL;
     double *volume = NULL;
@@ -170,7 +143,7 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
     const double *high = clast_table_numbers(profile, "z_high_m");
     CLX_CHECK(n > 0 && low != NULL && high != NULL, CLAST_E_USAGE,
               "the table is no porosity profile");
-    CLX_TRY(read_contacts(table, &c));
+    CLX_TRY(clx_contacts_read(table, &c));
     CLX_TRY(clx_alloc(&sum, n, sizeof *sum));
     CLX_TRY(clx_alloc(&edge, n + 1, sizeof *edge));
     CLX_TRY(clx_alloc(&volume, n, sizeof *volume));

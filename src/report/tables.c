@@ -162,7 +162,7 @@ static void put_cell(clx_file *file, const shown *s, int64_t row)
 }
 
 /// Columns that stand side by side without scrolling.
-enum { ACROSS = 10 };
+enum { ACROSS = 12 };
 
 /// Some of a table's columns: the first, which tells the row, and n more.
 typedef struct {
@@ -200,14 +200,16 @@ static void end_table(clx_file *file)
     (void)clx_file_print(file, "</table></div>");
 }
 
-/// The columns in stripes one below the other, each with the first column.
+/// The columns in stripes one below the other, as wide as each other, each with the first column.
 static void put_stripes(clx_file *file, const clast_table *table, const shown *s, int32_t n,
                         int64_t rows)
 {
     CLAST_ASSERT(rows >= 0);
-    for (int32_t k = 1; k == 1 || k < n; k += ACROSS - 1) {
-        const int32_t left = n - k > 0 ? n - k : 0;
-        const stripe part = {s, s + k, left < ACROSS - 1 ? left : ACROSS - 1};
+    const int32_t n_stripe = n > ACROSS ? (n - 1 + ACROSS - 2) / (ACROSS - 1) : 1;
+    const int32_t most = (n - 1 + n_stripe - 1) / n_stripe;
+    for (int32_t j = 0; j < n_stripe; ++j) {
+        const int32_t k = 1 + j * most;
+        const stripe part = {s, s + k, n - k < most ? n - k : most};
         begin_table(file, "");
         put_heads(file, table, &part);
         for (int64_t r = 0; r < rows; ++r) {

@@ -10,7 +10,7 @@
 #include <clast/assembly.h>
 #include <string.h>
 
-enum { N_ARRAY = 17, MOST_TABLES = 7 };
+enum { N_ARRAY = 17, MOST_TABLES = 8 };
 
 typedef struct {
     const char *name;
@@ -82,13 +82,30 @@ done:
     return status;
 }
 
+/// Velocities of the grains, in the order of the assembly.
+static clast_status make_velocities(const clx_dem_saved *saved, clast_table *table)
+{
+    static const char *const name[3] = {"velocity_x_m/s", "velocity_y_m/s", "velocity_z_m/s"};
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_table_init(table, "velocities", saved->n_grain));
+    for (int k = 0; k < 3; ++k) {
+        double *column = NULL;
+        CLX_TRY(clast_table_add_number(table, name[k], "m/s", &column));
+        for (int64_t i = 0; i < saved->n_grain; ++i) {
+            column[i] = saved->grain[i * CLX_SAVED_GRAIN + 3 + k];
+        }
+    }
+done:
+    return status;
+}
+
 static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
 {
     clast_status status = CLAST_OK;
     clx_pack_saved saved = {0};
     clast_assembly grains = {0};
-    clast_table table[MOST_TABLES] = {{0}, {0}, {0}, {0}, {0}, {0}, {0}};
-    clast_state state = {.assembly = &grains, .n_table = 3, .table = table};
+    clast_table table[MOST_TABLES] = {{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}};
+    clast_state state = {.assembly = &grains, .n_table = 4, .table = table};
     clx_h5 *made = NULL;
     const clast_bed bed = clast_pack_bed(pack);
     CLX_TRY(clx_pack_save(pack, &saved));
@@ -98,9 +115,10 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
     CLX_TRY(clast_bed_table(&bed, &table[0]));
     table[1] = *saved.series; // borrowed
     CLX_TRY(clast_dem_contact_table(pack->dem, &table[2]));
+    CLX_TRY(make_velocities(&saved.dem, &table[3]));
     if (bed.kind == CLAST_BED_MESH) {
-        CLX_TRY(clx_bed_surface_tables(bed.surface, &table[3]));
-        state.n_table = 5;
+        CLX_TRY(clx_bed_surface_tables(bed.surface, &table[4]));
+        state.n_table = 6;
     }
     if (saved.load != NULL) {
         table[state.n_table++] = *saved.load; // borrowed
@@ -117,7 +135,7 @@ done:
     clx_h5_close(made);
     clx_free(state.config);
     clast_table_free(&table[0]);
-    const int n_own = bed.kind == CLAST_BED_MESH ? 5 : 3;
+    const int n_own = bed.kind == CLAST_BED_MESH ? 6 : 4;
     for (int k = 2; k < n_own; ++k) {
         clast_table_free(&table[k]);
     }

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from clitest import Case, clast
-from ranktest import own_lines, ranks, start, wait_until_free
+from ranktest import own_lines, process_of_rank, ranks, start, wait_until_free
 
 HULLS = ("--shapes", "data/scarlet/stl/27sk21_shape_fine.stl", "--hull", "--faces", "60")
 # Heavy grains over a low domain: a bed lies, is filled again and shaken within few steps.
@@ -104,9 +104,7 @@ class Beds(Case):
         until = time.time() + 60
         while time.time() < until and len(list(run.glob("checkpoint*"))) < 2:
             time.sleep(0.05)
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        victim = [pid for pid in children if "clast-mpi" in pathlib.Path(f"/proc/{pid}/cmdline").read_text()][-1]
-        os.kill(int(victim), signal.SIGKILL)
+        os.kill(process_of_rank(process, 2), signal.SIGKILL)
         begun = time.time()
         _, err = process.communicate(timeout=60)
         self.assertLess(time.time() - begun, 30)

@@ -27,9 +27,10 @@ static clast_status write_history(const char *path, unsigned char **bytes, size_
     const double mark[] = {0.73};
     const char *const mark_label[] = {"published, 0.73"};
     const clast_series series[] = {
-        {CLAST_SERIES_BAND, "95 % interval of 8 repeats", x, NULL, low, high, NULL, N, 0, false},
-        {CLAST_SERIES_LINE, "mean", x, y, NULL, NULL, NULL, N, 0, false},
-        {CLAST_SERIES_POINTS, "observed", x, high, low, high, NULL, 5, 1, false}};
+        {CLAST_SERIES_BAND, "95 % interval of 8 repeats", x, NULL, low, high, NULL, N, 0, false,
+         0.0},
+        {CLAST_SERIES_LINE, "mean", x, y, NULL, NULL, NULL, N, 0, false, 0.0},
+        {CLAST_SERIES_POINTS, "observed", x, high, low, high, NULL, 5, 1, false, 0.0}};
     const clast_chart chart = {.title = "Porosity while the aggregate grows",
                                .x = {.label = "particles (-)"},
                                .y = {.label = "porosity (-)"},

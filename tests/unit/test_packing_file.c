@@ -2,9 +2,15 @@
  */
 #include "support.h"
 
+#include "base/alloc.h"
+#include "base/file.h"
 #include <clast/assembly.h>
+#include <clast/field.h>
+#include <clast/mesh.h>
+#include <clast/pack.h>
 #include <clast/porosity.h>
 #include <clast/state.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -217,6 +223,110 @@ static void refused_memory_leaves_nothing(void **state)
     clast_assembly_free(&a);
 }
 
+static void set_text(char **field, const char *text)
+{
+    clx_free(*field);
+    CHECK_OK(clx_alloc_text(field, text));
+}
+
+/// Starts from a file and writes that again over it: the same bytes, those of a file of shapes too.
+static void check_start(const char *path)
+{
+    clast_pack_config config = {0};
+    clast_pack_source source = {0};
+    char *bytes[2][2] = {{NULL, NULL}, {NULL, NULL}};
+    int64_t n[2][2] = {{0, 0}, {0, 0}};
+    char shapes[4096];
+    const char *dot = strrchr(path, '.');
+    const int n_file = strcmp(dot, ".conf") == 0 ? 2 : 1;
+    (void)snprintf(shapes, sizeof shapes, "%.*s.shp", (int)(dot - path), path);
+    const char *const file[2] = {path, shapes};
+    CHECK_OK(clast_fields_default(clast_pack_fields, &config));
+    set_text(&config.start, path);
+    set_text(&config.start_unit, "m");
+    for (int time = 0; time < 2; ++time) {
+        for (int k = 0; k < n_file; ++k) {
+            CHECK_OK(clx_file_read_all(file[k], 1 << 24, &bytes[time][k], &n[time][k]));
+        }
+        if (time == 0) {
+            CHECK_OK(clast_pack_load(&config, &source));
+            CHECK_OK(clast_assembly_write(source.input.start, path, NULL, NULL));
+        }
+    }
+    for (int k = 0; k < n_file; ++k) {
+        assert_int_equal(n[0][k], n[1][k]);
+        assert_memory_equal(bytes[0][k], bytes[1][k], (size_t)n[0][k]);
+        clx_free(bytes[0][k]);
+        clx_free(bytes[1][k]);
+    }
+    clast_pack_unload(&source);
+    clast_fields_free(clast_pack_fields, &config);
+}
+
+static void check_format(const clast_assembly *a, const char *name)
+{
+    char path[4096];
+    (void)snprintf(path, sizeof path, "%s", support_scratch_file(name));
+    CHECK_OK(clast_assembly_write(a, path, NULL, NULL));
+    check_start(path);
+}
+
+static void add_shape(clast_assembly *a, clast_status status, clast_shape *shape)
+{
+    CHECK_OK(status);
+    CHECK_OK(clast_assembly_add_shape(a, shape, NULL));
+    clast_shape_free(shape);
+}
+
+/* Grains of any places, turns, scales and densities, as floating-point numbers have them. */
+static void fill_bed(clast_assembly *a, int32_t n)
+{
+    (void)snprintf(a->unit, sizeof a->unit, "m");
+    for (int32_t i = 0; i < n; ++i) {
+        const double x[3] = {0.1 * sin(i), 0.1 * cos(3.0 * i), i / 7.0};
+        double q[4] = {cos(i), sin(2.0 * i), 0.3, sin(i)};
+        const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        for (int k = 0; k < 4; ++k) {
+            q[k] /= length;
+        }
+        CHECK_OK(clast_assembly_add_grain(a, i % a->n_shape, x, q, 3e-3 + 1e-4 * sin(5.0 * i),
+                                          2650.0 + i % 3));
+    }
+}
+
+/* What goes out as a bed of another program comes back as a start in the same bytes. */
+static void beds_come_back_in_equal_bytes(void **state)
+{
+    (void)state;
+    static const char *const spheres[] = {"s.data", "s.dump", "s.txt", "s.voro",
+                                          "s.xyzd", "s.conf", "s.csv"};
+    static const char *const ellipsoids[] = {"e.data", "e.dump"};
+    clast_assembly a = {0};
+    clast_shape shape = {0};
+    clast_mesh box = {0};
+    add_shape(&a, clast_shape_sphere("1-sphere", 0.5, &shape), &shape);
+    fill_bed(&a, 20);
+    for (size_t k = 0; k < sizeof spheres / sizeof *spheres; ++k) {
+        check_format(&a, spheres[k]);
+    }
+    clast_assembly_free(&a);
+    add_shape(&a, clast_shape_ellipsoid("1-e", (double[3]){0.7, 0.5, 0.3}, &shape), &shape);
+    add_shape(&a, clast_shape_ellipsoid("2-e", (double[3]){0.9, 0.4, 0.4}, &shape), &shape);
+    fill_bed(&a, 20);
+    for (size_t k = 0; k < sizeof ellipsoids / sizeof *ellipsoids; ++k) {
+        check_format(&a, ellipsoids[k]);
+    }
+    clast_assembly_free(&a);
+    CHECK_OK(clast_mesh_box(0.9, 0.7, 0.55, &box));
+    clast_mesh_transform(&box, 1.0, (double[4]){0.8, 0.0, 0.6, 0.0}, (double[3]){0.1, 0.2, 0.3});
+    add_shape(&a, clast_shape_mesh("1-box", &box, &shape), &shape);
+    add_shape(&a, clast_shape_sphere("2-sphere", 0.5, &shape), &shape);
+    fill_bed(&a, 20);
+    check_format(&a, "b.conf");
+    clast_mesh_free(&box);
+    clast_assembly_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +337,7 @@ int main(void)
         cmocka_unit_test(beds_in_three_directions_read_back),
         cmocka_unit_test(the_jammed_packing_has_its_published_porosity),
         cmocka_unit_test(refused_memory_leaves_nothing),
+        cmocka_unit_test(beds_come_back_in_equal_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

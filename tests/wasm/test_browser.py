@@ -5,26 +5,20 @@ import hashlib
 import io
 import json
 import pathlib
-import re
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 import zipfile
 
 import jobs
+import page
 
-sys.path.insert(0, str(jobs.ROOT / "tools"))
-import check_site  # noqa: E402
-
-PAGE = jobs.PACKAGE.parent / "clast-live.html"
 RUN = """(async () => {
   const run = ({words, files}) => new Promise((done) => {
     const id = `job${Math.random()}`;
-    const hear = ({data}) => { if (data.id === id) { worker.removeEventListener('message', hear); done(data); } };
-    worker.addEventListener('message', hear);
-    worker.postMessage({id, words, files: Object.fromEntries(Object.entries(files).map(([n, t]) => [n, bytesOf(t)]))});
+    const hear = ({data}) => { if (data.id === id) { splitter.worker.removeEventListener('message', hear); done(data); } };
+    splitter.worker.addEventListener('message', hear);
+    splitter.worker.postMessage({id, words, files: Object.fromEntries(Object.entries(files).map(([n, t]) => [n, bytesOf(t)]))});
   });
   const hex = async (bytes) => [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].map((b) => b.toString(16).padStart(2, '0')).join('');
   const {result, fault} = await run(JOB);
@@ -34,40 +28,7 @@ RUN = """(async () => {
 })()"""
 
 
-class Live(unittest.TestCase):
-    maxDiff = 4000
-
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = check_site.Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-
-    def setUp(self):
-        self.open()
-
-    def tearDown(self):
-        self.assertEqual(list(check_site.told(self.browser.events)), [])
-
-    def open(self, fragment=""):
-        self.browser.open("about:blank")
-        self.assertIsNone(self.browser.open(PAGE.as_uri() + fragment))
-        self.until("document.getElementById('state').textContent === 'ready'", 60)
-
-    def until(self, condition, seconds):
-        end = time.monotonic() + seconds
-        while not self.browser.value(condition):
-            self.assertLess(time.monotonic(), end, f"{condition}: {self.browser.value('document.body.innerText')[:600]}")
-            time.sleep(0.02)
-
-    def text(self, name):
-        return self.browser.value(f"document.getElementById('{name}').textContent")
-
-    def click(self, selector):
-        self.browser.value(f"document.querySelector({json.dumps(selector)}).click()")
-
+class Split(page.Live):
     def split(self):
         self.click("#run")
         self.until("document.getElementById('state').textContent.startsWith('done') || document.getElementById('error').textContent !== ''", 60)
@@ -131,10 +92,6 @@ class Live(unittest.TestCase):
                 self.assertRegex(self.text("error"), "^clast decompose: ")
         self.assertEqual(self.browser.value("document.images.length"), 0)
 
-    @staticmethod
-    def kept(name):
-        return re.sub(r"^[-/\\]+|[/\\\0]", "_", name)
-
     def test_cancel_ends_within_a_tenth_of_a_second(self):
         self.drop("big.csv", b"x,y,z\n" + b"\n".join(b"%.6f,%.6f,%.6f" % ((k * 0.754877) % 1, (k * 0.569840) % 1, (k * 0.324717) % 1) for k in range(300000)))
         self.until("state.name === 'big.csv'", 20)
@@ -161,17 +118,13 @@ class Live(unittest.TestCase):
         self.click("[data-make=gradient]")
         self.browser.value("document.getElementById('mesh').value = 'boxes'")
         word, text = self.browser.value("shared()"), self.browser.value("state.text")
-        self.open(f"#split={word}")
+        self.open(f"split={word}")
         self.assertEqual(self.browser.value("state.text"), text)
         self.split()
         self.assertIn("--mesh=boxes", self.text("command"))
-        self.open("#split=AAAA")
+        self.open("split=AAAA")
         self.assertIn("damaged", self.text("error"))
 
 
 if __name__ == "__main__":
-    lacking = jobs.lacking("chromium")
-    if lacking:
-        print(f"SKIPPED LOUDLY: {lacking}")
-        raise SystemExit(0)
-    unittest.main()
+    page.main()

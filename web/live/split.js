@@ -1,45 +1,16 @@
-// The page's side: the form, the picture and the tables; clast itself runs in a worker made of this page's own text.
-const $ = (id) => document.getElementById(id);
+// The room Split: a table of positions, its cells and events.
 const SIZE = 640; // of the picture, in its own pixels
 const EDGE = 14;
-const MOST_SHARED = 60000; // letters of an address that browsers keep
-const COLOURS = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'];
-const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#999999'];
-
 const state = {
   name: null, text: null, columns: [], bounds: null, // the table and what the picture shows of it
   strokes: [], painting: false, result: null, picked: -1, run: 0,
 };
-let worker = null;
-let program = null;
-
-function bytesOf(base64) {
-  return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-}
-
-async function unzipped(bytes) {
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
-}
 
 function say(text) { $('state').textContent = text; }
 function fail(text) { $('error').textContent = text; }
 
-function newWorker() {
-  const text = `${$('clast-module').textContent}\nconst made = {};\nonmessage = async ({ data }) => {
-  if (data.program) { made.clast = new Clast(data.program); postMessage({ ready: true }); return; }
-  try { postMessage({ id: data.id, result: await made.clast.run(data.words, { files: data.files }) }); }
-  catch (fault) { postMessage({ id: data.id, fault: String(fault) }); }\n};`;
-  const address = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
-  worker = new Worker(address, { type: 'module' });
-  worker.onmessage = ({ data }) => {
-    if (data.ready) { say('ready'); setReady(); } else if (data.id === state.run) finish(data);
-  };
-  worker.onerror = (event) => fail(`the worker ended: ${event.message}`);
-  worker.postMessage({ program });
-}
-
 function setReady() {
-  $('run').disabled = state.text === null || !program;
+  $('run').disabled = state.text === null || !splitter.isReady;
   $('cancel').disabled = true;
 }
 
@@ -286,30 +257,31 @@ function wordsNow() {
   return [...words, ...$('more').value.trim().split(/\s+/).filter(Boolean), '-o', 'cells', '--json'];
 }
 
-function start() {
+const splitter = new Engine(() => { say('ready'); setReady(); }, fail);
+
+async function start() {
   fail('');
-  state.run += 1;
   state.words = wordsNow();
   state.begun = performance.now();
   $('run').disabled = true;
   $('cancel').disabled = false;
   say('computing');
-  worker.postMessage({ id: state.run, words: state.words, files: { [state.name]: state.text } });
+  await finish(await splitter.run(state.words, { [state.name]: state.text }));
 }
 
 function cancel() {
-  worker.terminate();
-  state.run += 1;
+  splitter.cancel();
   say('cancelled');
-  newWorker();
 }
 
-async function finish({ result, fault }) {
+async function finish(ended) {
+  const { result } = ended;
+  const refusal = refusalOf(ended);
   const seconds = (performance.now() - state.begun) / 1000;
   setReady();
-  if (fault || result.status > 1 || !result.stdout) {
+  if (refusal) {
     say('');
-    fail(fault ?? (result.stderr.trim().split('\n').pop() || `clast ended with code ${result.status}`));
+    fail(refusal);
     return;
   }
   say(`done in ${seconds.toFixed(2)} s`);
@@ -320,40 +292,6 @@ async function finish({ result, fault }) {
   if (!state.result.cells.label && $('colour').value === 'label') $('colour').value = 'density';
   await show();
   draw();
-}
-
-function columnsOf(text) {
-  const lines = text.split('\n').filter((line) => line && !line.startsWith('#'));
-  const names = lines[0].split(',');
-  const rows = lines.slice(1).map((line) => line.split(',').map(Number));
-  return Object.fromEntries(names.map((name, k) => [name, rows.map((row) => row[k])]));
-}
-
-function tag(name, text, className) {
-  return Object.assign(document.createElement(name), { textContent: text, className: className ?? '' });
-}
-
-function fillTable(table, heads, rows) {
-  const head = tag('tr', '');
-  head.append(...heads.map((h, k) => Object.assign(tag('th', h, k > 0 ? 'n' : ''), { scope: 'col' })));
-  table.replaceChildren(head, ...rows.map((row) => {
-    const line = tag('tr', '');
-    line.append(...row.map((cell, k) => tag('td', cell, k > 0 ? 'n' : '')));
-    return line;
-  }));
-}
-
-function figure(value, name) {
-  const box = tag('div', '', 'figure');
-  box.append(tag('b', value), tag('span', name));
-  return box;
-}
-
-function short(v) { return v === null || v === undefined ? '-' : typeof v === 'number' ? Number(v.toPrecision(5)).toString() : String(v); }
-
-function commandNow() {
-  const quote = (w) => (/^[\w@%+=:,./-]+$/.test(w) ? w : `'${w.replaceAll("'", "'\\''")}'`);
-  return ['clast', ...state.words.filter((w) => w !== '--json')].map(quote).join(' ');
 }
 
 async function show() {
@@ -369,97 +307,36 @@ async function show() {
   $('stop').textContent = r.stop ?? '';
   $('passes_card').hidden = !(r.passes?.length > 0);
   fillTable($('passes'), ['bins', 'threshold', 'score', 'expected'], (r.passes ?? []).map((p) => [p.bins.join(' x '), short(p.lambda), short(p.score), short(p.ideal_score)]));
-  $('command').textContent = commandNow();
-  const digest = globalThis.crypto?.subtle ? await crypto.subtle.digest('SHA-256', state.result.files['cells/cells.csv']) : null;
-  $('hash').textContent = digest ? [...new Uint8Array(digest)].map((b) => b.toString(16).padStart(2, '0')).join('') : 'not known to this browser';
+  $('command').textContent = commandOf(state.words);
+  $('hash').textContent = await digestOf(state.result.files['cells/cells.csv']);
   $('result').hidden = false;
 }
 
 // Files out.
 
-function crc32(bytes) {
-  let crc = -1;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let k = 0; k < 8; k += 1) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return ~crc >>> 0;
-}
-
-/// A zip of stored files [APPNOTE 6.3.9]; its times are those of 1980.
-function zipOf(files) {
-  const parts = [];
-  const list = [];
-  let at = 0;
-  for (const [name, content] of Object.entries(files)) {
-    const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : content;
-    const path = new TextEncoder().encode(name);
-    const common = new DataView(new ArrayBuffer(26));
-    [[0, 20, 2], [2, 0x800, 2], [4, 0, 2], [6, 0, 2], [8, 33, 2], [10, crc32(bytes), 4], [14, bytes.length, 4], [18, bytes.length, 4], [22, path.length, 2]]
-      .forEach(([place, value, size]) => (size === 2 ? common.setUint16(place, value, true) : common.setUint32(place, value, true)));
-    const place = new DataView(new ArrayBuffer(16));
-    place.setUint32(12, at, true);
-    parts.push(new Uint8Array([80, 75, 3, 4]), new Uint8Array(common.buffer), path, bytes);
-    list.push(new Uint8Array([80, 75, 1, 2, 20, 0]), new Uint8Array(common.buffer), new Uint8Array(place.buffer).subarray(2), path);
-    at += 30 + path.length + bytes.length;
-  }
-  const size = list.reduce((n, part) => n + part.length, 0);
-  const end = new DataView(new ArrayBuffer(22));
-  end.setUint32(0, 0x06054b50, true);
-  end.setUint16(8, Object.keys(files).length, true);
-  end.setUint16(10, Object.keys(files).length, true);
-  end.setUint32(12, size, true);
-  end.setUint32(16, at, true);
-  return new Blob([...parts, ...list, end.buffer], { type: 'application/zip' });
-}
-
-function save(blob, name) {
-  const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-}
-
 function shared() {
   const kept = { name: state.name, text: state.text, domain: $('domain').value };
   for (const key of ['variant', 'mesh', 'beta_dt', 'more']) kept[key] = $(key).value;
-  return btoa(String.fromCharCode(...new TextEncoder().encode(JSON.stringify(kept)))).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+  return packed(kept);
 }
 
-function open(fragment) {
-  const match = /^#split=([\w-]+)$/.exec(fragment);
-  if (!match) return;
-  try {
-    const kept = JSON.parse(new TextDecoder().decode(bytesOf(match[1].replaceAll('-', '+').replaceAll('_', '/'))));
-    setPoints(String(kept.name), String(kept.text), String(kept.domain));
-    for (const key of ['variant', 'mesh', 'beta_dt', 'more']) $(key).value = String(kept[key] ?? '');
-  } catch (fault) {
-    fail(`the address of this page is damaged: ${fault.message}`);
-  }
-}
-
-async function copy(text, done) {
-  try { await navigator.clipboard.writeText(text); say(done); } catch { say('the browser did not let it be copied'); }
+function openSplit(kept) {
+  setPoints(String(kept.name), String(kept.text), String(kept.domain));
+  for (const key of ['variant', 'mesh', 'beta_dt', 'more']) $(key).value = String(kept[key] ?? '');
 }
 
 async function take(file) {
   if (!file) return;
   const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
-  const name = file.name.replace(/^[-/\\]+|[/\\\0]/g, '_') || 'points';
+  const name = plainName(file.name, 'points');
   setPoints(name, isText ? await file.text() : new Uint8Array(await file.arrayBuffer()));
 }
 
-function listen() {
+function listenSplit() {
   $('form').addEventListener('submit', (event) => { event.preventDefault(); if (!$('run').disabled) start(); });
   $('cancel').addEventListener('click', cancel);
   $('file').addEventListener('change', () => take($('file').files[0]));
   document.querySelectorAll('[data-make]').forEach((b) => b.addEventListener('click', () => make(b.dataset.make)));
-  for (const kind of ['dragover', 'dragleave', 'drop']) {
-    document.addEventListener(kind, (event) => {
-      event.preventDefault();
-      $('drop').classList.toggle('over', kind === 'dragover');
-      if (kind === 'drop') take(event.dataTransfer.files[0]);
-    });
-  }
   $('paint').addEventListener('click', () => {
     state.painting = !state.painting;
     $('paint').setAttribute('aria-pressed', String(state.painting));
@@ -485,32 +362,23 @@ function listen() {
   });
   for (const id of ['colour', 'axes', 'domain']) $(id).addEventListener('change', draw);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-  $('copy').addEventListener('click', () => copy(commandNow(), 'copied'));
+  $('copy').addEventListener('click', () => copy(commandOf(state.words), 'copied', say));
   $('zip').addEventListener('click', () => save(zipOf({ [state.name]: state.text, ...state.result.files }), 'cells.zip'));
   $('share').addEventListener('click', () => {
     const word = typeof state.text === 'string' ? shared() : '';
     if (!word || word.length > MOST_SHARED) { say('these points are too many for an address; take the zip'); return; }
     location.hash = `split=${word}`;
-    copy(location.href, 'copied');
+    copy(location.href, 'copied', say);
   });
 }
 
-async function begin() {
-  listen();
-  draw();
-  open(location.hash);
-  if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') {
-    say('');
-    fail('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 80, Firefox 113, Safari 16.4)');
-    return;
-  }
-  try {
-    program = await WebAssembly.compile(await unzipped(bytesOf($('clast-wasm').textContent.trim())));
-    newWorker();
-  } catch (fault) {
-    say('');
-    fail(`clast could not be loaded: ${fault.message}`);
-  }
-}
-
-begin();
+const splitRoom = {
+  name: 'split',
+  engine: splitter,
+  say,
+  fail,
+  listen: listenSplit,
+  open: openSplit,
+  take: (files) => take(files[0]),
+  shown: draw,
+};

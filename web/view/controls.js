@@ -10,7 +10,7 @@ import { grainAt, pick } from './pick.js';
 import { MAX_WIDTH, MIN_WIDTH, savePicture } from './picture.js';
 
 const COLOURS = [['size', 'Colour by size'], ['order', 'Colour by order'], ['shape', 'Colour by shape'],
-  ['coordination', 'Colour by contacts']];
+  ['coordination', 'Colour by contacts'], ['speed', 'Colour by speed'], ['force', 'Colour by force']];
 const CUTS = [['none', 'No cut'], ['view', 'Cut in view'], ['x', 'Cut across x'], ['y', 'Cut across y'], ['z', 'Cut across z']];
 const KEYS = 'Arrow keys turn, Shift and arrow keys move, + and - zoom, 0 frames all, C changes colours, X Y Z V cut, F shows contacts, '
   + 'P saves a picture, comma and full stop step in time, Escape lets a grain go.';
@@ -235,4 +235,4 @@ export function listen(view) {
   });
 }
 
-export { grow };
+export { grow, showChains };

@@ -13,6 +13,7 @@
 // frames: {n_file, low[3], step[3], end [s], frame: [{time [s], place, turn, grain, shape, scale}]}; place: base64 of uint16 [n][3], steps
 // from low; turn: base64 of int8 [n][4], quaternion w x y z (none: balls only); grain: base64 of uint32 [n], 0xffffffff for a grain that the
 // end does not have (none: 0 .. n-1); shape, scale: base64 of uint32 and float32 [n], a shape's `number` (none: as at the end).
+// values: {speed, force: {bar, of: base64 of float32 [n_shown]}}, what else is known of each grain while it moves (the live page).
 import { Color } from 'three';
 
 export const POSE = 10;
@@ -78,5 +79,6 @@ export function readData(element) {
   data.colours = data.bar.map((c) => new Color(c));
   data.contacts = readContacts(data);
   if (data.contacts) data.coordination = countBar('contacts of a grain', data.contacts.count.reduce((a, b) => Math.max(a, b), 0));
+  for (const [name, { bar, of }] of Object.entries(data.values ?? {})) Object.assign(data, { [name]: { ...bar, values: floats(of) } });
   return data;
 }

@@ -83,6 +83,23 @@ export function meanOf(meshes) {
   return sum / Math.max(n, 1);
 }
 
+/// Middle and radius of a ball that holds all grains where they are now.
+export function extentOf(meshes) {
+  const low = new Vector3(Infinity, Infinity, Infinity);
+  const high = low.clone().negate();
+  const at = new Vector3();
+  for (const { geometry, userData: { grain, pose } } of meshes) {
+    const own = geometry.boundingSphere.radius + geometry.boundingSphere.center.length();
+    for (let i = 0; i < grain.length; i += 1) {
+      at.fromArray(pose, POSE * i);
+      low.min(at.subScalar(own * pose[POSE * i + 7]));
+      high.max(at.addScalar(2 * own * pose[POSE * i + 7]));
+    }
+  }
+  if (!(high.x >= low.x)) return { middle: new Vector3(), radius: 1 };
+  return { middle: low.clone().add(high).multiplyScalar(0.5), radius: 0.5 * low.distanceTo(high) };
+}
+
 /// Radius about the origin that holds all grains.
 export function radiusOf(meshes) {
   let r = 0;
@@ -116,6 +133,7 @@ export function colourAt(colours, t, out) {
 function valueOf(data, by, mesh, i) {
   const g = mesh.userData.grain[i];
   if (by === 'order') return g + 1;
+  if (data[by].values) return data[by].values[g];
   if (by === 'coordination') return data.contacts.count[g] ?? 0;
   return mesh.userData.pose[POSE * i + 8] * data.size.unit;
 }

@@ -75,14 +75,33 @@ function writeFiles(FS, files) {
   }
 }
 
+function isSame(given, bytes) {
+  const known = typeof given === 'string' ? new TextEncoder().encode(given) : given;
+  return known.length === bytes.length && known.every((byte, i) => byte === bytes[i]);
+}
+
+/// What stands under a folder now and was not given so.
 function readFiles(FS, folder, prefix, given, found) {
   for (const name of FS.readdir(folder)) {
     if (name === '.' || name === '..') continue;
     const path = `${folder}/${name}`;
     const node = FS.lstat(path);
     if (FS.isDir(node.mode)) readFiles(FS, path, `${prefix}${name}/`, given, found);
-    else if (FS.isFile(node.mode) && !(`${prefix}${name}` in given)) found[prefix + name] = FS.readFile(path);
+    else if (FS.isFile(node.mode)) {
+      const bytes = FS.readFile(path);
+      if (!(`${prefix}${name}` in given) || !isSame(given[`${prefix}${name}`], bytes)) found[prefix + name] = bytes;
+    }
   }
+}
+
+/// Calls onFile for each file that the run has written whole: such a file is renamed into its place.
+function watch(FS, onFile) {
+  const { rename } = FS;
+  FS.rename = (from, to) => {
+    rename.call(FS, from, to);
+    const path = to.startsWith('/') ? to : `${FS.cwd()}/${to}`;
+    if (path.startsWith(`${HOME}/`) && FS.isFile(FS.stat(path).mode)) onFile(path.slice(HOME.length + 1), FS.readFile(path));
+  };
 }
 
 /// What is written to a descriptor goes to `take`; it is a terminal where progress is wanted.
@@ -110,9 +129,9 @@ export class Clast {
   constructor(program) { this.program = program; }
 
   /// Runs one command line: words after `clast`, files by path (texts or bytes). Never throws for what the command refuses: status
-  /// is its exit code. files of the result: what it wrote. Runs on the calling thread: a page calls it in a worker, and cancels by
+  /// is its exit code. files of the result: what it wrote or changed; onFile(path, bytes) has each while the run goes on. Runs on the calling thread: a page calls it in a worker, and cancels by
   /// ending that worker.
-  async run(words, { files = {}, onProgress } = {}) {
+  async run(words, { files = {}, onProgress, onFile } = {}) {
     const out = new Bytes();
     const err = new Bytes();
     const module = await createClast({
@@ -125,6 +144,7 @@ export class Clast {
     FS.mkdirTree(HOME);
     FS.chdir(HOME);
     writeFiles(FS, files);
+    if (onFile) watch(FS, onFile);
     divert(FS, 1, (part) => out.push(part), false);
     divert(FS, 2, splitter(err, onProgress), Boolean(onProgress));
     let status = 0;

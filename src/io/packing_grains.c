@@ -1,0 +1,249 @@
+// Tables of other programs to grains: spheres, ellipsoids, clumps.
+#include "io/packing.h"
+
+#include "base/status.h"
+#include "io/spheres_table.h"
+#include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
+#include <clast/state.h>
+#include <clast/table.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0};
+
+/// A quaternion whose printed digits are off by more than this is made one anew.
+static const double UNIT_OFF = 1e-12;
+
+/// Densities of the rows, above 0, where the table has them.
+static clast_status find_density(const clast_table *table, const double **density)
+{
+    clast_status status = CLAST_OK;
+    *density = clast_table_numbers(table, "density");
+    for (int64_t i = 0; *density != NULL && i < table->n_row; ++i) {
+        CLX_CHECK((*density)[i] > 0.0 && isfinite((*density)[i]), CLAST_E_FORMAT,
+                  "row %lld: density %g", (long long)i + 1, (*density)[i]);
+    }
+done:
+    return status;
+}
+
+/// Number of an atom's type, from 1; 1 where the table has none.
+static clast_status type_of(const double *type, int64_t row, int32_t *number)
+{
+    clast_status status = CLAST_OK;
+    const double value = type != NULL ? type[row] : 1.0;
+    CLX_CHECK(value >= 1.0 && value <= 1e6 && value == floor(value), CLAST_E_FORMAT,
+              "row %lld: type %g is none of 1, 2, ...", (long long)row + 1, value);
+    *number = (int32_t)value;
+done:
+    return status;
+}
+
+/// The shape of this name, which is made where it is missing.
+static clast_status need_shape(clast_assembly *a, const char *name, const double semi_axes[3],
+                               int32_t *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_shape made = {0};
+    const bool is_sphere = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
+    for (int32_t i = a->n_shape; i-- > 0;) { // the last ones are met most
+        if (strcmp(a->shape[i].name, name) == 0) {
+            *shape = i;
+            return CLAST_OK;
+        }
+    }
+    CLX_TRY(is_sphere ? clast_shape_sphere(name, semi_axes[0], &made)
+                      : clast_shape_ellipsoid(name, semi_axes, &made));
+    CLX_TRY(clast_assembly_add_shape(a, &made, shape));
+done:
+    clast_shape_free(&made);
+    return status;
+}
+
+static clast_status add_spheres(const clast_spheres *spheres, const double *type,
+                                const double *density, clast_assembly *a)
+{
+    static const double one[3] = {1.0, 1.0, 1.0};
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        char name[32];
+        int32_t number = 1;
+        int32_t shape = 0;
+        CLX_TRY(type_of(type, i, &number));
+        (void)snprintf(name, sizeof name, type != NULL ? "type-%d" : "sphere", number);
+        CLX_TRY(need_shape(a, name, one, &shape));
+        CLX_TRY(clast_assembly_add_grain(a, shape, spheres->centre[i], UPRIGHT, spheres->radius[i],
+                                         density != NULL ? density[i] : 1.0));
+    }
+done:
+    return status;
+}
+
+/// Rotation that takes the axes as clast sorts them, longest along x, to those of the file.
+static void sorting_turn(const double axes[3], double turn[4])
+{
+    int order[3] = {0, 1, 2};
+    double m[3][3] = {{0.0}};
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i; j > 0 && axes[order[j]] > axes[order[j - 1]]; --j) {
+            const int swap = order[j];
+            order[j] = order[j - 1];
+            order[j - 1] = swap;
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        m[order[k]][k] = 1.0;
+    }
+    const bool is_even = (order[1] - order[0] + 3) % 3 == 1;
+    m[order[2]][2] = is_even ? 1.0 : -1.0;
+    if (order[0] == 0 && order[1] == 1) {
+        memcpy(turn, UPRIGHT, sizeof UPRIGHT);
+    } else {
+        q_from_matrix(turn, m);
+    }
+}
+
+typedef struct {
+    const double *x[3], *axis[3], *q[4], *type, *density, *radius;
+} ellipsoid_columns;
+
+static clast_status find_columns(const clast_table *table, ellipsoid_columns *c)
+{
+    const struct {
+        const char *name;
+        const double **column;
+    } wanted[] = {{"x", &c->x[0]},         {"y", &c->x[1]},         {"z", &c->x[2]},
+                  {"shapex", &c->axis[0]}, {"shapey", &c->axis[1]}, {"shapez", &c->axis[2]},
+                  {"quatw", &c->q[0]},     {"quati", &c->q[1]},     {"quatj", &c->q[2]},
+                  {"quatk", &c->q[3]}};
+    clast_status status = CLAST_OK;
+    for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; ++k) {
+        *wanted[k].column = clast_table_numbers(table, wanted[k].name);
+        CLX_CHECK(*wanted[k].column != NULL, CLAST_E_FORMAT, "ellipsoids have no column %s",
+                  wanted[k].name);
+    }
+    c->type = clast_table_numbers(table, "type");
+    CLX_TRY(find_density(table, &c->density));
+done:
+    return status;
+}
+
+/// Where the row's grain is and how it is turned; finite, of unit length.
+static clast_status read_pose(const ellipsoid_columns *c, int64_t i, double x[3], double axes[3],
+                              double q[4])
+{
+    clast_status status = CLAST_OK;
+    double length = 0.0;
+    for (int k = 0; k < 3; ++k) { // no column is NULL but for the analyser
+        x[k] = c->x[k] != NULL ? c->x[k][i] : 0.0;
+        axes[k] = c->axis[k] != NULL ? 0.5 * c->axis[k][i] : 0.0;
+    }
+    for (int k = 0; k < 4; ++k) {
+        q[k] = c->q[k] != NULL ? c->q[k][i] : 0.0;
+        length += q[k] * q[k];
+    }
+    CLX_CHECK(v3_is_finite(x) && v3_is_finite(axes) && axes[0] > 0.0 && axes[1] > 0.0 &&
+                  axes[2] > 0.0,
+              CLAST_E_FORMAT, "row %lld: an ellipsoid at (%g, %g, %g) of diameters %g, %g, %g",
+              (long long)i + 1, x[0], x[1], x[2], 2.0 * axes[0], 2.0 * axes[1], 2.0 * axes[2]);
+    CLX_CHECK(length > 0.5 && length < 2.0, CLAST_E_FORMAT,
+              "row %lld: (%g, %g, %g, %g) is no quaternion of length 1", (long long)i + 1, q[0],
+              q[1], q[2], q[3]);
+    if (fabs(length - 1.0) > UNIT_OFF) {
+        q_unit(q);
+    }
+done:
+    return status;
+}
+
+/// The shape of a type with these semi-axes: the type's last one, or one more.
+static clast_status need_ellipsoid(clast_assembly *a, int32_t type, const double axes[3],
+                                   int32_t *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_shape made = {0};
+    char name[48];
+    int32_t n_same = 0;
+    const int begin = snprintf(name, sizeof name, "type-%d", type);
+    CLX_TRY(clast_shape_ellipsoid("sorted", axes, &made));
+    for (int32_t i = 0; i < a->n_shape; ++i) {
+        const clast_shape *one = &a->shape[i];
+        if (strncmp(one->name, name, (size_t)begin) == 0 &&
+            (one->name[begin] == '\0' || one->name[begin] == '-')) {
+            ++n_same;
+            if (v3_distance2(one->semi_axes, made.semi_axes) == 0.0) {
+                *shape = i;
+                goto done;
+            }
+        }
+    }
+    if (n_same > 0) {
+        (void)snprintf(name + begin, sizeof name - (size_t)begin, "-%d", n_same + 1);
+    }
+    CLX_TRY(need_shape(a, name, axes, shape));
+done:
+    clast_shape_free(&made);
+    return status;
+}
+
+static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a, bool *has_density)
+{
+    clast_status status = CLAST_OK;
+    ellipsoid_columns c = {0};
+    CLX_TRY(find_columns(table, &c));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        double x[3];
+        double axes[3];
+        double q[4];
+        double turn[4];
+        double turned[4];
+        int32_t type = 1;
+        int32_t shape = 0;
+        CLX_TRY(type_of(c.type, i, &type));
+        CLX_TRY(read_pose(&c, i, x, axes, q));
+        CLX_TRY(need_ellipsoid(a, type, axes, &shape));
+        sorting_turn(axes, turn);
+        q_mul(turned, q, turn);
+        CLX_TRY(clast_assembly_add_grain(a, shape, x, turned, 1.0,
+                                         c.density != NULL ? c.density[i] : 1.0));
+    }
+    *has_density = c.density != NULL;
+done:
+    return status;
+}
+
+clast_status clx_packing_of_table(const clast_table *table, const clast_packing_options *options,
+                                  bool is_lammps, clast_assembly *assembly, bool *has_density)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres spheres = {0};
+    const double *type = NULL;
+    const double *density = NULL;
+    double unit_m = 0.0;
+    const int32_t clump = clx_yade_clump_column(options->columns);
+    *has_density = false;
+    if (is_lammps && clast_table_numbers(table, "shapex") != NULL && options->diameter <= 0.0) {
+        (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
+        return add_ellipsoids(table, assembly, has_density);
+    }
+    CLX_TRY(clx_spheres_of_table(table, options, &spheres, &unit_m));
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", unit_m > 0.0 ? "m" : "model");
+    if (clump >= 0) {
+        CLX_CHECK(clump < table->n_column && table->column[clump].number != NULL, CLAST_E_FORMAT,
+                  "column %d, clumpId, holds no numbers", clump + 1);
+        CLX_TRY(clx_yade_clumps(&spheres, table->column[clump].number, assembly));
+    } else {
+        if (is_lammps) {
+            type = clast_table_numbers(table, "type");
+            CLX_TRY(find_density(table, &density));
+        }
+        CLX_TRY(add_spheres(&spheres, type, density, assembly));
+        *has_density = density != NULL;
+    }
+done:
+    clast_spheres_free(&spheres);
+    return status;
+}

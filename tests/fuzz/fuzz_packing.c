@@ -1,0 +1,90 @@
+// Any bytes are a LAMMPS data file, YADE's text or a configuration of Rockable with its shapes
+// behind a zero byte, or one line of complaint.
+#include "io/packing.h"
+#include <clast/assembly.h>
+#include <clast/state.h>
+#include <clast/status.h>
+#include <clast/table.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
+
+/// A grain is there with a size and a turn, or nothing is.
+static void check(clast_status status, const clast_assembly *a)
+{
+    if (status != CLAST_OK && strchr(clast_error_detail(), '\n') != NULL) {
+        abort();
+    }
+    for (int32_t i = 0; status == CLAST_OK && i < a->n_grain; ++i) {
+        if (!(a->scale[i] > 0.0) || !(a->density[i] > 0.0) || a->shape_id[i] >= a->n_shape) {
+            abort();
+        }
+    }
+}
+
+static void read_data(const uint8_t *bytes, size_t n)
+{
+    const clast_packing_options options = {0};
+    clast_table table = {0};
+    clast_assembly a = {0};
+    bool has_density = false;
+    clast_status status = clx_lammps_data("fuzz", bytes, n, &table);
+    if (status == CLAST_OK) {
+        status = clx_packing_of_table(&table, &options, true, &a, &has_density);
+    }
+    check(status, &a);
+    clast_table_free(&table);
+    clast_assembly_free(&a);
+}
+
+static void read_yade(const uint8_t *bytes, size_t n)
+{
+    char columns[CLX_YADE_COLUMNS];
+    clast_table table = {0};
+    clast_assembly a = {0};
+    bool has_density = false;
+    if (!clx_yade_columns(bytes, n, columns)) {
+        return;
+    }
+    const clast_packing_options options = {.columns = columns};
+    clast_status status = clast_table_parse_csv("fuzz", bytes, n, NULL, &table, NULL);
+    if (status == CLAST_OK && table.n_row < 1000) {
+        status = clx_packing_of_table(&table, &options, false, &a, &has_density);
+    }
+    check(status, &a);
+    clast_table_free(&table);
+    clast_assembly_free(&a);
+}
+
+static void read_rockable(const uint8_t *bytes, size_t n)
+{
+    char library[4096];
+    clast_assembly a = {0};
+    bool has_density = false;
+    const uint8_t *zero = n > 0 ? memchr(bytes, 0, n) : NULL;
+    const size_t n_conf = zero != NULL ? (size_t)(zero - bytes) : n;
+    const char *shapes = (const char *)bytes + (zero != NULL ? n_conf + 1 : n);
+    const char *text = (const char *)bytes;
+    clast_status status = clx_rockable("fuzz", text, n_conf, NULL, 0, library, NULL, NULL);
+    if (status == CLAST_OK) {
+        status =
+            clx_rockable("fuzz", text, n_conf, shapes, (size_t)((const char *)bytes + n - shapes),
+                         library, &a, &has_density);
+    }
+    check(status, &a);
+    clast_assembly_free(&a);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
+{
+    if (n == 0) {
+        return 0;
+    }
+    if (clx_is_lammps_data(bytes, n)) {
+        read_data(bytes, n);
+    }
+    read_yade(bytes, n);
+    read_rockable(bytes, n);
+    return 0;
+}

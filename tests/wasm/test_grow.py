@@ -1,0 +1,121 @@
+"""The room Grow of clast-live.html: an aggregate grows before the eyes, and the command that the page names grows the same."""
+import hashlib
+import time
+
+import jobs
+import page
+
+STL = (jobs.ROOT / "data/shapes").rglob("*.stl")
+
+
+class Grow(page.Live):
+    room, flags = "grow", page.browser.WEBGL
+
+    def grow(self, **values):
+        self.set(replicate="12", rays="2", orientations="2", **values)
+        self.run_room()
+        self.assertEqual(self.text("grow-error"), "")
+
+    def test_the_command_grows_the_same_and_the_zip_is_a_run(self):
+        self.browser.value("window.seen = []; rooms.grow.hear = function(name, bytes) { GrowRoom.prototype.hear.call(this, name, bytes); "
+                           "if (name.endsWith('.h5')) seen.push(new State(bytes).table('history').n.length); }")
+        self.grow()
+        self.assertEqual(self.browser.value("seen.slice(0, 12)"), list(range(2, 14)))  # rows: the core's, then a grain each
+        with page.Folder() as folder:
+            self.command(folder)
+            self.assertEqual(hashlib.sha256((folder / "aggregate/history.csv").read_bytes()).hexdigest(), self.text("grow-hash"))
+            native = self.native(folder, "export", "aggregate", "-o", "native.csv") and (folder / "native.csv").read_bytes()
+        with page.Folder() as folder:
+            self.unzipped(folder)
+            self.native(folder, "report", "aggregate", "-o", "page.html")
+            self.assertIn("view-data", (folder / "page.html").read_text())
+            self.native(folder, "export", "aggregate", "-o", "zipped.csv")
+            self.assertEqual((folder / "zipped.csv").read_bytes(), native)
+            self.native(folder, "render", "aggregate", "-o", "picture.png")
+
+    def test_it_is_rewound_with_its_numbers(self):
+        self.grow()
+        self.browser.value("(() => { const s = document.getElementById('grow-moment'); s.value = 3; s.dispatchEvent(new Event('input')); })()")
+        self.assertRegex(self.text("grow-figures"), r"^4grains, with the core")
+        self.assertEqual(self.text("grow-when"), "3 of 12 placed")
+        self.assertIn("fall speed in air", self.text("grow-figures"))
+        row = self.browser.value("rooms.grow.history['settling_velocity_m/s'][12]")
+        end = self.browser.value("rooms.grow.result.json.settling_velocity")
+        self.assertAlmostEqual(row / end, 1.0, delta=5e-3)
+
+    def test_undo_and_a_link(self):
+        self.grow(cone="20deg")
+        digest = self.text("grow-hash")
+        word = self.browser.value("packed(rooms.grow.snapshot())")
+        self.set(cone="70deg")
+        self.click("#grow-undo")
+        self.assertEqual(self.browser.value("rooms.grow.value('cone')"), "20deg")
+        self.open(f"grow={word}")
+        self.assertEqual(self.browser.value("rooms.grow.value('cone')"), "20deg")
+        self.run_room()
+        self.assertEqual(self.text("grow-hash"), digest)
+        self.open("grow=AAAA")
+        self.assertIn("damaged", self.text("grow-error"))
+
+    def test_cancel_ends_within_a_tenth_of_a_second(self):
+        self.set(replicate="400", rays="64", orientations="32")
+        self.click("#grow-run")
+        time.sleep(0.4)
+        self.assertEqual(self.text("grow-state"), "computing")
+        self.assertLess(self.browser.value("(() => { const t = performance.now(); rooms.grow.cancel(); return performance.now() - t; })()"), 100)
+        self.until("rooms.grow.engine.isReady", 30)
+        self.grow()
+
+    def test_a_surface_and_sizes_are_dropped(self):
+        self.drop("my core.stl", next(iter(sorted(STL))).read_bytes())
+        self.drop("sizes.csv", b"size_um,count\n40,4\n60,3\n")
+        self.assertEqual(self.browser.value("[rooms.grow.value('core'), rooms.grow.value('sizes')].join()"), "my core.stl,sizes.csv")
+        self.set(replicate="1")
+        self.run_room()
+        self.assertEqual(self.text("grow-error"), "")
+        self.assertEqual(self.browser.value("rooms.grow.result.json.n_grain"), 8)
+
+    def test_refusals_and_damaged_files_are_the_commands_own_line(self):
+        self.set(cone="far")
+        self.run_room()
+        self.assertRegex(self.text("grow-error"), "^clast aggregate: .*cone")
+        self.set(cone="20deg")
+        for name, content in (("a.stl", b""), ("<img src=x onerror=alert(1)>.stl", b"solid x\nfacet"), ("../../up.stl", bytes(90)), ("--force.ply", b"ply\nformat"),
+                              ("..", b"\0\xff" * 200)):
+            with self.subTest(name):
+                self.drop(name, content)
+                self.run_room()
+                self.assertRegex(self.text("grow-error"), "^clast aggregate: ")
+        self.assertEqual(self.browser.value("document.images.length"), 0)
+
+    def test_a_scene_that_is_too_large_says_so(self):
+        self.set(replicate="1000000")
+        self.run_room()
+        self.assertRegex(self.text("grow-error"), r"about 1,000,000 grains .* in a terminal: clast aggregate .*--replicate 1000000")
+
+    def test_all_rooms_pass_axe(self):
+        source = page.browser.axe_source()
+        if source is None:
+            self.skipTest("axe-core is not here and the registry is not reached")
+        self.grow()
+        for room in ("grow", "pour", "split"):
+            for dark in (False, True):
+                with self.subTest(room=room, dark=dark):
+                    self.browser.screen(1280, 900, dark)
+                    self.click(f"#to-{room}")
+                    self.browser.value(f"(() => {{ {source}; return 1; }})()")
+                    faults = self.browser.value("axe.run(document).then((r) => r.violations.filter((v) => ['serious', 'critical'].includes(v.impact))"
+                                                ".map((v) => v.id + ': ' + v.nodes.map((n) => n.html).join(' | ').slice(0, 300)))")
+                    self.assertEqual(faults, [])
+
+    def test_memory_is_steady(self):
+        self.set(replicate="12")
+        used = []
+        for _ in range(10):
+            self.run_room()
+            used.append(self.memory())
+        self.assertLess(used[-1], 1.2 * used[2] + 4e6, used)
+
+
+if __name__ == "__main__":
+    page.main()

@@ -1,0 +1,117 @@
+"""The room Pour of clast-live.html: a bed is poured in short runs and ends as the one that the named command pours at once."""
+import json
+
+import page
+
+SMALL = {"size": "4mm", "mass": "2g", "width": "20mm", "height": "30mm", "shaking_time": "0.01s"}
+
+
+class Pour(page.Live):
+    room, flags = "pour", page.browser.WEBGL
+
+    def same(self, code=0):
+        """The command's state hash is the page's."""
+        with page.Folder() as folder:
+            self.assertEqual(json.loads(self.command(folder, ("--json",)))["state_hash"], self.text("pour-hash"))
+
+    def test_a_bed_comes_to_rest_and_the_command_pours_the_same(self):
+        self.set(**SMALL)
+        self.run_room()
+        self.assertEqual(self.text("pour-error"), "")
+        self.assertEqual(self.text("pour-state"), "the bed is still")
+        self.assertGreater(self.browser.value("rooms.pour.frames.length"), 2, "pictures while it falls")
+        self.same()
+        porosity = self.browser.value("rooms.pour.result.json.porosity_bulk")
+        with page.Folder() as folder:
+            self.unzipped(folder)
+            found = json.loads(self.native(folder, "porosity", "bed", "--json"))
+            self.assertAlmostEqual(found["bulk"], porosity, delta=1e-12)
+            self.native(folder, "report", "bed", "-o", "page.html")
+            self.assertIn("view-data", (folder / "page.html").read_text())
+
+    def test_it_is_stopped_within_a_tenth_of_a_second_and_goes_on(self):
+        self.set(**{**SMALL, "mass": "6g"})
+        self.click("#pour-run")
+        self.until("rooms.pour.result", 30)
+        self.assertLess(self.browser.value("(() => { const t = performance.now(); rooms.pour.cancel(); return performance.now() - t; })()"), 100)
+        self.assertIn("--max-steps", self.text("pour-command"))
+        self.same()
+        self.until("rooms.pour.engine.isReady", 30)
+        self.click("#pour-goon")
+        self.until("!rooms.pour.running", 120)
+        self.assertEqual(self.text("pour-error"), "")
+        self.assertNotIn("--max-steps", self.text("pour-command"))
+        self.same()
+
+    def test_step_by_step_and_back(self):
+        self.set(**SMALL, pace="step")
+        self.click("#pour-run")
+        for k in (1, 2, 3):
+            self.until(f"rooms.pour.result && rooms.pour.result.json.n_step === {200 * k} && Boolean(rooms.pour.proceed)", 30)
+            self.click("#pour-step")
+        self.until("rooms.pour.result.json.n_step === 800 && Boolean(rooms.pour.proceed)", 30)
+        self.browser.value("rooms.pour.cancel()")
+        self.until("!rooms.pour.running", 10)
+        self.browser.value("(() => { const s = document.getElementById('pour-moment'); s.value = 1; s.dispatchEvent(new Event('input')); })()")
+        self.assertEqual(self.text("pour-when"), "at 2 ms of the simulation")
+        self.same()
+
+    def test_forms_and_curves(self):
+        for values in ({"curve": "uniform", "shape": "ellipsoid"}, {"curve": "lognormal", "shape": "grain31.ply", "spread": "10", "height": "60mm"}):
+            with self.subTest(values):
+                self.set(**{**SMALL, **values}, max_steps="3000")
+                self.run_room()
+                self.assertEqual(self.text("pour-error"), "")
+                self.same()
+
+    def test_a_sieve_curve_is_dropped_and_a_bad_one_is_refused(self):
+        self.drop("curve.csv", b"size_mm,passing_percent\n2,0\n4,60\n5,100\n")
+        self.assertEqual(self.browser.value("rooms.pour.value('curve')"), "curve.csv")
+        self.set(**{k: v for k, v in SMALL.items() if k != "size"}, max_steps="400")
+        self.run_room()
+        self.assertEqual(self.text("pour-error"), "")
+        for name, content in (("a.csv", b""), ("<b>.csv", b"\0\xff" * 50), ("--x.csv", b"size_mm,passing_percent\n2,nan\n")):
+            with self.subTest(name):
+                self.drop(name, content)
+                self.run_room()
+                self.assertRegex(self.text("pour-error"), "^clast pack: ")
+
+    def test_undo_and_a_link(self):
+        self.set(**SMALL, max_steps="600")
+        self.run_room()
+        digest, word = self.text("pour-hash"), self.browser.value("packed(rooms.pour.snapshot())")
+        self.set(mass="9g")
+        self.click("#pour-undo")
+        self.assertEqual(self.browser.value("rooms.pour.value('mass')"), "2g")
+        self.open(f"pour={word}")
+        self.run_room()
+        self.assertEqual(self.text("pour-hash"), digest)
+
+    def test_a_scene_that_is_too_large_says_so(self):
+        self.set(size="1mm", mass="1kg")
+        self.run_room()
+        self.assertRegex(self.text("pour-error"), r"about 720,000 grains .* in a terminal: clast pack ")
+
+    def test_memory_is_steady(self):
+        self.set(**SMALL, max_steps="2000")
+        used = []
+        for _ in range(10):
+            self.run_room()
+            used.append(self.memory())
+        self.assertLess(used[-1], 1.2 * used[2] + 4e6, used)
+
+
+class WithoutWebGL(page.Live):
+    room, flags = "pour", page.browser.NO_WEBGL
+
+    def test_charts_and_tables_are_there(self):
+        self.set(**SMALL, max_steps="3000")
+        self.run_room()
+        self.assertEqual(self.text("pour-error"), "")
+        self.assertIn("WebGL", self.text("pour-view"))
+        self.assertEqual(self.browser.value("document.querySelectorAll('#pour-level polyline').length"), 2)
+        self.assertGreater(self.browser.value("document.querySelectorAll('#pour-numbers tr').length"), 5)
+
+
+if __name__ == "__main__":
+    page.main()

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""What is left of the porosity by form under load: load.csv of each run of examples/load/form-small.yaml (or form-full.yaml) as one table
+and one picture.
+
+python3 tools/load_forms.py form-small [--library build/release/libclast_view.so] [-o docs/validation/load_forms]
+
+Writes NAME.csv (a row a curve, form and pressure: porosity, contacts without rattlers, mean over seeds) and, with the library, NAME.svg.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import statistics
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import chart  # noqa: E402
+
+
+def stages(run):
+    """The last row of each stage: (pressure, porosity, contacts without rattlers, mean overlap of the cell's strain)."""
+    last = {}
+    with open(run / "load.csv", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            last[int(float(row["stage"]))] = row
+    wanted = json.loads((run / "manifest.json").read_text())["config"]["stages"]
+    for number, row in sorted(last.items()):
+        text = wanted[number - 1]
+        value, unit = text.split()[1], text.split()[1].lstrip("0123456789.")
+        pressure = float(value[:-len(unit)]) * {"Pa": 1, "kPa": 1e3, "MPa": 1e6}[unit]
+        if abs(float(row["pressure_Pa"]) / pressure - 1) < 0.02:  # a stage that was cut off has not reached it
+            yield pressure, float(row["porosity"]), float(row["coordination_held"])
+
+
+def gather(folder):
+    found = {}
+    for manifest in sorted(folder.glob("**/manifest.json")):
+        run = manifest.parent
+        if (run / "load.csv").exists():
+            config = json.loads(manifest.read_text())["config"]
+            curve = "U7 below 8 mm" if config["curve"].endswith("u7-fine.csv") else config["curve"]
+            form = "ellipsoids" if config["ellipsoids"] else "hulls"
+            for pressure, *values in stages(run):
+                found.setdefault((curve, form, pressure), []).append(values)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--library", type=pathlib.Path)
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("load_forms"))
+    options = parser.parse_args()
+    found = gather(options.folder)
+    if not found:
+        raise SystemExit(f"{options.folder}: no run with a load.csv")
+    with open(options.output.with_suffix(".csv"), "w", encoding="utf-8") as file:
+        file.write("curve,form,pressure_Pa,n,porosity,coordination_held\n")
+        for (curve, form, pressure), values in sorted(found.items()):
+            porosity, held = (statistics.mean(v[k] for v in values) for k in (0, 1))
+            file.write(f"{curve},{form},{pressure:g},{len(values)},{porosity:.5f},{held:.4f}\n")
+            print(f"{curve:18s} {form:10s} {pressure / 1e3:8g} kPa  porosity {porosity:.4f}  contacts {held:.3f}")
+    if options.library:
+        names = sorted({(curve, form) for curve, form, _ in found})
+        series = [chart.line(f"{curve}, {form}", i // 2, [(p / 1e3, statistics.mean(v[0] for v in values))
+                                                         for (c, f, p), values in sorted(found.items()) if (c, f) == (curve, form)],
+                             dashed=form == "ellipsoids") for i, (curve, form) in enumerate(names)]
+        chart.draw(options.library, options.output.with_suffix(".svg"), "Porosity under load", "pressure (kPa)", "porosity (-)", series,
+                   x_log=True)
+
+
+if __name__ == "__main__":
+    main()

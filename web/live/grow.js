@@ -1,0 +1,165 @@
+// The room Grow: `clast aggregate`, watched by the checkpoints that it writes grain by grain.
+const MOST_WATCHED = 250; // checkpoints of a run
+const GRAIN_NAMES = { 'grain00.ply': 'pebble A', 'grain12.ply': 'pebble B', 'grain31.ply': 'pebble C', 'grain47.ply': 'pebble D' };
+
+class GrowRoom extends Room {
+  constructor() {
+    super('grow');
+    this.command = 'aggregate';
+    this.most = 5000;
+    this.history = null;
+  }
+
+  listFiles() {
+    const own = Object.keys(this.files);
+    const shapes = [...Object.keys(GRAINS).map((name) => [name, `${GRAIN_NAMES[name]} (${name})`]), ['sphere', 'sphere'],
+      ...own.filter((name) => !this.isTable(name)).map((name) => [name, name])];
+    this.setOptions('core', shapes);
+    this.setOptions('sizes', [['', 'one size, by the slider'], ...own.filter((name) => this.isTable(name)).map((name) => [name, name])]);
+    const kept = new Map([...this.$('coats').querySelectorAll('input')].map((box) => [box.id, box.checked]));
+    this.$('coats').replaceChildren(...shapes.map(([value, text]) => {
+      const id = `grow-coat_${value}`;
+      const label = tag('label', ` ${text}`, 'check');
+      label.prepend(Object.assign(document.createElement('input'), { type: 'checkbox', id, checked: kept.get(id) ?? ['grain12.ply', 'grain31.ply'].includes(value) }));
+      return label;
+    }));
+    this.$('given').textContent = own.length > 0 ? `own files: ${own.join(', ')}` : '';
+  }
+
+  given(name) {
+    if (this.isTable(name)) this.$('sizes').value = name;
+    else this.$('core').value = name;
+  }
+
+  changed() { this.$('size_row').hidden = this.value('sizes') !== ''; this.$('unit_row').hidden = this.value('sizes') === ''; }
+
+  coats() {
+    return [...this.$('coats').querySelectorAll('input:checked')].map((box) => box.id.slice('grow-coat_'.length));
+  }
+
+  wordsNow() {
+    const words = ['aggregate', '--core', this.value('core')];
+    const add = (option, value) => { if (value !== '') words.push(option, value); };
+    add('--core-size', this.value('core_size'));
+    this.coats().forEach((name) => add('--coat', name));
+    if (this.value('sizes') === '') add('--size', this.value('size'));
+    else { add('--sizes', this.value('sizes')); add('--size-unit', this.value('size_unit')); }
+    add('--replicate', this.value('replicate'));
+    if (words.some((w) => w in GRAINS || w in this.files)) add('--unit', this.value('unit'));
+    for (const name of ['cone', 'rays', 'orientations', 'contact']) add(`--${name}`, this.value(name));
+    const envelopes = [...this.$('form').querySelectorAll('[data-envelope]:checked')].map((box) => box.dataset.envelope);
+    envelopes.forEach((name) => add('--envelope', name));
+    if (envelopes.includes('wrap') || envelopes.includes('alpha')) add('--envelope-length', this.value('envelope_length'));
+    add('--seed', this.value('seed'));
+    return [...words, '--fall-speed', '--no-picture', ...this.more(), '-o', 'aggregate'];
+  }
+
+  /// Grains that the form asks for, as far as it can be told without reading as clast does.
+  estimate() {
+    const name = this.value('sizes');
+    const lines = name === '' ? 1 : new TextDecoder().decode(this.files[name] ?? new Uint8Array()).split('\n').filter(Boolean).length;
+    return lines * (Number(this.value('replicate')) || 1);
+  }
+
+  async compute() {
+    const every = Math.max(1, Math.ceil(this.estimate() / MOST_WATCHED));
+    this.words = this.wordsNow();
+    this.history = null;
+    this.$('result').hidden = true;
+    const ended = await this.engine.run([...this.words, '--checkpoint-every', String(every), '--json'], this.filesOf(this.words), (name, bytes) => this.hear(name, bytes));
+    const refusal = refusalOf(ended);
+    this.latest = null;
+    if (refusal) return refusal;
+    this.result = { json: JSON.parse(ended.result.stdout), files: ended.result.files };
+    this.watch(this.result.files['aggregate/state.h5']);
+    this.showEnd();
+    this.showCommand('aggregate/history.csv', await digestOf(this.result.files['aggregate/history.csv']));
+    return null;
+  }
+
+  /// A checkpoint: the newest is drawn with the next frame.
+  hear(name, bytes) {
+    if (!/^aggregate\/checkpoint-\d+\.h5$/.test(name)) return;
+    const isWaiting = Boolean(this.latest);
+    this.latest = bytes;
+    if (!isWaiting) requestAnimationFrame(() => { if (this.latest) this.watch(this.latest); this.latest = null; });
+  }
+
+  watch(bytes) {
+    const state = new State(bytes);
+    this.history = state.table('history');
+    this.draw(state);
+    const last = this.history.n.length - 1;
+    Object.assign(this.$('moment'), { max: last, value: last, disabled: false });
+    this.showMoment(last);
+  }
+
+  /// The aggregate as it was when so many particles were placed.
+  show(n) {
+    this.$('moment').value = n;
+    if (this.view?.renderer && this.view.parts) {
+      this.view.parts.grow.value = this.history.n_grain[n];
+      this.view.parts.grow.dispatchEvent(new Event('input'));
+    }
+    this.showMoment(n);
+  }
+
+  /// The last row up to n in which an envelope was measured.
+  measured(n) {
+    let k = n;
+    while (k > 0 && !Number.isFinite(this.history.d_agg_m[k])) k -= 1;
+    return k;
+  }
+
+  showMoment(n) {
+    const h = this.history;
+    const k = this.measured(n);
+    const envelopes = Object.keys(h).filter((name) => name.startsWith('porosity_'));
+    const speed = h['settling_velocity_m/s'];
+    this.$('figures').replaceChildren(
+      figure(String(h.n_grain[n]), h.n_grain[n] === 1 ? 'grain: the core' : 'grains, with the core'),
+      figure(withUnit(h.d_agg_m[k], 'm'), 'equivalent diameter'),
+      figure(Math.max(0, h[envelopes[0]][k]).toFixed(4), `porosity in its ${envelopes[0].slice(9).replace('_', ' ')}`),
+      figure(`${h['density_kg/m^3'][k].toFixed(0)} kg/m\u00b3`, 'density'),
+      figure(withUnit(speed[k], 'm/s'), 'fall speed in air'));
+    this.$('moment').setAttribute('aria-valuetext', `${h.n[n]} of ${h.n[h.n.length - 1]} particles placed`);
+    this.$('when').textContent = `${h.n[n]} of ${h.n[h.n.length - 1]} placed`;
+    const x = { title: 'particles placed (-)', values: h.n, from: 0 };
+    drawChart(this.$('porosity'), { title: 'Porosity', x, y: { title: 'porosity (-)', from: 0 }, mark: h.n[n],
+      lines: envelopes.map((name) => ({ name: name.slice(9).replace('_', ' '), values: h[name].map((v) => v) })) });
+    drawChart(this.$('density'), { title: 'Density', x, y: { title: 'density (kg/m\u00b3)' }, mark: h.n[n], lines: [{ name: 'density', values: h['density_kg/m^3'] }] });
+    drawChart(this.$('speed'), { title: 'Fall speed in air', x, y: { title: 'fall speed (m/s)' }, mark: h.n[n], lines: [{ name: 'fall speed', values: speed }] });
+  }
+
+  showEnd() {
+    const r = this.result.json;
+    fillTable(this.$('envelopes'), ['envelope', 'volume (mm\u00b3)', 'porosity'],
+      Object.keys(r.envelope).map((name) => [name.replace('_', ' '), short(r.envelope[name] * 1e9), r.porosity[name].toFixed(5)]));
+    fillTable(this.$('numbers'), ['of the whole aggregate', ''], [['grains', short(r.n_grain)], ['mass', withUnit(r.mass * 1e3, 'g')], ['equivalent diameter', withUnit(r.d_agg, 'm', 5)],
+      ['density', `${short(r.density)} kg/m\u00b3`], ['fall speed in air', withUnit(r.settling_velocity, 'm/s', 5)], ['radius of gyration', withUnit(r.radius_of_gyration, 'm', 5)],
+      ['deepest overlap', withUnit(r.max_overlap, 'm')], ['without a place', short(r.n_lost)]]);
+  }
+
+  listen() {
+    super.listen();
+    this.$('moment').addEventListener('input', () => this.show(Number(this.$('moment').value)));
+    this.$('rewind').addEventListener('click', () => this.rewind());
+    this.changed();
+  }
+
+  /// Grows once more before the eyes, in about six seconds.
+  rewind() {
+    if (!this.history) return;
+    this.replaying = !this.replaying;
+    const begun = performance.now();
+    const last = this.history.n.length - 1;
+    const step = (now) => {
+      const share = Math.min(1, Math.max(0, now - begun) / 6000);
+      if (!this.replaying || this.running) { this.replaying = false; return; }
+      const to = Math.round(share * last);
+      if (to !== Number(this.$('moment').value)) this.show(to);
+      if (share < 1) requestAnimationFrame(step); else this.replaying = false;
+    };
+    requestAnimationFrame(step);
+  }
+}

@@ -1,0 +1,84 @@
+// The page: its rooms, one shown at a time, and what is loaded into it.
+const rooms = { grow: new GrowRoom(), pour: new PourRoom(), split: splitRoom };
+let shown = 'grow';
+
+function showRoom(name) {
+  shown = name;
+  for (const one of Object.keys(rooms)) {
+    $(`room-${one}`).hidden = one !== name;
+    $(`to-${one}`).setAttribute('aria-selected', String(one === name));
+    $(`to-${one}`).tabIndex = one === name ? 0 : -1;
+  }
+  rooms[name].shown?.();
+  document.title = `clast live: ${$(`to-${name}`).textContent.toLowerCase()}`;
+}
+
+/// #grow=WORD: a room and all that it holds; #grow: the room alone.
+function openAddress(fragment) {
+  const match = /^#(grow|pour|split)(?:=([\w-]+))?$/.exec(fragment);
+  if (!match) return false;
+  showRoom(match[1]);
+  if (match[2] === undefined) return true;
+  const room = rooms[match[1]];
+  try {
+    room.open(unpacked(match[2]));
+  } catch (fault) {
+    room.fail(`the address of this page is damaged: ${fault.message}`);
+  }
+  return true;
+}
+
+function listenPage() {
+  const names = Object.keys(rooms);
+  for (const name of names) {
+    const button = $(`to-${name}`);
+    button.addEventListener('click', () => { showRoom(name); history.replaceState(null, '', `#${name}`); });
+    button.addEventListener('keydown', (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (!step) return;
+      const next = names[(names.indexOf(name) + step + names.length) % names.length];
+      $(`to-${next}`).focus();
+      $(`to-${next}`).click();
+    });
+    rooms[name].listen();
+  }
+  for (const kind of ['dragover', 'dragleave', 'drop']) {
+    document.addEventListener(kind, (event) => {
+      event.preventDefault();
+      document.querySelectorAll('.drop').forEach((box) => box.classList.toggle('over', kind === 'dragover'));
+      if (kind === 'drop' && event.dataTransfer.files.length > 0) rooms[shown].take([...event.dataTransfer.files]);
+    });
+  }
+  window.addEventListener('hashchange', () => openAddress(location.hash));
+}
+
+/// The viewer of reports, which draws in 3-D.
+async function loadViewer() {
+  const script = document.createElement('script');
+  script.src = URL.createObjectURL(new Blob([await unzipped(bytesOf($('clast-view').textContent.trim()))], { type: 'text/javascript' }));
+  await new Promise((done, fail) => { script.onload = done; script.onerror = () => fail(new Error('the 3-D view did not load')); document.head.append(script); });
+  URL.revokeObjectURL(script.src);
+}
+
+async function begin() {
+  listenPage();
+  draw();
+  showRoom('grow');
+  const isGiven = openAddress(location.hash);
+  const failAll = (text) => Object.values(rooms).forEach((room) => { room.say(''); room.fail(text); });
+  if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') {
+    failAll('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 80, Firefox 113, Safari 16.4)');
+    return;
+  }
+  try {
+    const viewer = loadViewer();
+    program = await WebAssembly.compile(await unzipped(bytesOf($('clast-wasm').textContent.trim())));
+    await viewer;
+    Object.values(rooms).forEach((room) => room.engine.start());
+    if (!isGiven) rooms.grow.go();
+  } catch (fault) {
+    failAll(`clast could not be loaded: ${fault.message}`);
+  }
+}
+
+begin();

@@ -1,0 +1,245 @@
+// What Grow and Pour are made of: a form of options that becomes a command line, files beside it, undo, link, zip, the 3-D view.
+const UNDO = 60; // states of the form that are kept
+
+/// Bundled surfaces by name.
+const GRAINS = Object.fromEntries([...document.querySelectorAll('script[data-grain]')].map((s) => [s.dataset.grain, bytesOf(s.textContent.trim())]));
+
+let webGL = null;
+
+/// Whether this browser draws in 3-D; asked once, since three.js writes to the console where it does not.
+function hasWebGL() {
+  if (webGL === null) {
+    const context = document.createElement('canvas').getContext('webgl2');
+    webGL = context !== null;
+    context?.getExtension('WEBGL_lose_context')?.loseContext();
+  }
+  return webGL;
+}
+
+class Room {
+  constructor(name) {
+    Object.assign(this, { name, files: {}, past: [], view: null, fixed: null, words: null, result: null });
+    this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => this.fail(text));
+  }
+
+  $(id) { return $(`${this.name}-${id}`); }
+
+  say(text) { this.$('state').textContent = text; }
+
+  fail(text) { this.$('error').textContent = text; }
+
+  fields() { return [...this.$('form').querySelectorAll('input:not([type=file]):not([type=range]), select')]; }
+
+  values() {
+    return Object.fromEntries(this.fields().map((f) => [f.id.slice(this.name.length + 1), f.type === 'checkbox' ? f.checked : f.value]));
+  }
+
+  isTable(name) { return /\.(csv|tsv|txt)$/i.test(name); }
+
+  /// Options of a list; what is chosen stays chosen.
+  setOptions(id, options) {
+    const list = this.$(id);
+    const chosen = list.value;
+    list.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
+    if (options.some(([value]) => value === chosen)) list.value = chosen;
+  }
+
+  value(id) { return this.$(id).value.trim(); }
+
+  /// All that the address and undo keep: what is typed, and the user's own files.
+  snapshot() { return { values: this.values(), files: { ...this.files } }; }
+
+  restore({ values, files }) {
+    this.files = { ...files };
+    this.listFiles();
+    for (const field of this.fields()) {
+      const value = values[field.id.slice(this.name.length + 1)];
+      if (value === undefined) continue;
+      if (field.type === 'checkbox') field.checked = value === true;
+      else field.value = String(value);
+    }
+    this.turnSliders();
+    this.last = this.snapshot();
+    this.changed?.();
+  }
+
+  /// Notes a change of the form, so that it can be undone.
+  note() {
+    const now = this.snapshot();
+    if (this.last && JSON.stringify(now.values) === JSON.stringify(this.last.values) && Object.keys(now.files).join() === Object.keys(this.last.files).join()) return;
+    if (this.last) this.past.push(this.last);
+    if (this.past.length > UNDO) this.past.shift();
+    this.last = now;
+    this.$('undo').disabled = this.past.length === 0;
+    this.changed?.();
+  }
+
+  undo() {
+    const before = this.past.pop();
+    if (before) this.restore(before);
+    this.$('undo').disabled = this.past.length === 0;
+    this.say('undone');
+  }
+
+  setReady() {
+    this.$('run').disabled = !this.engine.isReady || Boolean(this.running);
+    this.$('cancel').disabled = !this.running;
+  }
+
+  // Sliders: each writes into the text beside it, with its unit; what is typed turns the slider.
+
+  turnSliders() {
+    for (const slider of this.$('form').querySelectorAll('input[type=range]')) {
+      const text = $(slider.dataset.of).value;
+      const number = Number.parseFloat(text);
+      if (Number.isFinite(number)) slider.value = slider.dataset.log ? Math.log10(number) : number;
+      slider.setAttribute('aria-valuetext', text);
+    }
+  }
+
+  slide(slider) {
+    const { unit = '', log } = slider.dataset;
+    const number = log ? 10 ** Number(slider.value) : Number(slider.value);
+    $(slider.dataset.of).value = `${Number(number.toPrecision(log ? 2 : 6))}${unit}`;
+    slider.setAttribute('aria-valuetext', $(slider.dataset.of).value);
+  }
+
+  // Files.
+
+  async take(list) {
+    this.fail('');
+    for (const file of list) {
+      if (file.size > 64e6) {
+        this.fail(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; this page takes 64 MB a file, a terminal takes more: clast ${this.command} --help`);
+        continue;
+      }
+      const name = plainName(file.name, 'file');
+      this.files[name] = new Uint8Array(await file.arrayBuffer());
+      this.listFiles();
+      this.given(name);
+    }
+    this.turnSliders();
+    this.note();
+  }
+
+  /// Files and bundled grains that the words name.
+  filesOf(words) {
+    const named = (name) => words.some((w) => w === name || w.endsWith(`=${name}`) || w.endsWith(`:${name}`));
+    return Object.fromEntries([...Object.entries(GRAINS), ...Object.entries(this.files)].filter(([name]) => named(name)));
+  }
+
+  more() { return this.value('more').split(/\s+/).filter(Boolean); }
+
+  // The 3-D view.
+
+  /// Draws a state; in a room that is not shown, once it is.
+  draw(state) {
+    this.waiting = $(`room-${this.name}`).hidden ? state : null;
+    if (this.waiting) return;
+    const data = viewData(state, this.fixed);
+    const text = { textContent: JSON.stringify(data) };
+    if (data.n_grain === 0) return;
+    if (this.view?.renderer) window.clastViews.replace(this.view, text);
+    else {
+      this.view = hasWebGL() ? window.clastViews.show(this.$('view'), text, `clast ${this.name}`) : null;
+      if (!this.view) this.noView();
+      else if (this.colour) {
+        this.view.by = this.colour;
+        this.view.parts.colour.value = this.colour;
+        this.view.paint();
+      }
+    }
+  }
+
+  shown() { if (this.waiting) this.draw(this.waiting); }
+
+  noView() {
+    this.$('view').replaceChildren(tag('p', 'The 3-D view needs WebGL, which this browser does not give; charts, tables and files do not.', 'note'));
+  }
+
+  // Running.
+
+  async go() {
+    if (this.running) return;
+    this.fail('');
+    this.note();
+    this.running = true;
+    this.setReady();
+    this.say('computing');
+    const begun = performance.now();
+    const refusal = this.tooLarge() ?? await this.compute();
+    this.ended(refusal, (performance.now() - begun) / 1000);
+  }
+
+  ended(refusal, seconds) {
+    this.running = false;
+    this.setReady();
+    this.say(refusal ? '' : `done after ${seconds.toFixed(2)} s`);
+    if (refusal) this.refuse(refusal);
+  }
+
+  /// Why a page does not begin with the scene, or null.
+  tooLarge() {
+    const n = this.estimate();
+    if (!(n > this.most)) return null;
+    return `about ${Number(n.toPrecision(2)).toLocaleString('en')} grains are more than the ${this.most.toLocaleString('en')} of this page (one thread, 2 GB); in a terminal: ${commandOf(this.wordsNow())}`;
+  }
+
+  /// The command's own line; of a scene that a page cannot hold, also how large it is and where it runs.
+  refuse(line) {
+    const isLarge = /memory|ended by WebAssembly/.test(line);
+    this.fail(isLarge ? `${line}${line.includes('terminal') ? '' : `; a page has 2 GB at the most, a terminal all of the machine: ${commandOf(this.words)}`}` : line);
+  }
+
+  cancel() {
+    if (!this.running) return;
+    this.engine.cancel();
+    this.running = false;
+    this.cancelled?.();
+    this.setReady();
+    this.say('cancelled');
+  }
+
+  showCommand(hashName, hash) {
+    this.$('command').textContent = commandOf(this.words);
+    this.$('hashname').textContent = hashName;
+    this.$('hash').textContent = hash;
+    this.$('result').hidden = false;
+  }
+
+  outFiles() { return { ...this.filesOf(this.words), ...this.result.files }; }
+
+  share() {
+    const { values, files } = this.snapshot();
+    const kept = { values, files: Object.fromEntries(Object.entries(files).map(([name, bytes]) => [name, base64Of(bytes)])) };
+    const word = packed(kept);
+    if (word.length > MOST_SHARED) { this.say('these files are too large for an address; take the zip'); return; }
+    location.hash = `${this.name}=${word}`;
+    copy(location.href, 'copied', (text) => this.say(text));
+  }
+
+  open(kept) {
+    const files = Object.fromEntries(Object.entries(kept.files ?? {}).map(([name, text]) => [plainName(name, 'file'), bytesOf(text)]));
+    this.restore({ values: kept.values ?? {}, files });
+  }
+
+  listen() {
+    const form = this.$('form');
+    form.addEventListener('submit', (event) => { event.preventDefault(); if (!this.$('run').disabled) this.go(); });
+    form.addEventListener('input', (event) => { if (event.target.type === 'range') this.slide(event.target); });
+    form.addEventListener('change', (event) => {
+      if (event.target.type === 'file') return;
+      if (event.target.type !== 'range') this.turnSliders();
+      this.note();
+    });
+    for (const input of form.querySelectorAll('input[type=file]')) input.addEventListener('change', () => { this.take(input.files); input.value = ''; });
+    this.$('cancel').addEventListener('click', () => this.cancel());
+    this.$('undo').addEventListener('click', () => this.undo());
+    this.$('copy').addEventListener('click', () => copy(commandOf(this.words), 'copied', (text) => this.say(text)));
+    this.$('zip').addEventListener('click', () => save(zipOf(this.outFiles()), `${this.name}.zip`));
+    this.$('share').addEventListener('click', () => this.share());
+    this.listFiles();
+    this.turnSliders();
+    this.last = this.snapshot();
+  }
+}
