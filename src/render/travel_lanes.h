@@ -30,6 +30,14 @@ typedef struct {
     float error; ///< of a corner's place across the ray; infinite: it says nothing
 } leg;
 
+/// A ray on its way through a tree.
+typedef struct {
+    const clx_wide *wide;
+    clx_wide_ray ray;
+    const uint64_t *order; ///< of floats_pack
+    double t_low;
+} course;
+
 /// Asks a leaf's items: returns the new end of the ray (t_high when nothing was hit; -INFINITY to
 /// end the walk).
 typedef double (*visitor)(void *context, int32_t leaf, double t_high);
@@ -68,32 +76,29 @@ CLX_INLINE void sort_ranks(int n, int32_t rank[CLX_WIDE_LANES])
 
 /// Visits the leaves that the ray meets between t_low >= 0 and t_high until a visit ends the walk;
 /// the ray's new end.
-CLX_INLINE double walk_any(const clx_wide *wide, const clx_wide_ray *ray, const uint64_t order[256],
-                           double t_low, double t_high, visitor visit, void *context)
+CLX_INLINE double walk_any(const course *c, double t_high, visitor visit, void *context)
 {
     int32_t stack[STACK];
     int n_stack = 1;
     stack[0] = 0;
     while (n_stack > 0) {
-        const clx_wide_node *node = &wide->node[stack[--n_stack]];
+        const clx_wide_node *node = &c->wide->node[stack[--n_stack]];
         clx_floats entry;
-        const uint32_t meets = enter(node, ray, (float)t_low, (float)t_high, &entry);
+        const uint32_t meets = enter(node, &c->ray, (float)c->t_low, (float)t_high, &entry);
         for (uint32_t leaves = meets & node->leaves; leaves != 0; leaves &= leaves - 1) {
             t_high = visit(context, node->child[__builtin_ctz(leaves)], t_high);
-            if (t_high < t_low) {
+            if (t_high < c->t_low) {
                 return t_high;
             }
         }
-        n_stack += floats_pack(stack + n_stack, node->child, meets & ~node->leaves, order);
+        n_stack += floats_pack(stack + n_stack, node->child, meets & ~node->leaves, c->order);
     }
     return t_high;
 }
 
 /// Visits the leaves that the ray meets between t_low >= 0 and t_high, nearer boxes first; the
 /// ray's new end.
-CLX_INLINE double walk_first(const clx_wide *wide, const clx_wide_ray *ray,
-                             const uint64_t order[256], double t_low, double t_high, visitor visit,
-                             void *context)
+CLX_INLINE double walk_first(const course *c, double t_high, visitor visit, void *context)
 {
     struct {
         int32_t node;
@@ -107,15 +112,15 @@ CLX_INLINE double walk_first(const clx_wide *wide, const clx_wide_ray *ray,
         if ((double)stack[n_stack].t * (1.0 - SLACK) > t_high) {
             continue;
         }
-        const clx_wide_node *node = &wide->node[stack[n_stack].node];
+        const clx_wide_node *node = &c->wide->node[stack[n_stack].node];
         clx_floats entry;
         int32_t rank[CLX_WIDE_LANES];
         int32_t met[CLX_WIDE_LANES];
         float t[CLX_WIDE_LANES];
-        const uint32_t meets = enter(node, ray, (float)t_low, (float)t_high, &entry);
+        const uint32_t meets = enter(node, &c->ray, (float)c->t_low, (float)t_high, &entry);
         floats_store(t, entry);
         floats_rank(rank, entry);
-        const int n = floats_pack(met, rank, meets, order);
+        const int n = floats_pack(met, rank, meets, c->order);
         sort_ranks(n, met);
         // Leaves at once, nearest first; inner children onto the stack, nearest on top.
         for (int j = 0; j < n && (meets & node->leaves) != 0; ++j) {
@@ -134,12 +139,15 @@ CLX_INLINE double walk_first(const clx_wide *wide, const clx_wide_ray *ray,
     return t_high;
 }
 
-CLX_INLINE double walk(const clx_wide *wide, const clx_wide_ray *ray, const clx_journey *j,
-                       double t_high, bool any, visitor visit, void *context)
+CLX_INLINE double walk(const course *c, double t_high, bool any, visitor visit, void *context)
 {
-    const uint64_t *order = j->scene->lane_order;
-    return any ? walk_any(wide, ray, order, j->t_low, t_high, visit, context)
-               : walk_first(wide, ray, order, j->t_low, t_high, visit, context);
+    return any ? walk_any(c, t_high, visit, context) : walk_first(c, t_high, visit, context);
+}
+
+CLX_INLINE course course_of(const clx_journey *j, const clx_wide *wide, const double origin[3],
+                            const double direction[3])
+{
+    return (course){wide, clx_wide_ray_of(wide, origin, direction), j->scene->lane_order, j->t_low};
 }
 
 CLX_INLINE double accept(leg *l, double t, int32_t item, const double bary[3])
@@ -304,15 +312,15 @@ CLX_INLINE double visit_grain(clx_journey *j, int32_t g, double t_high, bool any
     if (l.shape->kind == CLAST_SHAPE_SPHERE || l.shape->kind == CLAST_SHAPE_ELLIPSOID) {
         return visit_ellipsoid(&l, t_high);
     }
-    const clx_wide_ray wide = clx_wide_ray_of(&l.shape->wide, l.origin, l.direction);
+    const course c = course_of(j, &l.shape->wide, l.origin, l.direction);
     if (l.shape->kind != CLAST_SHAPE_MESH) {
-        return walk(&l.shape->wide, &wide, j, t_high, any, visit_spheres, &l);
+        return walk(&c, t_high, any, visit_spheres, &l);
     }
     if (!clx_ray_set(&l.ray, l.origin, l.direction)) {
         return t_high;
     }
     set_floats(&l);
-    return walk(&l.shape->wide, &wide, j, t_high, any, visit_triangles, &l);
+    return walk(&c, t_high, any, visit_triangles, &l);
 }
 
 CLX_INLINE double visit_grains(clx_journey *j, int32_t leaf, double t_high, bool any)
@@ -340,7 +348,6 @@ CLX_INLINE void travel(clx_journey *j, bool any)
         (void)visit_grain(j, 0, j->t_high, any);
         return;
     }
-    const clx_wide_ray wide = clx_wide_ray_of(&j->scene->wide, j->origin, j->direction);
-    (void)walk(&j->scene->wide, &wide, j, j->t_high, any,
-               any ? visit_grains_any : visit_grains_first, j);
+    const course c = course_of(j, &j->scene->wide, j->origin, j->direction);
+    (void)walk(&c, j->t_high, any, any ? visit_grains_any : visit_grains_first, j);
 }
