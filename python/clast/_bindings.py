@@ -212,6 +212,14 @@ class clast_dem_energy(Structure):
     """Where the energy has gone since clast_dem_begin_energy [J]: put_in = what is held + what is lost + steps + rest."""
 
 
+class clast_dem_wall_motion(Structure):
+    """How a wall moves by itself, as a function of its own time t, which runs while it is driven (clast_dem_drive_wall): a point x0 goes to p + d(t) + R (x0 - p), R the rotation about `axis` by d = velocity t + amplitude sin(2 pi t / period) + table, angle = rate t + swing sin(2 pi t / period) + table."""
+
+
+class clast_dem_wall(Structure):
+    """A wall as it is now, and what grains do to it; in the order in which walls are numbered: floor, lid, left (low x), right, front (low y), back, or the cylinder, those that the domain has; then surfaces in the order in which they were added."""
+
+
 class clast_dem_cell(Structure):
     """The periodic cell as it is now; zeros in other domains."""
 
@@ -414,6 +422,10 @@ class clast_mesh_simplify_report(Structure):
 
 class clast_pack_config(Structure):
     """clast_pack_config."""
+
+
+class clast_pack_wall(Structure):
+    """A wall of option `wall`."""
 
 
 class clast_pack_input(Structure):
@@ -1252,14 +1264,41 @@ clast_dem_energy._fields_ = [
     ('gravity', c_double),
     ('shaking', c_double),
     ('cell', c_double),
+    ('walls', c_double),
     ('damping', (c_double * 2)),
     ('friction', (c_double * 2)),
     ('rolling', (c_double * 2)),
     ('fluid', c_double),
     ('calming', c_double),
+    ('left', c_double),
     ('scheme', c_double),
     ('put_in', c_double),
     ('rest', c_double),
+]
+clast_dem_wall_motion._fields_ = [
+    ('velocity', (c_double * 3)),
+    ('amplitude', (c_double * 3)),
+    ('period', c_double),
+    ('axis', (c_double * 3)),
+    ('pivot', (c_double * 3)),
+    ('rate', c_double),
+    ('swing', c_double),
+    ('n', c_int32),
+    ('time', POINTER(c_double)),
+    ('place', POINTER(c_double)),
+]
+clast_dem_wall._fields_ = [
+    ('is_open', c_bool),
+    ('offset', (c_double * 3)),
+    ('angle', c_double),
+    ('velocity', (c_double * 3)),
+    ('omega', (c_double * 3)),
+    ('force', (c_double * 3)),
+    ('torque', (c_double * 3)),
+    ('impulse', (c_double * 3)),
+    ('moment', (c_double * 3)),
+    ('work', c_double),
+    ('n_step', c_int64),
 ]
 clast_dem_cell._fields_ = [
     ('side', (c_double * 3)),
@@ -1275,6 +1314,7 @@ clast_dem_load._fields_ = [
     ('stress', (c_double * 6)),
     ('kinetic_stress', (c_double * 6)),
     ('modulus', (c_double * 3)),
+    ('shear_modulus', c_double),
     ('fabric', (c_double * 6)),
     ('n_contact', c_int64),
     ('n_force', c_int64),
@@ -1813,6 +1853,9 @@ clast_pack_config._fields_ = [
     ('still_speed', c_double),
     ('max_steps', c_int64),
     ('max_damping_time', c_double),
+    ('wall', clast_text_list),
+    ('outlet', clast_text_list),
+    ('wall_forces', c_bool),
     ('stages', clast_text_list),
     ('load_rate', c_double),
     ('load_tolerance', c_double),
@@ -1828,6 +1871,14 @@ clast_pack_config._fields_ = [
     ('resume', c_char_p),
     ('force', c_bool),
 ]
+clast_pack_wall._fields_ = [
+    ('name', (c_char * 32)),
+    ('number', c_int32),
+    ('mesh', clast_mesh),
+    ('motion', clast_dem_wall_motion),
+    ('press', (c_double * 3)),
+    ('area', c_double),
+]
 clast_pack_input._fields_ = [
     ('grading', c_void_p),
     ('curve', POINTER(clast_curve)),
@@ -1836,6 +1887,8 @@ clast_pack_input._fields_ = [
     ('start', POINTER(clast_assembly)),
     ('container', POINTER(clast_mesh)),
     ('container_closed', POINTER(clast_mesh)),
+    ('n_wall', c_int32),
+    ('wall', POINTER(clast_pack_wall)),
 ]
 clast_pack_ranks._fields_ = [
     ('n', c_int32),
@@ -1864,6 +1917,8 @@ clast_pack_source._fields_ = [
     ('container', clast_mesh),
     ('container_closed', clast_mesh),
     ('start', clast_assembly),
+    ('n_wall', c_int32),
+    ('wall', POINTER(clast_pack_wall)),
     ('input', clast_pack_input),
 ]
 clast_pairs_config._fields_ = [
@@ -2629,6 +2684,8 @@ clast_pack_result._fields_ = [
     ('frame_interval', c_double),
     ('n_overlap', c_int64),
     ('deepest_start', c_double),
+    ('n_left', c_int64),
+    ('mass_left', c_double),
     ('cell', clast_dem_cell),
     ('load', clast_dem_load),
     ('energy', clast_dem_energy),
@@ -2754,9 +2811,11 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_drive': (24, {'shake_amplitude': (0, 8), 'shake_period': (8, 8), 'damping': (16, 8)}),
     'clast_dem_verification': (32, {'n': (0, 8), 'n_off': (8, 8), 'n_bad': (16, 8), 'worst': (24, 8)}),
     'clast_dem_measures': (184, {'step': (0, 8), 'time': (8, 8), 'n_grain': (16, 4), 'mass': (24, 8), 'mean_height': (32, 8), 'top': (40, 8), 'max_speed': (48, 8), 'kinetic_energy': (56, 8), 'potential_energy': (64, 8), 'elastic_energy': (72, 8), 'momentum': (80, 24), 'n_listed': (104, 8), 'n_contact': (112, 8), 'n_wall_contact': (120, 8), 'max_overlap': (128, 8), 'coordination': (136, 8), 'n_refresh': (144, 8), 'verified': (152, 32)}),
-    'clast_dem_energy': (160, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'damping': (72, 16), 'friction': (88, 16), 'rolling': (104, 16), 'fluid': (120, 8), 'calming': (128, 8), 'scheme': (136, 8), 'put_in': (144, 8), 'rest': (152, 8)}),
+    'clast_dem_energy': (176, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'walls': (72, 8), 'damping': (80, 16), 'friction': (96, 16), 'rolling': (112, 16), 'fluid': (128, 8), 'calming': (136, 8), 'left': (144, 8), 'scheme': (152, 8), 'put_in': (160, 8), 'rest': (168, 8)}),
+    'clast_dem_wall_motion': (144, {'velocity': (0, 24), 'amplitude': (24, 24), 'period': (48, 8), 'axis': (56, 24), 'pivot': (80, 24), 'rate': (104, 8), 'swing': (112, 8), 'n': (120, 4), 'time': (128, 8), 'place': (136, 8)}),
+    'clast_dem_wall': (200, {'is_open': (0, 1), 'offset': (8, 24), 'angle': (32, 8), 'velocity': (40, 24), 'omega': (64, 24), 'force': (88, 24), 'torque': (112, 24), 'impulse': (136, 24), 'moment': (160, 24), 'work': (184, 8), 'n_step': (192, 8)}),
     'clast_dem_cell': (96, {'side': (0, 24), 'rate': (24, 24), 'shift': (48, 8), 'shear_rate': (56, 8), 'strain': (64, 24), 'shear_strain': (88, 8)}),
-    'clast_dem_load': (264, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'fabric': (136, 48), 'n_contact': (184, 8), 'n_force': (192, 8), 'coordination': (200, 8), 'n_rattler': (208, 4), 'coordination_held': (216, 8), 'unbalanced': (224, 8), 'force_mean': (232, 8), 'force_below': (240, 24)}),
+    'clast_dem_load': (272, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'shear_modulus': (136, 8), 'fabric': (144, 48), 'n_contact': (192, 8), 'n_force': (200, 8), 'coordination': (208, 8), 'n_rattler': (216, 4), 'coordination_held': (224, 8), 'unbalanced': (232, 8), 'force_mean': (240, 8), 'force_below': (248, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
     'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
     'clast_evolve_source': (656, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 64), 'field': (536, 64), 'input': (600, 56)}),
@@ -2805,11 +2864,12 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
-    'clast_pack_config': (696, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'stages': (576, 16), 'load_rate': (592, 8), 'load_tolerance': (600, 8), 'load_rest': (608, 8), 'max_load_time': (616, 8), 'energy': (624, 1), 'layer': (632, 8), 'cut': (640, 8), 'trim': (648, 8), 'series_time': (656, 8), 'frame_time': (664, 8), 'checkpoint_time': (672, 8), 'resume': (680, 8), 'force': (688, 1)}),
-    'clast_pack_input': (56, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8)}),
+    'clast_pack_config': (736, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'wall': (576, 16), 'outlet': (592, 16), 'wall_forces': (608, 1), 'stages': (616, 16), 'load_rate': (632, 8), 'load_tolerance': (640, 8), 'load_rest': (648, 8), 'max_load_time': (656, 8), 'energy': (664, 1), 'layer': (672, 8), 'cut': (680, 8), 'trim': (688, 8), 'series_time': (696, 8), 'frame_time': (704, 8), 'checkpoint_time': (712, 8), 'resume': (720, 8), 'force': (728, 1)}),
+    'clast_pack_wall': (240, {'name': (0, 32), 'number': (32, 4), 'mesh': (40, 24), 'motion': (64, 144), 'press': (208, 24), 'area': (232, 8)}),
+    'clast_pack_input': (72, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8), 'n_wall': (56, 4), 'wall': (64, 8)}),
     'clast_pack_ranks': (72, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'messages': (32, 8), 'step_bytes': (40, 8), 'list_bytes': (48, 8), 'imbalance': (56, 8), 'is_zoltan': (64, 1)}),
     'clast_pack_hull': (80, {'shape': (0, 64), 'n_triangle': (64, 4), 'volume_added': (72, 8)}),
-    'clast_pack_source': (288, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'input': (232, 56)}),
+    'clast_pack_source': (320, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'n_wall': (232, 4), 'wall': (240, 8), 'input': (248, 72)}),
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
@@ -2879,7 +2939,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_evolve_config': (528, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'field': (360, 8), 'field_columns': (368, 8), 'wind_shear': (376, 8), 'eddy_diffusivity': (384, 8), 'brownian': (392, 1), 'fall': (396, 4), 'structure': (400, 1), 'collision_radius': (404, 4), 'meeting': (408, 4), 'walk_step': (416, 8), 'max_tries': (424, 4), 'even': (428, 4), 'change_level': (432, 8), 'duration': (440, 8), 'rows': (448, 4), 'step_error': (456, 8), 'time_step': (464, 8), 'seed': (472, 8), 'keep': (480, 4), 'bed_width': (488, 8), 'frames': (496, 4), 'checkpoint_time': (504, 8), 'resume': (512, 8), 'force': (520, 1)}),
     'clast_evolve_result': (264, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_written': (236, 4), 'bed_width': (240, 8), 'bed_height': (248, 8), 'folder': (256, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
-    'clast_pack_result': (1040, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'n_overlap': (432, 8), 'deepest_start': (440, 8), 'cell': (448, 96), 'load': (544, 264), 'energy': (808, 160), 'ranks': (968, 72)}),
+    'clast_pack_result': (1080, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'n_overlap': (432, 8), 'deepest_start': (440, 8), 'n_left': (448, 8), 'mass_left': (456, 8), 'cell': (464, 96), 'load': (560, 272), 'energy': (832, 176), 'ranks': (1008, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
@@ -3447,6 +3507,14 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the domain make no sense.'),
     'clast_dem_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_dem_add_container': (c_int, [c_void_p, POINTER(clast_mesh)], 'Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any obstacle.'),
+    'clast_dem_add_wall': (c_int, [c_void_p, POINTER(clast_mesh), POINTER(c_int32)], 'A surface as one more wall, closed or open, which may be moved, watched and opened; before the first grain.'),
+    'clast_dem_watch_walls': (c_int, [c_void_p], 'Sums the forces on all walls from the next step on, those of the domain with them, and numbers them.'),
+    'clast_dem_n_wall': (c_int32, [c_void_p], '0 while none are numbered.'),
+    'clast_dem_set_wall_motion': (c_int, [c_void_p, c_int32, POINTER(clast_dem_wall_motion)], 'How a wall moves, before it does.'),
+    'clast_dem_drive_wall': (c_int, [c_void_p, c_int32, c_bool, POINTER(c_double)], "From the next step on the wall's own motion runs, or stands; a velocity is added to it [m/s]."),
+    'clast_dem_open_wall': (c_int, [c_void_p, c_int32], 'Takes a wall away: an orifice opens.'),
+    'clast_dem_read_wall': (None, [c_void_p, c_int32, POINTER(clast_dem_wall)], '.'),
+    'clast_dem_remove_grains': (c_int, [c_void_p, POINTER(c_uint8)], 'Takes grains out; those after them move up in number.'),
     'clast_dem_add_shape': (c_int, [c_void_p, POINTER(clast_shape), POINTER(c_int32)], 'Adds a copy of a shape; its number goes to *id.'),
     'clast_dem_add_grains': (c_int, [c_void_p, c_int32, POINTER(clast_dem_grain)], 'Adds grains; all or none.'),
     'clast_dem_set_drive': (None, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
@@ -3652,6 +3720,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_porosity': (clast_porosity_options, [POINTER(clast_pack_config)], '.'),
     'clast_pack_series': (POINTER(clast_table), [c_void_p], 'Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J, max_speed_m/s, n_contact, n_wall_contact, max_overlap_m.'),
     'clast_pack_load_table': (POINTER(clast_table), [c_void_p], 'What the bed carries and where its energy goes, rows as of the series and at the end of each stage: the table load.csv of docs/theory/load.md.'),
+    'clast_pack_wall_table': (POINTER(clast_table), [c_void_p], 'Walls over time: where each is, force and torque of grains (means since the row before), work; grains that left: the table walls.csv of docs/theory/load.md.'),
     'clast_pack_achieved': (c_int, [c_void_p, POINTER(clast_table)], 'Sieve curve achieved beside the wanted one (columns as clast_grading_compare).'),
     'clast_pack_load': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_source)], "@return the reader's status, with the option and the file's name before its message."),
     'clast_pack_unload': (None, [POINTER(clast_pack_source)], 'may be called twice.'),
@@ -4123,7 +4192,10 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'still_speed': ('number', 0.001, 'm/s', 0.0, 1000000.0, None, 'of the fastest grain'),
         'max_steps': ('integer', 0.0, '-', 0.0, 9000000000000000.0, None, 'stop after so many time steps as it is; 0: never'),
         'max_damping_time': ('number', 20.0, 's', 0.0, 1000000000.0, None, 'give up when the bed is not still by then'),
-        'stages': ('texts', '', '-', None, None, None, 'stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T'),
+        'wall': ('texts', '', '-', None, None, None, 'walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2'),
+        'outlet': ('texts', '', '-', None, None, None, 'half-spaces whose grains leave and are counted: z<-10mm'),
+        'wall_forces': ('flag', False, '-', None, None, None, 'force and torque on all walls over time, also where none moves: walls.csv'),
+        'stages': ('texts', '', '-', None, None, None, 'stages that load a bed, one after the other; between walls: NAME (its motion runs), NAME=10kPa, NAME=5N, NAME=1mm/s (where it presses), open NAME, hold; then until rest, time T, stress P, way D or mass M. In domain cell: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T'),
         'load_rate': ('number', 1.0, '1/s', 1e-09, 1000000000.0, None, 'rate of strain at which a pressure is approached, at most'),
         'load_tolerance': ('number', 0.01, '-', 1e-09, 1.0, None, 'share of a pressure within which it is reached'),
         'load_rest': ('number', 0.001, '-', 1e-12, 1.0, None, 'a loaded bed rests when the mean force on a grain over that of a contact is below this'),
@@ -4481,7 +4553,7 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
     'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
     'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
-    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
     'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
     'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
