@@ -89,7 +89,7 @@ static void print_motion(const clast_pack_result *r)
                      "walls counted\n",
                      "motion", r->dem.max_speed, r->n_loose, r->dem.n_grain);
     }
-    if (r->phase == CLAST_PACK_DONE && r->is_moving && r->load.volume == 0.0) {
+    if (r->phase == CLAST_PACK_DONE && r->is_moving && r->n_stage == 0) {
         (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
                      "still_speed; --rule speed waits until it is\n",
                      "warning");
@@ -167,7 +167,6 @@ static void print_energy(const clast_pack_result *r)
 
 static void print_text(const clast_pack_result *r)
 {
-    const bool is_cell = r->load.volume > 0.0;
     print_hulls(r);
     (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
@@ -183,7 +182,7 @@ static void print_text(const clast_pack_result *r)
     }
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->phase != CLAST_PACK_DONE ? ""
-                 : is_cell                   ? " (all stages)"
+                 : r->n_stage > 0            ? " (all stages)"
                  : r->is_moving              ? " (level)"
                                              : " (at rest)",
                  (long long)r->dem.step, r->dem.time);

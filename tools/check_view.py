@@ -44,6 +44,12 @@ class Page:
         """Two frames later."""
         self.ask("new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))")
 
+    def rest(self):
+        """Until the camera has come to rest and surfaces are drawn, a minute at the most."""
+        until = time.monotonic() + 60
+        while self.ask(f"{VIEW}.level !== 'surfaces' || {VIEW}.isMoving === true") and time.monotonic() < until:
+            self.settle()
+
     def press(self, key, shift=False):
         self.ask(f"{VIEW}.stage.dispatchEvent(new KeyboardEvent('keydown', {{key: {json.dumps(key)}, shiftKey: {json.dumps(shift)}, bubbles: true}}))")
         self.settle()
@@ -224,7 +230,7 @@ def check_levels(page):
     """Dots while the camera moves where surfaces are slow, surfaces when it rests; both look alike."""
     shot = lambda: read_png(base64.b64decode(page.ask(f"(() => {{ const v = {VIEW}; v.render(); return v.renderer.domElement.toDataURL('image/png').split(',')[1]; }})()")))
     page.ask(f"{VIEW}.frame()")
-    page.settle()
+    page.rest()
     page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail at rest")
     surfaces = covered(shot())
     page.ask(f"{VIEW}.isSlow = true; {VIEW}.controls.dispatchEvent({{type: 'change'}}); clearTimeout({VIEW}.resting)")  # it never rests
@@ -235,9 +241,7 @@ def check_levels(page):
     for k, colour in enumerate(("red", "green", "blue")):
         page.hold(abs(dots[1][k] - surfaces[1][k]) < 16, f"dots' mean {colour}: {dots[1][k]:.0f}, surfaces' {surfaces[1][k]:.0f}")
     page.ask(f"{VIEW}.draw()")
-    until = time.monotonic() + 60
-    while page.ask(f"{VIEW}.level") != "surfaces" and time.monotonic() < until:
-        page.settle()
+    page.rest()
     page.equal(page.ask(f"{VIEW}.level"), "surfaces", "level of detail after a rest")
     page.ask(f"{VIEW}.isSlow = false")
 

@@ -215,6 +215,7 @@ typedef struct clast_pack_result {
     double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
     int64_t n_overlap;     ///< of grains that a start brought
     double deepest_start;  ///< of those, over the smaller one's radius
+    int32_t n_stage;       ///< stages that were gone through; 0: none were given
     int64_t n_left;        ///< grains that left by outlets
     double mass_left;      ///< [kg]
     clast_dem_cell cell;   ///< zeros in other domains

@@ -27,4 +27,14 @@
 #define CLX_IS_WIDE    0
 #endif
 
+/// The same of what only a machine with AVX2 runs.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
+    !defined(__SANITIZE_THREAD__)
+#define CLX_MAKES_AVX2 1
+#define CLX_HAS_AVX2   (__builtin_cpu_supports("avx2") != 0)
+#else
+#define CLX_MAKES_AVX2 0
+#define CLX_HAS_AVX2   0
+#endif
+
 #define CLX_INLINE static inline __attribute__((always_inline))

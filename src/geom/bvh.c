@@ -3,6 +3,7 @@
 #include "geom/bvh.h"
 
 #include "base/alloc.h"
+#include "base/lines.h"
 #include "math/vec3.h"
 
 enum { LEAF_SIZE = 4 };
@@ -115,6 +116,7 @@ clast_status clast_bvh_create(const clast_mesh *mesh, clast_bvh **bvh)
     clast_bvh *made = NULL;
     clx_tree_box *box = NULL;
     double reach = 0.0;
+    int64_t capacity = 0;
     CLX_TRY(check_mesh(mesh, &reach));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->mesh = mesh;
@@ -123,7 +125,7 @@ clast_status clast_bvh_create(const clast_mesh *mesh, clast_bvh **bvh)
     CLX_TRY(clx_alloc(&box, mesh->n_tri, sizeof *box));
     fill_boxes(made, box);
     CLX_TRY(clx_tree_build(box, mesh->n_tri, LEAF_SIZE, &made->tree));
-    CLX_TRY(clx_alloc(&made->corner, mesh->n_tri, sizeof *made->corner));
+    CLX_TRY(clx_grow_lines(&made->corner, &capacity, mesh->n_tri, sizeof *made->corner));
     fill_corners(made);
     if (made->rule == CLX_BVH_SOLID_ANGLE) {
         CLX_TRY(clx_alloc(&made->moment, made->tree.n_node, sizeof *made->moment));

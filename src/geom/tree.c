@@ -5,12 +5,14 @@
 #include "geom/tree.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "math/vec3.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
 enum { N_BIN = 16, N_BIN_SMALL = 6, SMALL = 24 };
+enum { N_TASK = 64, TASK_LEAST = 2048, N_TOP = 4 * N_TASK }; // subtrees for threads, their items
 
 typedef struct {
     double low[3];
@@ -20,7 +22,8 @@ typedef struct {
 
 typedef struct {
     clx_tree_box *box;
-    clx_tree *tree;
+    clx_tree_node *node;
+    int32_t n_node;
     int32_t leaf_size;
 } build_state;
 
@@ -218,7 +221,7 @@ static int longest_axis(const bin *b)
 }
 
 /// Parts a range; items that go left (0: keep it as a leaf), and the axis.
-static int32_t split(const build_state *s, const node_range *range, int *axis)
+static int32_t split(const node_range *range, int32_t leaf_size, int *axis)
 {
     bin_grid grid;
     split_choice best = {-1, 0, INFINITY};
@@ -231,7 +234,7 @@ static int32_t split(const build_state *s, const node_range *range, int *axis)
         }
     }
     // Cost of a visit and of an item are alike: a leaf costs n, a split 1 + cost / area.
-    if (range->n <= s->leaf_size && !(area + best.cost < range->n * area)) {
+    if (range->n <= leaf_size && !(area + best.cost < range->n * area)) {
         return 0;
     }
     if (best.axis >= 0) {
@@ -254,27 +257,177 @@ static void measure_range(node_range *range)
     }
 }
 
-static void build_node(build_state *s, int32_t first, int32_t n, int depth)
+/// Measures and parts a range; fills all of its node but the right child. Items that go left, 0 for
+/// a leaf.
+static int32_t part_node(clx_tree_box *box, int32_t first, int32_t n, int depth, int32_t leaf_size,
+                         clx_tree_node *node)
 {
     CLAST_ASSERT(n > 0 && depth <= CLX_TREE_DEPTH);
-    const int32_t self = s->tree->n_node++;
-    node_range range = {.box = s->box + first, .n = n, .depth = depth};
+    node_range range = {.box = box + first, .n = n, .depth = depth};
     int axis = 0;
     measure_range(&range);
-    const int32_t n_left = n > 1 ? split(s, &range, &axis) : 0;
+    const int32_t n_left = n > 1 ? split(&range, leaf_size, &axis) : 0;
     CLAST_ASSERT(n_left >= 0 && n_left < n);
-    clx_tree_node *node = &s->tree->node[self];
     v3_copy(node->low, range.bounds.low);
     v3_copy(node->high, range.bounds.high);
     node->first = first;
     node->count = n;
     node->axis = axis;
     node->right = 0;
+    return n_left;
+}
+
+static void build_node(build_state *s, int32_t first, int32_t n, int depth)
+{
+    const int32_t self = s->n_node++;
+    const int32_t n_left = part_node(s->box, first, n, depth, s->leaf_size, &s->node[self]);
     if (n_left > 0) {
         build_node(s, first, n_left, depth + 1);
-        s->tree->node[self].right = s->tree->n_node;
+        s->node[self].right = s->n_node;
         build_node(s, first + n_left, n - n_left, depth + 1);
     }
+}
+
+/// A node near the root: parted, or the root of a subtree that one thread builds.
+typedef struct {
+    clx_tree_node node;
+    int depth;
+    int32_t n_left; ///< items; 0: a subtree's root
+    int32_t left;   ///< of the top levels; the right child follows it
+    int32_t n_node; ///< of the subtree
+    int32_t place;  ///< in the tree
+} top_node;
+
+/// The nodes near the root, level by level, and where the subtrees below them are made: that of
+/// the items from `first` on begins at node 2 first.
+typedef struct {
+    clx_tree_box *box;
+    int32_t leaf_size;
+    int32_t n;
+    top_node at[N_TOP];
+    int32_t level; ///< first of the last level
+    clx_tree_node *made;
+    clx_tree_node *node; ///< of the tree
+} top_tree;
+
+static void part_level(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    top_tree *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        top_node *at = &c->at[c->level + i];
+        if (at->node.count >= TASK_LEAST) {
+            at->n_left = part_node(c->box, at->node.first, at->node.count, at->depth, c->leaf_size,
+                                   &at->node);
+        }
+    }
+}
+
+static void append_to_top(top_tree *c, int32_t first, int32_t n, int depth)
+{
+    CLAST_ASSERT(c->n < N_TOP && n > 0);
+    c->at[c->n++] = (top_node){.node = {.first = first, .count = n}, .depth = depth};
+}
+
+/// Parts the ranges of a level by all threads, then those of the next, until there are enough.
+static void grow_top(top_tree *c, int32_t n_item)
+{
+    append_to_top(c, 0, n_item, 0);
+    for (int32_t n_level = 1; n_level > 0 && n_level < N_TASK && c->n + 2 * n_level <= N_TOP;) {
+        const int32_t end = c->n;
+        clx_parallel_for(n_level, 1, part_level, c);
+        for (int32_t i = c->level; i < end; ++i) {
+            top_node *at = &c->at[i];
+            if (at->n_left > 0) {
+                at->left = c->n;
+                append_to_top(c, at->node.first, at->n_left, at->depth + 1);
+                append_to_top(c, at->node.first + at->n_left, at->node.count - at->n_left,
+                              at->depth + 1);
+            }
+        }
+        c->level = end;
+        n_level = c->n - end;
+    }
+}
+
+static void build_subtrees(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    top_tree *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        top_node *at = &c->at[i];
+        if (at->n_left == 0) {
+            build_state s = {.box = c->box,
+                             .node = c->made + 2 * (ptrdiff_t)at->node.first,
+                             .leaf_size = c->leaf_size};
+            build_node(&s, at->node.first, at->node.count, at->depth);
+            at->n_node = s.n_node;
+        }
+    }
+}
+
+/// Numbers the nodes in preorder from `place` on; the number after the last.
+static int32_t place_top(top_tree *c, int32_t i, int32_t place)
+{
+    top_node *at = &c->at[i];
+    at->place = place;
+    if (at->n_left == 0) {
+        return place + at->n_node;
+    }
+    at->node.right = place_top(c, at->left, place + 1);
+    return place_top(c, at->left + 1, at->node.right);
+}
+
+static void copy_subtrees(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const top_tree *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const top_node *at = &c->at[i];
+        const clx_tree_node *from =
+            at->n_left > 0 ? &at->node : c->made + 2 * (ptrdiff_t)at->node.first;
+        const int32_t shift = at->n_left > 0 ? 0 : at->place;
+        for (int32_t k = 0; k < (at->n_left > 0 ? 1 : at->n_node); ++k) {
+            clx_tree_node *to = &c->node[at->place + k];
+            *to = from[k];
+            to->right += to->right != 0 ? shift : 0;
+        }
+    }
+}
+
+/// The tree of build_node, its subtrees by all threads.
+static clast_status build_along(clx_tree_box *box, int32_t leaf_size, clx_tree *tree)
+{
+    clast_status status = CLAST_OK;
+    top_tree *c = NULL;
+    clx_tree_node *made = NULL;
+    CLX_TRY(clx_alloc(&c, 1, sizeof *c));
+    CLX_TRY(clx_alloc(&made, 2 * (int64_t)tree->n_item, sizeof *made));
+    c->box = box;
+    c->leaf_size = leaf_size;
+    c->made = made;
+    grow_top(c, tree->n_item);
+    clx_parallel_for(c->n, 1, build_subtrees, c);
+    tree->n_node = place_top(c, 0, 0);
+    CLX_TRY(clx_alloc(&tree->node, tree->n_node, sizeof *tree->node));
+    c->node = tree->node;
+    clx_parallel_for(c->n, 1, copy_subtrees, c);
+done:
+    clx_free(made);
+    clx_free(c);
+    return status;
+}
+
+static clast_status build_alone(clx_tree_box *box, int32_t leaf_size, clx_tree *tree)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&tree->node, 2 * (int64_t)tree->n_item - 1, sizeof *tree->node));
+    build_state s = {.box = box, .node = tree->node, .leaf_size = leaf_size};
+    build_node(&s, 0, tree->n_item, 0);
+    tree->n_node = s.n_node;
+    CLX_TRY(clx_realloc(&tree->node, tree->n_node, sizeof *tree->node));
+done:
+    return status;
 }
 
 clast_status clx_tree_build(clx_tree_box *box, int32_t n, int32_t leaf_size, clx_tree *tree)
@@ -284,14 +437,12 @@ clast_status clx_tree_build(clx_tree_box *box, int32_t n, int32_t leaf_size, clx
     clx_tree made = {.n_item = n};
     CLX_CHECK(n >= 1, CLAST_E_GEOMETRY, "a box tree over %d items; it needs at least one", n);
     CLX_CHECK(n <= INT32_MAX / 2, CLAST_E_LIMIT, "a box tree over %d items is beyond 2^30", n);
-    CLX_TRY(clx_alloc(&made.node, 2 * (int64_t)n - 1, sizeof *made.node));
     CLX_TRY(clx_alloc(&made.item, n, sizeof *made.item));
-    build_state state = {box, &made, leaf_size};
-    build_node(&state, 0, n, 0);
+    CLX_TRY(n < 4 * TASK_LEAST ? build_alone(box, leaf_size, &made)
+                               : build_along(box, leaf_size, &made));
     for (int32_t i = 0; i < n; ++i) {
         made.item[i] = box[i].item;
     }
-    CLX_TRY(clx_realloc(&made.node, made.n_node, sizeof *made.node));
     *tree = made;
     made = (clx_tree){0};
 done:

@@ -201,7 +201,7 @@ static clast_status read_atoms(data *d)
         CLX_TRY(clast_table_add_number(&d->table, column_names[k], "-", NULL));
     }
     for (int64_t i = 0; i < d->n_atom; ++i) {
-        double value[16];
+        double value[16] = {0.0};
         CLX_TRY(read_row(d, "Atoms", 7, 10, value));
         for (int k = 0; k < SHAPE; ++k) {
             d->table.column[k].number[i] = value[k];
@@ -221,7 +221,7 @@ static clast_status read_ellipsoids(data *d)
               "%s:%" PRId64 ": Ellipsoids stand behind Atoms of style ellipsoid", d->name,
               d->text.line);
     for (int64_t i = 0; i < d->n_ellipsoid; ++i) {
-        double value[16];
+        double value[16] = {0.0};
         CLX_TRY(read_row(d, "Ellipsoids", 8, 8, value));
         const int64_t row = row_of(d, value[0]);
         CLX_CHECK(row >= 0, CLAST_E_FORMAT, "%s:%" PRId64 ": there is no atom %g", d->name,

@@ -137,12 +137,12 @@ static clast_status read_pose(const ellipsoid_columns *c, int64_t i, double x[3]
 {
     clast_status status = CLAST_OK;
     double length = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        x[k] = c->x[k][i];
-        axes[k] = 0.5 * c->axis[k][i];
+    for (int k = 0; k < 3; ++k) { // no column is NULL but for the analyser
+        x[k] = c->x[k] != NULL ? c->x[k][i] : 0.0;
+        axes[k] = c->axis[k] != NULL ? 0.5 * c->axis[k][i] : 0.0;
     }
     for (int k = 0; k < 4; ++k) {
-        q[k] = c->q[k][i];
+        q[k] = c->q[k] != NULL ? c->q[k][i] : 0.0;
         length += q[k] * q[k];
     }
     CLX_CHECK(v3_is_finite(x) && v3_is_finite(axes) && axes[0] > 0.0 && axes[1] > 0.0 &&
@@ -174,7 +174,7 @@ static clast_status need_ellipsoid(clast_assembly *a, int32_t type, const double
         if (strncmp(one->name, name, (size_t)begin) == 0 &&
             (one->name[begin] == '\0' || one->name[begin] == '-')) {
             ++n_same;
-            if (memcmp(one->semi_axes, made.semi_axes, sizeof made.semi_axes) == 0) {
+            if (v3_distance2(one->semi_axes, made.semi_axes) == 0.0) {
                 *shape = i;
                 goto done;
             }

@@ -1,6 +1,7 @@
 // TIFF by libtiff: a page is a slice of the volume, in strips or tiles.  [docs/adr/0004-tiff.md]
 #include "io/volume_io.h"
 
+#include "base/status.h"
 #include <clast/volume.h>
 #include <string.h>
 

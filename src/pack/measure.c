@@ -208,7 +208,8 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
         volume += p->dem->motion[i].volume;
     }
     r->sank = top[row] - r->dem.top;
-    r->fell = r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
+    r->fell =
+        p->config.stages.n == 0 && r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
 }
 
 void clast_pack_result_free(clast_pack_result *result)
@@ -231,6 +232,9 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .n_waited = pack->n_waited,
                            .n_overlap = pack->n_overlap,
                            .deepest_start = pack->deepest,
+                           .n_stage = pack->phase == CLAST_PACK_DONE   ? pack->config.stages.n
+                                      : pack->phase == CLAST_PACK_LOAD ? pack->load.stage
+                                                                       : 0,
                            .n_left = pack->n_left,
                            .mass_left = pack->mass_left,
                            .wall_s = pack->wall_s,

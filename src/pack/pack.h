@@ -56,11 +56,11 @@ struct clast_pack {
     double mass;
     int64_t n_drawn;   ///< grains made, and those that wait
     double drawn_mass; ///< of these
-    int32_t n_waiting;
+    int32_t n_waiting, n_outlet;
     clx_pack_number *waiting; ///< [n_waiting] found no place in the fills so far
     int64_t waiting_capacity;
     int64_t n_waited; ///< grains that had to wait
-    int32_t n_fill;
+    int32_t n_fill, n_wall;
     int64_t fill_step;  ///< of the last fill
     int64_t phase_step; ///< when the phase began
     double last_height; ///< at the last look
@@ -68,13 +68,11 @@ struct clast_pack {
     double grain_steps, clocked_steps;
     clast_table series;
     clx_pack_loading load;
-    int32_t n_wall;
     clx_pack_wall *wall;             ///< [n_wall] of the simulation
     clast_table walls;               ///< walls.csv
     int64_t walls_looked, walls_row; ///< steps of the last look, of the last row
-    int32_t n_outlet;
-    clx_pack_outlet *outlet; ///< [n_outlet]
-    int64_t n_left;          ///< grains that have left
+    clx_pack_outlet *outlet;         ///< [n_outlet]
+    int64_t n_left;                  ///< grains that have left
     double mass_left;
     int64_t n_overlap;     ///< of a start
     double deepest;        ///< of those, over the smaller one's radius

@@ -77,33 +77,71 @@ static bool read_number(const char *text, const char *unit, bool is_above_0, dou
            !isdigit((unsigned char)text[strlen(text) - 1]);
 }
 
+/// Words that three numbers follow, in the order of read_vector_word's places.
+static const struct {
+    const char *name, *unit, *wrong; ///< unit "-": a direction, taken to length 1
+} vectors[] = {{"move", "m/s", "expected a velocity (0,0,-5mm/s), not"},
+               {"about", "m", "expected a point (0,0,50mm), not"},
+               {"axis", "-", "expected the direction of an axis (0,1,0), not"},
+               {"press", "-", "expected the direction in which it presses (0,0,-1), not"}};
+enum { N_VECTOR = sizeof vectors / sizeof *vectors };
+
+/// What is wrong with such a word, or NULL; *is_one: it is one.
+static const char *read_vector_word(const char *name, const char *next, clx_wall_words *w,
+                                    bool *is_one)
+{
+    clast_dem_wall_motion *m = &w->wall.motion;
+    double *const place[N_VECTOR] = {m->velocity, m->pivot, m->axis, w->wall.press};
+    *is_one = true;
+    for (int k = 0; k < N_VECTOR; ++k) {
+        if (strcmp(name, vectors[k].name) == 0) {
+            const bool is_fine = read_vector(next, vectors[k].unit, place[k]) &&
+                                 (k < 2 || v3_unit(place[k], place[k]));
+            return is_fine ? NULL : vectors[k].wrong;
+        }
+    }
+    *is_one = false;
+    return NULL;
+}
+
+/// An amplitude and a period.
+static const char *read_swing(bool vibrates, const char *const next[2], clx_wall_words *w,
+                              int *taken)
+{
+    clast_dem_wall_motion *m = &w->wall.motion;
+    double period = 0.0;
+    const bool is_fine = vibrates ? read_vector(next[0], "m", m->amplitude)
+                                  : read_number(next[0], "rad", false, &m->swing);
+    if (!is_fine) {
+        return vibrates ? "expected an amplitude (0,0,1mm) and a period (20ms), not"
+                        : "expected an angle (5deg) and a period (20ms), not";
+    }
+    *taken = 3; // the second is at fault
+    if (!read_number(next[1], "s", true, &period)) {
+        return "expected a period (20ms), not";
+    }
+    if (m->period > 0.0 && m->period != period) {
+        return "vibrate and swing have one period, not also";
+    }
+    *taken = 2;
+    m->period = period;
+    return NULL;
+}
+
 /// One word of a motion with what follows it; what is wrong, or NULL.
 static const char *read_motion(const char *name, const char *const next[2], clx_wall_words *w,
                                int *taken)
 {
-    clast_dem_wall_motion *m = &w->wall.motion;
+    bool is_vector = false;
+    const char *wrong = read_vector_word(name, next[0], w, &is_vector);
     *taken = 1;
-    if (strcmp(name, "move") == 0) {
-        return read_vector(next[0], "m/s", m->velocity) ? NULL
-                                                        : "expected a velocity (0,0,-5mm/s), not";
-    }
-    if (strcmp(name, "axis") == 0) {
-        return read_vector(next[0], "-", m->axis) && v3_unit(m->axis, m->axis)
-                   ? NULL
-                   : "expected the direction of an axis (0,1,0), not";
-    }
-    if (strcmp(name, "about") == 0) {
-        return read_vector(next[0], "m", m->pivot) ? NULL : "expected a point (0,0,50mm), not";
+    if (is_vector) {
+        return wrong;
     }
     if (strcmp(name, "rotate") == 0) {
-        return read_number(next[0], "rad/s", false, &m->rate)
+        return read_number(next[0], "rad/s", false, &w->wall.motion.rate)
                    ? NULL
                    : "expected an angular velocity (30rpm, 90deg/s, 1rad/s), not";
-    }
-    if (strcmp(name, "press") == 0) {
-        return read_vector(next[0], "-", w->wall.press) && v3_unit(w->wall.press, w->wall.press)
-                   ? NULL
-                   : "expected the direction in which it presses (0,0,-1), not";
     }
     if (strcmp(name, "area") == 0) {
         return read_number(next[0], "m^2", true, &w->wall.area) ? NULL
@@ -115,20 +153,7 @@ static const char *read_motion(const char *name, const char *const next[2], clx_
     }
     const bool vibrates = strcmp(name, "vibrate") == 0;
     if (vibrates || strcmp(name, "swing") == 0) {
-        double period = 0.0;
-        *taken = 2;
-        if (vibrates ? !read_vector(next[0], "m", m->amplitude)
-                     : !read_number(next[0], "rad", false, &m->swing)) {
-            return vibrates ? "expected an amplitude (0,0,1mm) and a period (20ms), not"
-                            : "expected an angle (5deg) and a period (20ms), not";
-        }
-        if (!read_number(next[1], "s", true, &period) || (m->period > 0.0 && m->period != period)) {
-            *taken = 3; // the second is at fault
-            return m->period > 0.0 ? "vibrate and swing have one period, not also"
-                                   : "expected a period (20ms), not";
-        }
-        m->period = period;
-        return NULL;
+        return read_swing(vibrates, next, w, taken);
     }
     *taken = 0;
     return "expected move, vibrate, axis, about, rotate, swing, table, press or area, not";
@@ -158,7 +183,7 @@ static clast_status check(const clast_pack_config *c, int32_t i, const clx_wall_
 static clast_status read_head(const clast_pack_config *c, int32_t i, const char **at,
                               clx_wall_words *w)
 {
-    double inward[3];
+    double inward[3] = {0.0, 0.0, 0.0};
     *at = clx_next_word(c->wall.item[i], w->wall.name, sizeof w->wall.name);
     if (*at == NULL) {
         return fail(c, i, "it begins with a name of at most 31 letters", "");
@@ -201,7 +226,7 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
     char word[3][CLX_WALL_PATH] = {"", "", ""};
     clx_wall_words w = {.file = ""};
     CLX_TRY(read_head(c, i, &at, &w));
-    while ((at = clx_next_word(at, word[0], sizeof word[0])) != NULL) {
+    while (at != NULL && (at = clx_next_word(at, word[0], sizeof word[0])) != NULL) {
         int taken = 0;
         const char *after = at;
         for (int k = 1; k < 3; ++k) {
@@ -214,7 +239,7 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
         if (wrong != NULL) {
             return fail(c, i, wrong, word[taken < 3 ? taken : 2]);
         }
-        for (int k = 0; k < taken; ++k) {
+        for (int k = 0; k < taken && at != NULL; ++k) {
             at = clx_next_word(at, word[1], sizeof word[1]);
         }
     }

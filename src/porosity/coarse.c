@@ -95,20 +95,22 @@ static void spread(grid *g, const double x[3], int first, int n_value, const dou
     }
 }
 
-static void spread_grains(grid *g, const clast_assembly *a, const double *const velocity[3])
+/// velocity [3] columns, or NULL: at rest.
+static void spread_grains(grid *g, const clast_assembly *a, const double *const *velocity)
 {
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double s = a->scale[i];
         const double volume = s * s * s * a->shape[a->shape_id[i]].volume;
         const double mass = volume * a->density[i];
-        double value[5] = {mass, volume};
-        double motion[6] = {0.0};
-        for (int k = 0; k < 3 && velocity[k] != NULL; ++k) {
-            value[2 + k] = mass * velocity[k][i];
+        double v[3] = {0.0, 0.0, 0.0};
+        double motion[6];
+        for (int k = 0; k < 3 && velocity != NULL && velocity[k] != NULL; ++k) {
+            v[k] = velocity[k][i];
         }
-        for (int e = 0; e < 6 && velocity[0] != NULL; ++e) {
-            motion[e] = value[2 + ENTRY[e][0]] * velocity[ENTRY[e][1]][i];
+        for (int e = 0; e < 6; ++e) {
+            motion[e] = mass * v[ENTRY[e][0]] * v[ENTRY[e][1]];
         }
+        const double value[5] = {mass, volume, mass * v[0], mass * v[1], mass * v[2]};
         spread(g, a->position[i], DENSITY, 5, value);
         spread(g, a->position[i], MOTION, 6, motion);
     }
@@ -332,7 +334,7 @@ clast_status clast_bed_fields(const clast_bed *bed, const clast_assembly *assemb
     }
     CLX_TRY(find_velocities(velocities, assembly, velocity));
     CLX_TRY(make_grid(bed, assembly, &c, width, &g));
-    spread_grains(&g, assembly, velocity);
+    spread_grains(&g, assembly, velocities != NULL ? velocity : NULL);
     CLX_TRY(spread_contacts(&g, assembly, &c));
     CLX_TRY(make_table(&g, table));
 done:

@@ -307,9 +307,11 @@ static clast_status find_top(const clast_porosity_options *options, const clast_
     while (k >= 0 && n[k] > options->cut) {
         --k;
     }
-    CLX_CHECK(k >= 0, CLAST_E_GEOMETRY,
-              "no slice is denser than the cut: the least porosity is above %g; check the bed",
-              options->cut);
+    CLX_CHECK(
+        k >= 0, CLAST_E_GEOMETRY,
+        "no slice is denser than the cut: the least porosity of slices %.3g high is above %g; "
+        "check the bed, or take lower slices (layer)",
+        profile->n_row > 0 ? high[0] - low[0] : 0.0, options->cut);
     *top = high[k];
     if (!options->at_slice && k + 1 < profile->n_row) {
         const double t = (options->cut - n[k]) / (n[k + 1] - n[k]);

@@ -1,143 +1,14 @@
-// Rays against a scene: the tree of grains, then each grain's own surface in its own frame.
-#include "render/scene.h"
+// What a ray through the scene meets: the kept side of the cut, points and normals of a hit.
+#include "render/travel.h"
 
-#include "geom/ray.h"
+#include "math/vec3.h"
 #include <clast/shape.h>
-
-/// A ray on its way through the scene.
-typedef struct {
-    const clx_scene *scene;
-    const double *origin;
-    const double *direction;
-    double t_low;
-    bool any;
-    bool found;
-    clx_scene_hit best; ///< t, grain, item, bary
-} journey;
-
-/// The same ray in a grain's frame, where its parameter t keeps its meaning.
-typedef struct {
-    journey *journey;
-    const clx_scene_shape *shape;
-    int32_t grain;
-    double origin[3];
-    double direction[3];
-    clx_ray ray;
-} leg;
-
-static double accept(leg *l, double t, int32_t item, const double bary[3])
-{
-    journey *j = l->journey;
-    j->found = true;
-    j->best.t = t;
-    j->best.grain = l->grain;
-    j->best.item = item;
-    v3_copy(j->best.bary, bary);
-    return j->any ? -(double)INFINITY : t;
-}
-
-/// First of the two crossings with the unit sphere at t_low <= t <= t_high, or INFINITY. The foot
-/// of the perpendicular, not b^2 - 4 a c, keeps the digits for a far origin.
-static double sphere_crossing(const double origin[3], const double direction[3], double radius,
-                              double t_low, double t_high)
-{
-    const double d2 = v3_norm2(direction);
-    const double middle = -v3_dot(origin, direction) / d2;
-    double foot[3];
-    v3_axpy(foot, origin, middle, direction);
-    const double rest = radius * radius - v3_norm2(foot);
-    if (rest < 0.0) {
-        return INFINITY;
-    }
-    const double half = sqrt(rest / d2);
-    if (middle - half >= t_low) {
-        return middle - half <= t_high ? middle - half : (double)INFINITY;
-    }
-    return middle + half >= t_low && middle + half <= t_high ? middle + half : (double)INFINITY;
-}
-
-static double visit_triangles(void *context, int32_t first, int32_t count, double t_high)
-{
-    leg *l = context;
-    for (int32_t i = first; i < first + count; ++i) {
-        double t = 0.0;
-        double bary[3];
-        if (clx_ray_meets(&l->ray, l->shape->bvh->corner[i], l->journey->t_low, t_high, &t, bary)) {
-            t_high = accept(l, t, i, bary);
-            if (l->journey->any) {
-                break;
-            }
-        }
-    }
-    return t_high;
-}
-
-static double visit_spheres(void *context, int32_t first, int32_t count, double t_high)
-{
-    static const double none[3] = {0.0, 0.0, 0.0};
-    leg *l = context;
-    for (int32_t i = first; i < first + count; ++i) {
-        const int32_t s = l->shape->tree.item[i];
-        double from[3];
-        v3_sub(from, l->origin, l->shape->spheres->centre[s]);
-        const double t = sphere_crossing(from, l->direction, l->shape->spheres->radius[s],
-                                         l->journey->t_low, t_high);
-        if (t < (double)INFINITY) {
-            t_high = accept(l, t, s, none);
-            if (l->journey->any) {
-                break;
-            }
-        }
-    }
-    return t_high;
-}
 
 static void to_local(const clx_scene_grain *grain, const double v[3], double local[3])
 {
     for (int k = 0; k < 3; ++k) {
         local[k] = v3_dot(grain->inverse[k], v);
     }
-}
-
-static double visit_ellipsoid(leg *l, double t_high)
-{
-    static const double none[3] = {0.0, 0.0, 0.0};
-    double origin[3];
-    double direction[3];
-    for (int k = 0; k < 3; ++k) {
-        origin[k] = l->origin[k] * l->shape->per_axis[k];
-        direction[k] = l->direction[k] * l->shape->per_axis[k];
-    }
-    const double t = sphere_crossing(origin, direction, 1.0, l->journey->t_low, t_high);
-    return t < (double)INFINITY ? accept(l, t, 0, none) : t_high;
-}
-
-static double visit_grain(journey *j, int32_t g, double t_high)
-{
-    CLAST_ASSERT(g >= 0);
-    const clx_scene_grain *grain = &j->scene->grain[g];
-    leg l = {.journey = j, .shape = &j->scene->shape[grain->shape], .grain = g};
-    double from[3];
-    v3_sub(from, j->origin, grain->position);
-    to_local(grain, from, l.origin);
-    to_local(grain, j->direction, l.direction);
-    if (l.shape->kind == CLAST_SHAPE_SPHERE || l.shape->kind == CLAST_SHAPE_ELLIPSOID) {
-        return visit_ellipsoid(&l, t_high);
-    }
-    (void)clx_ray_set(&l.ray, l.origin, l.direction);
-    const clx_wide_ray wide = clx_wide_ray_of(&l.shape->wide, l.origin, l.direction);
-    const clx_wide_visit visit =
-        l.shape->kind == CLAST_SHAPE_MESH ? visit_triangles : visit_spheres;
-    return clx_wide_walk(&l.shape->wide, &wide, j->t_low, t_high, visit, &l);
-}
-
-static double visit_grains(void *context, int32_t first, int32_t count, double t_high)
-{
-    journey *j = context;
-    for (int32_t i = first; i < first + count; ++i) {
-        t_high = visit_grain(j, j->scene->tree.item[i], t_high);
-    }
-    return t_high;
 }
 
 bool clx_scene_clip(const clx_scene *scene, const double origin[3], const double direction[3],
@@ -159,27 +30,27 @@ bool clx_scene_clip(const clx_scene *scene, const double origin[3], const double
     return *t_low <= *t_high;
 }
 
-static bool travel(journey *j, double t_low, double t_high)
+/// The ray's interval on the kept side of the cut; false when empty.
+static bool set_out(clx_journey *j, double t_low, double t_high)
 {
     bool is_entered = false;
-    if (!clx_scene_clip(j->scene, j->origin, j->direction, &t_low, &t_high, &is_entered)) {
-        return false;
-    }
     j->t_low = t_low;
-    if (j->scene->n_grain == 1) {
-        (void)visit_grain(j, 0, t_high);
-        return j->found;
-    }
-    const clx_wide_ray wide = clx_wide_ray_of(&j->scene->wide, j->origin, j->direction);
-    (void)clx_wide_walk(&j->scene->wide, &wide, t_low, t_high, visit_grains, j);
-    return j->found;
+    j->t_high = t_high;
+    return clx_scene_clip(j->scene, j->origin, j->direction, &j->t_low, &j->t_high, &is_entered);
 }
 
 bool clx_scene_blocked(const clx_scene *scene, const double origin[3], const double direction[3],
                        double t_low, double t_high)
 {
-    journey j = {.scene = scene, .origin = origin, .direction = direction, .any = true};
-    return travel(&j, t_low, t_high);
+    clx_journey j;
+    j.scene = scene;
+    j.origin = origin;
+    j.direction = direction;
+    j.found = false;
+    if (set_out(&j, t_low, t_high)) {
+        clx_travel_any(&j);
+    }
+    return j.found;
 }
 
 /// Normals of a triangle hit in the shape's frame; `at` is lifted to the smooth surface that the
@@ -248,7 +119,7 @@ static void turn_to_world(const clx_scene_grain *grain, double v[3])
 }
 
 /// Fills point and normals of a hit and turns them towards the viewer.
-static void describe(const journey *j, clx_scene_hit *hit)
+static void describe(const clx_journey *j, clx_scene_hit *hit)
 {
     const clx_scene_grain *grain = &j->scene->grain[hit->grain];
     double at[3];
@@ -273,8 +144,16 @@ static void describe(const journey *j, clx_scene_hit *hit)
 bool clx_scene_hit_first(const clx_scene *scene, const double origin[3], const double direction[3],
                          double t_low, double t_high, clx_scene_hit *hit)
 {
-    journey j = {.scene = scene, .origin = origin, .direction = direction, .any = false};
-    if (!travel(&j, t_low, t_high)) {
+    clx_journey j;
+    j.scene = scene;
+    j.origin = origin;
+    j.direction = direction;
+    j.found = false;
+    if (!set_out(&j, t_low, t_high)) {
+        return false;
+    }
+    clx_travel_first(&j);
+    if (!j.found) {
         return false;
     }
     *hit = j.best;

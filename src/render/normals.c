@@ -2,6 +2,7 @@
 #include "render/scene.h"
 
 #include "base/alloc.h"
+#include "base/lines.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
 
@@ -10,26 +11,12 @@ typedef struct {
     const clast_bvh *bvh;
     int64_t *first;
     int64_t *face;
-    double (*unit)[3]; ///< [n_tri] unit face normals in leaf order
+    double (*unit)[3];  ///< [n_tri] unit face normals in leaf order
+    double (*angle)[3]; ///< [n_tri] at the corners
     float (*normal)[3][3];
 } smoothing;
 
 enum { BLOCK = 1024 };
-
-static void face_normals(int64_t begin, int64_t end, int32_t worker, void *context)
-{
-    smoothing *s = context;
-    (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        double u[3];
-        double v[3];
-        double n[3];
-        v3_sub(u, s->bvh->corner[i][1], s->bvh->corner[i][0]);
-        v3_sub(v, s->bvh->corner[i][2], s->bvh->corner[i][0]);
-        v3_cross(n, u, v);
-        (void)v3_unit(s->unit[i], n);
-    }
-}
 
 static double corner_angle(double corner[3][3], int k)
 {
@@ -43,6 +30,24 @@ static double corner_angle(double corner[3][3], int k)
     return atan2(v3_norm(cross), v3_dot(u, v));
 }
 
+static void measure_faces(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    smoothing *s = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        double u[3];
+        double v[3];
+        double n[3];
+        v3_sub(u, s->bvh->corner[i][1], s->bvh->corner[i][0]);
+        v3_sub(v, s->bvh->corner[i][2], s->bvh->corner[i][0]);
+        v3_cross(n, u, v);
+        (void)v3_unit(s->unit[i], n);
+        for (int k = 0; k < 3; ++k) {
+            s->angle[i][k] = corner_angle(s->bvh->corner[i], k);
+        }
+    }
+}
+
 static void smooth_corner(const smoothing *s, int64_t i, int k)
 {
     const double crease = 0.6427876096865394; // cosine of 50 degrees
@@ -51,8 +56,7 @@ static void smooth_corner(const smoothing *s, int64_t i, int k)
     for (int64_t j = s->first[vertex]; j < s->first[vertex + 1]; ++j) {
         const int64_t other = s->face[j] / 3;
         if (v3_dot(s->unit[i], s->unit[other]) > crease) {
-            const double angle = corner_angle(s->bvh->corner[other], (int)(s->face[j] % 3));
-            v3_axpy(sum, sum, angle, s->unit[other]);
+            v3_axpy(sum, sum, s->angle[other][s->face[j] % 3], s->unit[other]);
         }
     }
     if (!v3_unit(sum, sum)) {
@@ -96,13 +100,15 @@ clast_status clx_corner_normals(const clast_bvh *bvh, float (**normal)[3][3])
 {
     clast_status status = CLAST_OK;
     smoothing s = {.bvh = bvh};
+    int64_t capacity = 0;
     const int64_t n = bvh->mesh->n_tri;
     CLX_TRY(clx_alloc(&s.first, (int64_t)bvh->mesh->n_vert + 1, sizeof *s.first));
     CLX_TRY(clx_alloc(&s.face, 3 * n, sizeof *s.face));
     CLX_TRY(clx_alloc(&s.unit, n, sizeof *s.unit));
-    CLX_TRY(clx_alloc(&s.normal, n, sizeof *s.normal));
+    CLX_TRY(clx_alloc(&s.angle, n, sizeof *s.angle));
+    CLX_TRY(clx_grow_lines(&s.normal, &capacity, n, sizeof *s.normal));
     list_faces(&s);
-    clx_parallel_for(n, BLOCK, face_normals, &s);
+    clx_parallel_for(n, BLOCK, measure_faces, &s);
     clx_parallel_for(n, BLOCK, smooth_range, &s);
     *normal = s.normal;
     s.normal = NULL;
@@ -110,6 +116,7 @@ done:
     clx_free(s.first);
     clx_free(s.face);
     clx_free(s.unit);
+    clx_free(s.angle);
     clx_free(s.normal);
     return status;
 }

@@ -186,7 +186,7 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
     clx_scene scene = {0};
     clx_legend legend = {0};
     clx_layout layout = {0};
-    clx_shader shader;
+    clx_shader shader = {0};
     clast_image made = {0};
     double metre = 0.0;
     CLX_TRY(length_unit(assembly, config->unit, &metre));
@@ -196,7 +196,7 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
     CLX_TRY(clast_image_alloc(config->width, config->height, &made));
     const clx_camera camera = clx_camera_fit(&scene, config, &layout.frame);
     set_cut(config, &scene);
-    clx_shader_set(&shader, &scene, config, &camera);
+    CLX_TRY(clx_shader_set(&shader, &scene, config, &camera));
     picture p = {.shader = &shader, .config = config, .image = &made};
     made.pixel_size = camera.pixel;
     CLX_TRY(draw(&p, monitor));
@@ -204,6 +204,7 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
     *image = made;
     made = (clast_image){0};
 done:
+    clx_shader_free(&shader);
     clast_image_free(&made);
     clx_scene_free(&scene);
     return status;

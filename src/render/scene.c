@@ -2,9 +2,13 @@
 #include "render/scene.h"
 
 #include "base/alloc.h"
+#include "base/lines.h"
+#include "base/parallel.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/shape.h>
+
+enum { BLOCK = 1024 };
 
 static clast_status build_clump(const clast_spheres *spheres, clx_scene_shape *shape)
 {
@@ -20,19 +24,42 @@ static clast_status build_clump(const clast_spheres *spheres, clx_scene_shape *s
         box[i].item = i;
     }
     CLX_TRY(clx_tree_build(box, spheres->n, 2, &shape->tree));
-    CLX_TRY(clx_wide_build(&shape->tree, &shape->wide));
+    CLX_TRY(clx_wide_build(&shape->tree, 2, &shape->wide));
     shape->spheres = spheres;
 done:
     clx_free(box);
     return status;
 }
 
+static void fill_blocks(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const clx_scene_shape *shape = context;
+    (void)worker;
+    for (int64_t b = begin; b < end; ++b) {
+        const clx_wide_leaf leaf = shape->wide.leaf[b];
+        CLAST_ASSERT(leaf.count <= CLX_WIDE_LANES);
+        shape->block[b] = (clx_scene_block){0};
+        for (int32_t i = 0; i < leaf.count; ++i) {
+            for (int c = 0; c < 3; ++c) {
+                for (int k = 0; k < 3; ++k) {
+                    shape->block[b].corner[c][k][i] =
+                        (float)(shape->block_unit * shape->bvh->corner[leaf.first + i][c][k]);
+                }
+            }
+        }
+    }
+}
+
 static clast_status build_mesh(const clast_mesh *mesh, clast_render_shading shading,
                                clx_scene_shape *shape)
 {
     clast_status status = CLAST_OK;
+    int64_t capacity = 0;
     CLX_TRY(clast_bvh_create(mesh, &shape->bvh));
-    CLX_TRY(clx_wide_build(&shape->bvh->tree, &shape->wide));
+    CLX_TRY(clx_wide_build(&shape->bvh->tree, CLX_WIDE_LANES, &shape->wide));
+    CLX_TRY(clx_grow_lines(&shape->block, &capacity, shape->wide.n_leaf, sizeof *shape->block));
+    shape->block_unit = shape->wide.reach > 0.0 ? ldexp(1.0, -ilogb(shape->wide.reach)) : 1.0;
+    clx_parallel_for(shape->wide.n_leaf, BLOCK, fill_blocks, shape);
     if (shading == CLAST_RENDER_SMOOTH) {
         CLX_TRY(clx_corner_normals(shape->bvh, &shape->normal));
     }
@@ -199,7 +226,7 @@ static clast_status build_grains(const clast_assembly *assembly, clx_scene *scen
     CLX_TRY(clx_alloc(&box, assembly->n_grain, sizeof *box));
     CLX_TRY(place_grains(assembly, scene, box));
     CLX_TRY(clx_tree_build(box, assembly->n_grain, 1, &scene->tree));
-    CLX_TRY(clx_wide_build(&scene->tree, &scene->wide));
+    CLX_TRY(clx_wide_build(&scene->tree, 1, &scene->wide));
     v3_copy(scene->low, scene->tree.node[0].low);
     v3_copy(scene->high, scene->tree.node[0].high);
     scene->radius = 0.5 * v3_distance(scene->low, scene->high);
@@ -209,6 +236,20 @@ static clast_status build_grains(const clast_assembly *assembly, clx_scene *scen
 done:
     clx_free(box);
     return status;
+}
+
+/// The lanes of each set of marks, one behind the other in the bytes from the lowest on.
+static void order_lanes(uint64_t order[1 << CLX_WIDE_LANES])
+{
+    for (uint32_t marks = 0; marks < 1U << CLX_WIDE_LANES; ++marks) {
+        int n = 0;
+        order[marks] = 0;
+        for (uint32_t lane = 0; lane < CLX_WIDE_LANES; ++lane) {
+            if ((marks >> lane & 1) != 0) {
+                order[marks] |= (uint64_t)lane << 8 * n++;
+            }
+        }
+    }
 }
 
 clast_status clx_scene_build(const clast_assembly *assembly, clast_render_shading shading,
@@ -223,6 +264,7 @@ clast_status clx_scene_build(const clast_assembly *assembly, clast_render_shadin
         CLX_TRY(build_shape(&assembly->shape[s], shading, &made.shape[s]));
     }
     CLX_TRY(build_grains(assembly, &made));
+    order_lanes(made.lane_order);
     *scene = made;
     made = (clx_scene){0};
 done:
@@ -237,6 +279,7 @@ void clx_scene_free(clx_scene *scene)
         clx_free(scene->shape[s].normal);
         clx_tree_free(&scene->shape[s].tree);
         clx_wide_free(&scene->shape[s].wide);
+        clx_free(scene->shape[s].block);
     }
     clx_free(scene->shape);
     clx_free(scene->grain);

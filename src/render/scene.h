@@ -5,6 +5,11 @@
 #include <clast/render.h>
 #include <clast/shape.h>
 
+/// Corners of a leaf's triangles in single precision, times block_unit.
+typedef struct clx_scene_block {
+    float corner[3][3][CLX_WIDE_LANES]; ///< [corner][axis][triangle]
+} clx_scene_block;
+
 /// A shape in its own frame; what is not of its kind is empty.
 typedef struct clx_scene_shape {
     clast_shape_kind kind;
@@ -15,6 +20,8 @@ typedef struct clx_scene_shape {
     const clast_spheres *spheres; ///< borrowed
     clx_tree tree;                ///< over the spheres of a clump
     clx_wide wide;                ///< over bvh->tree or tree
+    clx_scene_block *block;       ///< of a mesh, for each leaf of wide
+    double block_unit;            ///< power of two: the blocks' coordinates are below 2
 } clx_scene_shape;
 
 typedef struct clx_scene_grain {
@@ -44,6 +51,7 @@ typedef struct clx_scene {
     double radius;    ///< half its diagonal
     double low[3], high[3];
     clx_scene_cut cut;
+    uint64_t lane_order[1 << CLX_WIDE_LANES]; ///< of floats_pack
 } clx_scene;
 
 /// A point of a surface, seen along a ray.

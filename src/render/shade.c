@@ -1,57 +1,49 @@
 // One pixel: camera samples from a low-discrepancy sequence, each with one ray to the sun's disc
 // and a few to the sky.
 //
-// Samples: additive recurrences of the plastic-number family (Roberts 2018), shifted for each pixel
-// by a dither square made from the seed, so a pixel's value depends on nothing but its place.
 // Light: Lambert, plus a faint highlight; the sky is a vertical gradient sampled by the cosine law;
 // a blocked sky ray returns a share of the surface's own colour (light passed between grains).
 #include "render/shade.h"
 
 #include "math/vec3.h"
 
-/// Powers of 1 / (real root of x^5 = x + 1): the four-dimensional recurrence.
-static const double step4[4] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-                                0.5385972572236101};
-/// Powers of 1 / plastic number (x^3 = x + 1): the two-dimensional one.
-static const double step2[2] = {0.7548776662466927, 0.5698402909980532};
-
-/// One camera ray's numbers.
+/// Which sample of which pixel.
 typedef struct {
-    int32_t number;
-    double u[4];         ///< 0 and 1: place in the pixel; 2 and 3: on the sun's disc
-    double sky_shift[2]; ///< of the pixel's sky rays
-} sample_numbers;
+    int32_t x, y, number;
+} sample_place;
 
-static double fraction(double x)
+clast_status clx_shader_set(clx_shader *shader, const clx_scene *scene,
+                            const clast_render_config *config, const clx_camera *camera)
 {
-    return x - floor(x);
-}
-
-void clx_shader_set(clx_shader *shader, const clx_scene *scene, const clast_render_config *config,
-                    const clx_camera *camera)
-{
+    clx_samples *samples = &shader->samples;
     const double strength = 1.4; // of all light: a grain that faces the sun shows its own colour
     *shader = (clx_shader){.scene = scene,
                            .camera = *camera,
-                           .sun_tangent = tan(config->sun_radius),
                            .sun_light = strength * (1.0 - config->ambient),
                            .sky_light = strength * config->ambient,
                            .lift = 1e-6 * scene->radius,
                            .has_ground = config->ground,
                            .up = config->up,
                            .ground = scene->low[config->up],
-                           .samples = config->samples,
-                           .ambient_rays = config->ambient_rays};
-    clx_dither_fill(config->seed, &shader->dither);
+                           .samples = {.n = config->samples,
+                                       .n_sky = config->ambient_rays,
+                                       .sun_tangent = tan(config->sun_radius)}};
+    clx_dither_fill(config->seed, &samples->dither);
     // Sun and sky turn with the viewer, so that every side of an object is seen in the same light.
-    v3_scale(shader->sun, cos(config->sun_elevation) * cos(config->sun_azimuth), camera->back);
-    v3_axpy(shader->sun, shader->sun, cos(config->sun_elevation) * sin(config->sun_azimuth),
+    v3_scale(samples->sun, cos(config->sun_elevation) * cos(config->sun_azimuth), camera->back);
+    v3_axpy(samples->sun, samples->sun, cos(config->sun_elevation) * sin(config->sun_azimuth),
             camera->right);
-    v3_axpy(shader->sun, shader->sun, sin(config->sun_elevation), camera->up);
-    (void)v3_unit(shader->sun, shader->sun);
-    v3_frame(shader->sun, shader->sun_a, shader->sun_b);
+    v3_axpy(samples->sun, samples->sun, sin(config->sun_elevation), camera->up);
+    (void)v3_unit(samples->sun, samples->sun);
+    v3_frame(samples->sun, samples->sun_a, samples->sun_b);
     v3_axpy(shader->zenith, camera->up, 0.35, camera->back);
     (void)v3_unit(shader->zenith, shader->zenith);
+    return clx_samples_keep(samples, (int64_t)config->width * config->height);
+}
+
+void clx_shader_free(clx_shader *shader)
+{
+    clx_samples_free(&shader->samples);
 }
 
 /// Sky colour at height t of its gradient: 0 at the nadir, 1 at the zenith.
@@ -78,60 +70,46 @@ static void sky_mean(const clx_shader *shader, const double normal[3], double rg
     sky_colour(0.5 + 0.4 * v3_dot(normal, shader->zenith), rgb);
 }
 
-/// Direction to a point of the sun's disc; u, v in [0, 1).
-static void sun_direction(const clx_shader *shader, double u, double v, double direction[3])
+/// Direction of a sky ray about a unit normal.
+static void sky_direction(const double normal[3], const clx_sky_ray *ray, double direction[3])
 {
-    const double r = shader->sun_tangent * sqrt(u);
-    const double angle = 2.0 * CLAST_PI * v;
-    v3_axpy(direction, shader->sun, r * cos(angle), shader->sun_a);
-    v3_axpy(direction, direction, r * sin(angle), shader->sun_b);
-    (void)v3_unit(direction, direction);
-}
-
-/// Direction about a unit normal with density cosine / pi.
-static void cosine_direction(const double normal[3], double u, double v, double direction[3])
-{
-    CLAST_ASSERT(v3_is_unit(normal, 1e-6) && u >= 0.0 && u <= 1.0);
+    CLAST_ASSERT(v3_is_unit(normal, 1e-6));
     double a[3];
     double b[3];
-    const double r = sqrt(u);
-    const double angle = 2.0 * CLAST_PI * v;
     v3_frame(normal, a, b);
-    v3_scale(direction, sqrt(1.0 - u), normal);
-    v3_axpy(direction, direction, r * cos(angle), a);
-    v3_axpy(direction, direction, r * sin(angle), b);
+    v3_scale(direction, ray->up, normal);
+    v3_axpy(direction, direction, ray->across[0], a);
+    v3_axpy(direction, direction, ray->across[1], b);
 }
 
 /// Mean sky over the free directions, and the share of blocked ones. Only what is blocked is
 /// sampled: an open surface gets its exact mean.
-static double sky_seen(const clx_shader *shader, const sample_numbers *sample,
-                       const clx_scene_hit *hit, double rgb[3])
+static double sky_seen(const clx_shader *shader, sample_place at, const clx_scene_hit *hit,
+                       double rgb[3])
 {
+    const int32_t n_ray = shader->samples.n_sky;
     int32_t n_blocked = 0;
     sky_mean(shader, hit->normal, rgb);
-    for (int32_t i = 0; i < shader->ambient_rays; ++i) {
-        const double index = 1.0 + (double)sample->number * shader->ambient_rays + i;
+    for (int32_t i = 0; i < n_ray; ++i) {
+        const clx_sky_ray ray = clx_sky_ray_at(&shader->samples, at.x, at.y, at.number, i);
         double direction[3];
         double light[3];
-        cosine_direction(hit->normal, fraction(sample->sky_shift[0] + index * step2[0]),
-                         fraction(sample->sky_shift[1] + index * step2[1]), direction);
+        sky_direction(hit->normal, &ray, direction);
         if ((!hit->is_lifted && v3_dot(direction, hit->face) <= 0.0) ||
             clx_scene_blocked(shader->scene, hit->point, direction, shader->lift, INFINITY)) {
             ++n_blocked;
             sky_at(shader, direction, light);
-            v3_axpy(rgb, rgb, -1.0 / shader->ambient_rays, light);
+            v3_axpy(rgb, rgb, -1.0 / n_ray, light);
         }
     }
-    return (double)n_blocked / shader->ambient_rays;
+    return (double)n_blocked / n_ray;
 }
 
 /// Cosine and highlight of the sun at a surface, 0 when hidden.
-static void sun_seen(const clx_shader *shader, const double u[2], const clx_scene_hit *hit,
+static void sun_seen(const clx_shader *shader, const double direction[3], const clx_scene_hit *hit,
                      const double view[3], double *diffuse, double *glint)
 {
-    double direction[3];
     double middle[3];
-    sun_direction(shader, u[0], u[1], direction);
     const double cosine = v3_dot(direction, hit->normal);
     *diffuse = 0.0;
     *glint = 0.0;
@@ -154,7 +132,7 @@ typedef struct {
 } sighting;
 
 /// Light that a surface sends to the viewer.
-static sighting shade_surface(const clx_shader *shader, const sample_numbers *sample,
+static sighting shade_surface(const clx_shader *shader, sample_place at, const double sun[3],
                               const clx_scene_hit *hit, const double view[3], double rgba[4])
 {
     static const double sun_colour[3] = {1.06, 1.0, 0.91};
@@ -162,8 +140,8 @@ static sighting shade_surface(const clx_shader *shader, const sample_numbers *sa
     double diffuse = 0.0;
     double glint = 0.0;
     double sky_rgb[3];
-    sun_seen(shader, sample->u + 2, hit, view, &diffuse, &glint);
-    const double blocked = sky_seen(shader, sample, hit, sky_rgb);
+    sun_seen(shader, sun, hit, view, &diffuse, &glint);
+    const double blocked = sky_seen(shader, at, hit, sky_rgb);
     for (int k = 0; k < 3; ++k) {
         const double passed_on = 0.45 * albedo[k] * blocked;
         rgba[k] = albedo[k] * (shader->sun_light * diffuse * sun_colour[k] +
@@ -175,21 +153,19 @@ static sighting shade_surface(const clx_shader *shader, const sample_numbers *sa
 }
 
 /// Shadow on the ground: black, as opaque as light is missing.
-static sighting shade_ground(const clx_shader *shader, const sample_numbers *sample,
+static sighting shade_ground(const clx_shader *shader, sample_place at, const double sun[3],
                              const double point[3], double rgba[4])
 {
     const double depth = 0.75;
     clx_scene_hit hit = {.grain = -1};
-    double direction[3];
     double light[3];
     hit.face[shader->up] = 1.0;
     hit.normal[shader->up] = 1.0;
     v3_copy(hit.point, point);
-    const double blocked = sky_seen(shader, sample, &hit, light);
-    sun_direction(shader, sample->u[2], sample->u[3], direction);
-    const double cosine = fmax(0.0, direction[shader->up]);
+    const double blocked = sky_seen(shader, at, &hit, light);
+    const double cosine = fmax(0.0, sun[shader->up]);
     const bool dark =
-        cosine > 0.0 && clx_scene_blocked(shader->scene, point, direction, shader->lift, INFINITY);
+        cosine > 0.0 && clx_scene_blocked(shader->scene, point, sun, shader->lift, INFINITY);
     const double all = shader->sun_light * cosine + shader->sky_light;
     const double missing = shader->sky_light * blocked + (dark ? shader->sun_light * cosine : 0.0);
     rgba[3] = depth * missing / all;
@@ -213,9 +189,9 @@ static bool hit_section(const clx_shader *shader, const double origin[3], const 
     return true;
 }
 
-static sighting shade_sample(const clx_shader *shader, const sample_numbers *sample,
-                             const double at[2], double rgba[4])
+static sighting shade_sample(const clx_shader *shader, sample_place at, double rgba[4])
 {
+    const clx_sample sample = clx_sample_at(&shader->samples, at.x, at.y, at.number);
     double origin[3];
     double direction[3];
     double t_low = 0.0;
@@ -223,28 +199,22 @@ static sighting shade_sample(const clx_shader *shader, const sample_numbers *sam
     bool is_entered = false;
     clx_scene_hit hit;
     rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0.0;
-    clx_camera_ray(&shader->camera, at[0], at[1], origin, direction);
+    clx_camera_ray(&shader->camera, at.x + 0.5 + sample.offset[0], at.y + 0.5 + sample.offset[1],
+                   origin, direction);
     if (clx_scene_clip(shader->scene, origin, direction, &t_low, &t_high, &is_entered) &&
         ((is_entered && hit_section(shader, origin, direction, t_low, &hit)) ||
          clx_scene_hit_first(shader->scene, origin, direction, 0.0, INFINITY, &hit))) {
-        return shade_surface(shader, sample, &hit, direction, rgba);
+        return shade_surface(shader, at, sample.sun, &hit, direction, rgba);
     }
     if (shader->has_ground && direction[shader->up] < 0.0) {
         double point[3];
         const double height = origin[shader->up] - shader->ground;
         v3_axpy(point, origin, -height / direction[shader->up], direction);
         if (height > 0.0 || !shader->camera.is_perspective) {
-            return shade_ground(shader, sample, point, rgba);
+            return shade_ground(shader, at, sample.sun, point, rgba);
         }
     }
     return (sighting){-1, false, true};
-}
-
-/// Offset in [-1, 1] with the density of a tent: soft edges without a blur.
-static double tent(double u)
-{
-    CLAST_ASSERT(u >= 0.0 && u <= 1.0);
-    return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u);
 }
 
 static bool is_same(const sighting *a, const sighting *b)
@@ -254,25 +224,16 @@ static bool is_same(const sighting *a, const sighting *b)
 
 void clx_shade_pixel(const clx_shader *shader, int32_t x, int32_t y, double rgba[4])
 {
-    const int32_t enough = shader->samples > 6 ? (shader->samples + 2) / 3 : shader->samples;
-    double shift[6];
+    const int32_t most = shader->samples.n;
+    const int32_t enough = most > 6 ? (most + 2) / 3 : most;
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     sighting first = {0};
     bool is_plain = true;
     int32_t n = 0;
-    for (int k = 0; k < 6; ++k) {
-        shift[k] = clx_dither_at(&shader->dither, x, y, k);
-    }
     // A third of the samples will do where all of them see the same thing in the same light.
-    for (; n < shader->samples && !(is_plain && n >= enough); ++n) {
-        sample_numbers sample = {.number = n, .sky_shift = {shift[4], shift[5]}};
+    for (; n < most && !(is_plain && n >= enough); ++n) {
         double one[4];
-        for (int k = 0; k < 4; ++k) {
-            sample.u[k] = fraction(shift[k] + (n + 1) * step4[k]);
-        }
-        const double at[2] = {x + 0.5 + 0.75 * tent(sample.u[0]),
-                              y + 0.5 + 0.75 * tent(sample.u[1])};
-        const sighting seen = shade_sample(shader, &sample, at, one);
+        const sighting seen = shade_sample(shader, (sample_place){x, y, n}, one);
         first = n == 0 ? seen : first;
         is_plain = is_plain && seen.is_open && is_same(&seen, &first);
         for (int k = 0; k < 4; ++k) {

@@ -8,6 +8,7 @@
 #include "report/run.h"
 #include "report/value.h"
 #include <clast/assembly.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -308,7 +309,8 @@ static bool is_column(const clx_run *run, const char *key)
 }
 
 /// Numbers that one of the run's tables has anyway: history.csv those of the list "events" and of
-/// {"M1": [], "M2": []}, stress.csv those of the object "stress".
+/// {"M1": [], "M2": []}, stress.csv those of the object "stress",
+/// a quantity a row.
 static bool is_in_table(const clx_run *run, const char *key, const json_t *value)
 {
     const char *name = NULL;
@@ -322,7 +324,9 @@ static bool is_in_table(const clx_run *run, const char *key, const json_t *value
             return true;
         }
     }
-    return json_is_object(value) && clx_run_table(run, key) != NULL;
+    const clast_table *table = json_is_object(value) ? clx_run_table(run, key) : NULL;
+    return table != NULL &&
+           (clast_table_find(table, "quantity") >= 0 || clast_table_find(table, "name") >= 0);
 }
 
 static bool is_flat(const json_t *object)

@@ -40,8 +40,20 @@ class Load(Case):
             self.assertLess(abs(row["energy_rest_J"]), 1e-10 * row["energy_put_in_J"])
         for name in ("load.svg", "energy_book.svg", "state.h5", "grains.csv"):
             self.assertTrue((run / name).exists(), name)
-        stress = clast("porosity", run, "--json")
-        self.assertEqual(stress.code, 0, stress.err)
+        fine = clast("porosity", run, "--json", "--fields", "4mm", "--chains", "-o", self.folder / "fine")
+        self.assertEqual(fine.code, 0, fine.err)
+        self.assertAlmostEqual(fine.json["field_mass"] / out["mass"], 1, 12)
+        cells = rows(self.folder / "fine/fields.csv")
+        side = [cells[0][f"d{k}_m"] for k in "xyz"]
+        self.assertAlmostEqual(len(cells) * side[0] * side[1] * side[2] / (last["width_m"] * last["depth_m"] * last["height_m"]), 1, 12)
+        for axis in ("xx", "yy", "zz"):  # the cell's mean of the fields is its stress
+            mean = sum(c[f"stress_{axis}_Pa"] + c[f"kinetic_stress_{axis}_Pa"] for c in cells) / len(cells)
+            self.assertLess(abs(mean / last[f"stress_{axis}_Pa"] - 1), 1e-3)
+        self.assertEqual(len(rows(self.folder / "fine/chains.csv")), out["n_contact"])
+        self.assertGreater(fine.json["n_chain"], 0)
+        for name in ("fields.vti", "chains.vtp", "chains.svg"):
+            self.assertTrue((self.folder / "fine" / name).exists(), name)
+        self.assert_fails(2, "porosity", run, "--fields", "1m", says=("repeats after",))
 
     def test_poured_beds_have_the_book_and_their_old_bits(self):
         poured = ["pack", "--curve", "6mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",
@@ -156,7 +168,7 @@ class Load(Case):
                               says=("domain cell", "leave out", option[0].replace("--no-", "--")[2:].replace("-", "_")))
         self.assert_fails(5, *CELL, "--stages", "z=10kPa", "--max-load-time", "1ms", says=("stage 1", "not come to its end"))
         self.assert_fails(2, "pack", "--curve", "4mm", "--mass", "2g", "--width", "30mm", "--height", "0.1m", "--stages",
-                          "isotropic 10kPa", says=("domain cell alone",))
+                          "isotropic 10kPa", says=("there is neither",))
 
 
 if __name__ == "__main__":

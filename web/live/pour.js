@@ -103,7 +103,7 @@ class PourRoom extends Room {
   ended(refusal) {
     this.running = false;
     this.setReady();
-    this.say(refusal ? '' : this.result?.json.phase === 'done' ? 'the bed is still' : 'stopped');
+    this.say(refusal ? '' : this.result?.json.phase !== 'done' ? 'stopped' : this.result.json.still_moving ? 'the bed is level, its grains still move' : 'the bed is at rest');
     if (refusal) this.refuse(refusal);
   }
 
@@ -214,7 +214,7 @@ class PourRoom extends Room {
   showNumbers() {
     const { json, files } = this.result;
     const text = (name) => new TextDecoder().decode(files[name]);
-    const phases = { fill: 'filling', shake: 'shaking', damp: 'damping', done: 'still' };
+    const phases = { generate: 'filling', shake: 'shaking', damp: 'damping', done: json.still_moving ? 'level' : 'at rest' };
     this.$('figures').replaceChildren(
       figure(json.n_grain.toLocaleString('en'), json.n_grain === 1 ? 'grain' : 'grains'),
       figure(withUnit(json.time, 's'), `${phases[json.phase] ?? json.phase}, step ${json.n_step.toLocaleString('en')}`),
@@ -229,7 +229,7 @@ class PourRoom extends Room {
     }
     const series = columnsOf(text('bed/series.csv'));
     const x = { title: 'time (s)', values: series.time_s ?? [], from: 0 };
-    drawChart(this.$('height'), { title: 'Height of the bed', x, y: { title: 'height (mm)', from: 0 },
+    drawChart(this.$('level'), { title: 'Height of the bed', x, y: { title: 'height (mm)', from: 0 },
       lines: [{ name: 'highest grain', values: (series.top_m ?? []).map((z) => 1e3 * z) }, { name: 'mean of the grains', values: (series.mean_height_m ?? []).map((z) => 1e3 * z) }] });
     drawChart(this.$('energy'), { title: 'Motion', x, y: { title: 'kinetic energy (log\u2081\u2080 J)' },
       lines: [{ name: 'kinetic energy', values: (series.kinetic_energy_J ?? []).map((e) => (e > 0 ? Math.log10(e) : NaN)) }] });

@@ -4,6 +4,18 @@ const UNDO = 60; // states of the form that are kept
 /// Bundled surfaces by name.
 const GRAINS = Object.fromEntries([...document.querySelectorAll('script[data-grain]')].map((s) => [s.dataset.grain, bytesOf(s.textContent.trim())]));
 
+let webGL = null;
+
+/// Whether this browser draws in 3-D; asked once, since three.js writes to the console where it does not.
+function hasWebGL() {
+  if (webGL === null) {
+    const context = document.createElement('canvas').getContext('webgl2');
+    webGL = context !== null;
+    context?.getExtension('WEBGL_lose_context')?.loseContext();
+  }
+  return webGL;
+}
+
 class Room {
   constructor(name) {
     Object.assign(this, { name, files: {}, past: [], view: null, fixed: null, words: null, result: null });
@@ -129,7 +141,7 @@ class Room {
     if (data.n_grain === 0) return;
     if (this.view?.renderer) window.clastViews.replace(this.view, text);
     else {
-      this.view = window.clastViews?.show(this.$('view'), text, `clast ${this.name}`) ?? null;
+      this.view = hasWebGL() ? window.clastViews.show(this.$('view'), text, `clast ${this.name}`) : null;
       if (!this.view) this.noView();
       else if (this.colour) {
         this.view.by = this.colour;

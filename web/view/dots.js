@@ -96,7 +96,7 @@ function grainPixels(view) {
 export function setLevel(view, isWhole) {
   const isChains = view.chains?.visible ?? false;
   const far = view.cut.axis === 'none' && grainPixels(view) < LEAST && view.data.n_shown > 1000;
-  const isCoarse = !isWhole && !isChains && (far || (view.isSlow && view.isMoving));
+  const isCoarse = !isWhole && !isChains && (far || view.isMoving);
   if (isCoarse && !view.dots) {
     view.dotMaterial ??= makeMaterial();
     view.dots = view.meshes.map((mesh) => dotsOf(mesh, view.dotMaterial));
@@ -124,21 +124,24 @@ export function timeDrawing(view) {
   return performance.now() - began;
 }
 
-/// Are surfaces too slow to turn? Asked once, after the first picture.
+/// Many surfaces: dots are the first picture, and whether surfaces are too slow to turn is asked after it.
 export function measureSpeed(view) {
   const triangles = view.meshes.reduce((sum, mesh) => sum + mesh.count * (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3, 0);
   if (triangles < MANY) return;
-  setTimeout(() => {
+  view.isMoving = true;
+  requestAnimationFrame(() => setTimeout(() => {
     if (!view.renderer) return;
     setLevel(view, true);
-    view.isSlow = timeDrawing(view) > FRAME;
+    const first = timeDrawing(view); // with the making of the shaders
+    view.isMoving = false;
+    view.isSlow = first > FRAME && timeDrawing(view) > FRAME;
     view.draw();
-  }, REST);
+  }, REST));
 }
 
 /// The camera moves: dots until it rests, where surfaces are slow.
 export function touch(view) {
-  view.isMoving = view.isSlow ?? false;
+  view.isMoving ||= view.isSlow ?? false;
 }
 
 /// Some time after the last drawing: surfaces again, and fine ones nearby.
@@ -147,6 +150,7 @@ export function settle(view) {
   view.resting = setTimeout(() => {
     if (!view.renderer) return;
     const was = view.isMoving;
+    if (was && view.isSlow === undefined) return; // not asked yet
     view.isMoving = false;
     if (setNear(view) || was) view.drawOnce();
   }, REST);

@@ -7,6 +7,8 @@
 #include "balance.h"
 #include "cs_headers.h"
 #include "settings.h"
+#include <clast/cloud.h>
+#include <clast/machine.h>
 #include <clast/workspace.h>
 #include <errno.h>
 #include <math.h>
