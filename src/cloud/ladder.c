@@ -480,8 +480,8 @@ static clast_status order_whole(ladder_walk *w)
     CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
     for (int64_t i = 0; i < s->n; ++i) {
         if (clx_sample_number(s, i) >= 0) {
-            w->in_grid[w->n_some++] =
-                (clx_keyed){code_of(w, clx_sample_point(s, i, held)), (uint64_t)i};
+            const uint64_t own = code_of(w, clx_sample_point(s, i, held));
+            w->in_grid[w->n_some++] = (clx_keyed){own, (uint64_t)i};
         }
     }
     CLX_TRY(clx_sort_keyed(w->in_grid, w->n_some));

@@ -13,6 +13,7 @@
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name)
@@ -149,6 +150,35 @@ done:
     return status;
 }
 
+/// Vertical forces of grains on walls over time.
+static clast_status draw_walls(const char *folder, const clast_table *walls)
+{
+    static const char ending[] = "_force_z_N";
+    enum { MOST = 8, NAME = 48 };
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    char label[MOST][NAME];
+    const char *name[MOST][2];
+    int n = 0;
+    for (int32_t c = 0; c < walls->n_column && n < MOST; ++c) {
+        const char *column = walls->column[c].name;
+        const size_t length = strlen(column);
+        const size_t tail = sizeof ending - 1;
+        if (length > tail && strcmp(column + length - tail, ending) == 0) {
+            (void)snprintf(label[n], NAME, "%.*s", (int)(length - tail), column);
+            name[n][0] = column;
+            name[n][1] = label[n];
+            ++n;
+        }
+    }
+    if (n > 0) {
+        CLX_TRY(clx_pack_path(path, folder, "walls.svg"));
+        CLX_TRY(draw_lines(path, walls, "Vertical force of grains on walls", "force (N)", n, name));
+    }
+done:
+    return status;
+}
+
 /// walls.csv, and the mass inside over time where grains leave.
 static clast_status write_walls(const char *folder, const clast_pack *pack)
 {
@@ -160,6 +190,9 @@ static clast_status write_walls(const char *folder, const clast_pack *pack)
         return CLAST_OK;
     }
     CLX_TRY(write_table(folder, "walls.csv", walls));
+    if (walls->n_row > 1) {
+        CLX_TRY(draw_walls(folder, walls));
+    }
     if (walls->n_row > 1 && clast_table_numbers(walls, "mass_left_kg")[walls->n_row - 1] > 0.0) {
         CLX_TRY(clx_pack_path(path, folder, "outflow.svg"));
         CLX_TRY(draw_lines(path, walls, "Grains that leave", "mass (kg)", 2, mass));
