@@ -22,7 +22,8 @@ const LIT = `
     vec3 n = vec3(p.x, -p.y, sqrt(1.0 - r));
     vec3 light = 0.668 * max(dot(n, key), 0.0) + 0.175 * vec3(0.61, 0.76, 1.0) * max(dot(n, fill), 0.0)
       + 0.302 * mix(vec3(0.26, 0.23, 0.19), vec3(1.0), 0.5 + 0.5 * dot(n, sky)) + 0.048;
-    gl_FragColor = vec4(tone * light, 1.0);
+    float gleam = 0.03 * pow(max(dot(n, normalize(key + vec3(0.0, 0.0, 1.0))), 0.0), 6.0);
+    gl_FragColor = vec4(tone * light + gleam, 1.0);
     #include <colorspace_fragment>
   }`;
 const PLACED = `
@@ -35,7 +36,7 @@ const PLACED = `
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     tone = tint;
     gl_Position = projectionMatrix * seen;
-    gl_PointSize = clamp(diameter * pixels / -seen.z, 1.0, 64.0);
+    gl_PointSize = max(diameter * pixels / -seen.z, 1.0);
     if (dot(cut.xyz, position) + cut.w < 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
