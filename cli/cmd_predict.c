@@ -5,6 +5,7 @@
 #include "predict_words.h"
 #include "results.h"
 
+#include <clast/statistics.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>

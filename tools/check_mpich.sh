@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The tests of ranks once more with MPICH, which lies beside Open MPI on Debian (mpich, libmpich-dev): build/mpich. Skips where it is not installed.
+# Tests of ranks once more with MPICH, which lies beside Open MPI on Debian (mpich, libmpich-dev): build/mpich. Skips where it is not installed.
+# tools/check_mpich.sh [all]: some of each family, or all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if ! command -v mpicc.mpich >/dev/null || ! command -v mpiexec.mpich >/dev/null; then
@@ -11,4 +12,9 @@ cmake --preset release -B build/mpich -DCLAST_MPI=ON -DMPI_C_COMPILER=mpicc.mpic
     >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build build/mpich --target clast_cli clast_mpi_cli mpi_test_comm >"$log" 2>&1 || { cat "$log"; exit 1; }
 ldd build/mpich/clast-mpi | grep -q 'libmpich[.]so' || { echo "check_mpich: build/mpich/clast-mpi does not load MPICH"; exit 1; }
-ctest --test-dir build/mpich -L mpi --output-on-failure --no-tests=error
+if [ "${1:-}" = all ]; then exec ctest --test-dir build/mpich -L mpi --output-on-failure --no-tests=error; fi
+ctest --test-dir build/mpich -L mpi -R 'comm|cloud' --output-on-failure --no-tests=error
+export PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 CLAST=build/mpich/clast CLAST_MPI=build/mpich/clast-mpi MPIEXEC
+MPIEXEC=$(command -v mpiexec.mpich)
+python3 tests/mpi/test_pack_ranks.py Beds.test_hulls_in_a_periodic_box Beds.test_files_and_checkpoints
+python3 tests/mpi/test_faults.py Faults.test_a_rank_that_hangs Faults.test_a_launcher_of_another_mpi

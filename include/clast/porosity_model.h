@@ -1,7 +1,7 @@
 #pragma once
 #include <clast/field.h>
 #include <clast/form.h>
-#include <clast/statistics.h>
+#include <clast/status.h>
 #include <clast/table.h>
 
 CLAST_BEGIN

@@ -19,11 +19,11 @@ CLAST_API clast_status clast_shapiro_wilk(const double *x, int64_t n, double *w,
 
 /// How intervals are made: percentiles of statistics of n_resample samples drawn with replacement.
 /// [Efron1993 ch. 13]
-typedef struct clast_bootstrap {
+struct clast_bootstrap {
     int32_t n_resample; ///< 0: no intervals
     double level;       ///< 0.95: from the 2.5 % to the 97.5 % quantile
     uint64_t seed;      ///< resample b is a function of (seed, b) alone
-} clast_bootstrap;
+};
 
 CLAST_API clast_bootstrap clast_bootstrap_default(void); ///< 2000 resamples, 0.95, seed 1
 

@@ -40,6 +40,7 @@ CLAST_BEGIN
 
 // What the stages hand on to one another; the header of each name defines it.
 typedef struct clast_assembly clast_assembly;
+typedef struct clast_bootstrap clast_bootstrap;
 typedef struct clast_cloud clast_cloud;
 typedef struct clast_comm clast_comm;
 typedef struct clast_domain clast_domain;

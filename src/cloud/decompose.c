@@ -10,6 +10,7 @@
 #include "cloud/decompose_steps.h"
 #include "cloud/events.h"
 #include "cloud/pair_events.h"
+#include "cloud/part.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"

@@ -476,10 +476,12 @@ static clast_status order_whole(ladder_walk *w)
     const clx_sample *s = w->sample;
     const int32_t d = w->ladder->d;
     uint64_t *code = NULL;
+    double held[3];
     CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
     for (int64_t i = 0; i < s->n; ++i) {
-        if (s->number[i] >= 0) {
-            w->in_grid[w->n_some++] = (clx_keyed){code_of(w, s->u + i * d), (uint64_t)i};
+        if (clx_sample_number(s, i) >= 0) {
+            const uint64_t own = code_of(w, clx_sample_point(s, i, held));
+            w->in_grid[w->n_some++] = (clx_keyed){own, (uint64_t)i};
         }
     }
     CLX_TRY(clx_sort_keyed(w->in_grid, w->n_some));
@@ -488,7 +490,7 @@ static clast_status order_whole(ladder_walk *w)
     for (int64_t i = 0; i < w->n_some; ++i) {
         code[i] = w->in_grid[i].key;
         w->some[i] = (sampled){.code = code[i], .own = 1.0};
-        memcpy(w->some[i].u, s->u + (int64_t)w->in_grid[i].item * d,
+        memcpy(w->some[i].u, clx_sample_point(s, (int64_t)w->in_grid[i].item, held),
                (size_t)d * sizeof *w->some[i].u);
     }
     CLX_TRY(clx_ranked_of_sorted(&code, w->n_some, UINT64_C(1) << bits_below(w, 0), &w->point));

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/comm.h"
 #include "base/parallel.h"
+#include "cloud/part.h"
 #include "cloud/surface.h"
 #include "math/rng.h"
 #include <clast/machine.h>

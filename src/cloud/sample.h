@@ -1,9 +1,9 @@
 #pragma once
 // The points that are tested and cut into cells, in the unit cube.
-#include "cloud/part.h"
-
 #include <clast/cloud.h>
 #include <clast/decompose.h>
+
+typedef struct clx_part clx_part;
 
 /// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
 /// (thinned out for their weights). One rank keeps their images in the unit cube. Of several ranks

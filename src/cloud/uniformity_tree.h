@@ -1,6 +1,8 @@
 #pragma once
 // The uniformity tree: a box is split in all axes while a chi-square test finds its points uneven.
-#include "cloud/part.h"
+#include "base/status.h"
+
+typedef struct clx_part clx_part;
 
 /// Cells of the tree as boxes of the unit cube, along the Morton curve.
 typedef struct clx_uniformity_tree_cells {

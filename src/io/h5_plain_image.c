@@ -25,7 +25,7 @@ typedef struct {
     int64_t n, capacity;
 } buffer;
 
-static clast_status put(buffer *b, const void *bytes, int64_t n)
+static clast_status append_raw(buffer *b, const void *bytes, int64_t n)
 {
     const clast_status status = clx_grow(&b->bytes, &b->capacity, b->n + n, 1);
     if (status == CLAST_OK && n > 0) {
@@ -42,7 +42,7 @@ static clast_status put_word(buffer *b, int width, uint64_t word)
     for (int k = 0; k < width; ++k) {
         bytes[k] = (char)(word >> 8 * k & 0xff);
     }
-    return put(b, bytes, width);
+    return append_raw(b, bytes, width);
 }
 
 static uint32_t turn(uint32_t x, int k)
@@ -94,7 +94,7 @@ static clast_status put_type(buffer *b, clx_h5_type type)
     clast_status status = CLAST_OK;
     const uint64_t width = (uint64_t)clx_h5_plain_width(type);
     if (type == CLX_H5_F64) {
-        return put(b, f64, 20); // with the 0 at the text's end
+        return append_raw(b, f64, 20); // with the 0 at the text's end
     }
     CLX_TRY(put_word(b, 1, 0x10));
     CLX_TRY(put_word(b, 3, type == CLX_H5_I32 || type == CLX_H5_I64 ? 8 : 0));
@@ -107,7 +107,7 @@ done:
 
 static clast_status put_text_type(buffer *b, int64_t size)
 {
-    const clast_status status = put(b, "\x13\x10\0\0", 4); // ends in a 0, UTF-8
+    const clast_status status = append_raw(b, "\x13\x10\0\0", 4); // ends in a 0, UTF-8
     return status != CLAST_OK ? status : put_word(b, 4, (uint64_t)size);
 }
 
@@ -115,7 +115,7 @@ static clast_status put_space(buffer *b, int32_t rank, const int64_t *shape)
 {
     clast_status status = CLAST_OK;
     const char head[4] = {2, (char)rank, 0, rank > 0 ? 1 : 0};
-    CLX_TRY(put(b, head, 4));
+    CLX_TRY(append_raw(b, head, 4));
     for (int32_t d = 0; d < rank; ++d) {
         CLX_TRY(put_word(b, 8, (uint64_t)shape[d]));
     }
@@ -154,10 +154,10 @@ static clast_status put_attribute(buffer *b, const clx_h5_attribute *a)
     CLX_TRY(put_word(b, 2, (uint64_t)type));
     CLX_TRY(put_word(b, 2, 4));
     CLX_TRY(put_word(b, 1, 1));
-    CLX_TRY(put(b, a->name, name));
+    CLX_TRY(append_raw(b, a->name, name));
     CLX_TRY(a->is_text ? put_text_type(b, a->size) : put_type(b, a->type));
     CLX_TRY(put_space(b, 0, NULL));
-    CLX_TRY(put(b, a->value, a->size));
+    CLX_TRY(append_raw(b, a->value, a->size));
     end_message(b, begun);
 done:
     return status;
@@ -175,10 +175,10 @@ static clast_status put_array(buffer *b, const clx_h5_node *node, int64_t data)
     CLX_TRY(put_type(b, node->type));
     end_message(b, begun);
     CLX_TRY(begin_message(b, FILL, &begun));
-    CLX_TRY(put(b, "\x03\x05", 2));
+    CLX_TRY(append_raw(b, "\x03\x05", 2));
     end_message(b, begun);
     CLX_TRY(begin_message(b, LAYOUT, &begun));
-    CLX_TRY(put(b, "\x03\x01", 2));
+    CLX_TRY(append_raw(b, "\x03\x01", 2));
     CLX_TRY(put_word(b, 8, node->size > 0 ? (uint64_t)data : UNDEFINED));
     CLX_TRY(put_word(b, 8, (uint64_t)node->size));
     end_message(b, begun);
@@ -193,9 +193,9 @@ static clast_status put_link(buffer *b, const clx_h5_node *member)
     const char *name = strrchr(member->name, '/') + 1;
     int64_t begun = 0;
     CLX_TRY(begin_message(b, LINK, &begun));
-    CLX_TRY(put(b, "\x01\x11\x01", 3)); // UTF-8, a length of two bytes
+    CLX_TRY(append_raw(b, "\x01\x11\x01", 3)); // UTF-8, a length of two bytes
     CLX_TRY(put_word(b, 2, strlen(name)));
-    CLX_TRY(put(b, name, (int64_t)strlen(name)));
+    CLX_TRY(append_raw(b, name, (int64_t)strlen(name)));
     CLX_TRY(put_word(b, 8, (uint64_t)member->address));
     end_message(b, begun);
 done:
@@ -239,9 +239,9 @@ static clast_status put_node(buffer *b, clx_h5 *h5, int64_t number)
     clast_status status = CLAST_OK;
     clx_h5_node *node = &h5->node[number];
     const int64_t data = b->n;
-    CLX_TRY(put(b, node->data, node->size));
+    CLX_TRY(append_raw(b, node->data, node->size));
     node->address = b->n;
-    CLX_TRY(put(b, "OHDR\x02\x02\0\0\0\0", 10));
+    CLX_TRY(append_raw(b, "OHDR\x02\x02\0\0\0\0", 10));
     const int64_t begun = b->n;
     CLX_TRY(node->is_folder ? put_folder(b, h5, number) : put_array(b, node, data));
     if (node->n_attribute > 0) {
@@ -264,7 +264,7 @@ static clast_status put_superblock(buffer *b, const clx_h5 *h5)
     clast_status status = CLAST_OK;
     const int64_t end = b->n;
     b->n = 0;
-    CLX_TRY(put(b, "\x89HDF\r\n\x1a\n\x03\x08\x08\0", 12));
+    CLX_TRY(append_raw(b, "\x89HDF\r\n\x1a\n\x03\x08\x08\0", 12));
     CLX_TRY(put_word(b, 8, 0));
     CLX_TRY(put_word(b, 8, UNDEFINED));
     CLX_TRY(put_word(b, 8, (uint64_t)end));
@@ -280,7 +280,7 @@ clast_status clx_h5_plain_image(clx_h5 *h5, char **image, int64_t *n)
     clast_status status = CLAST_OK;
     static const char room[SUPERBLOCK];
     buffer b = {0};
-    CLX_TRY(put(&b, room, SUPERBLOCK));
+    CLX_TRY(append_raw(&b, room, SUPERBLOCK));
     for (int64_t i = h5->n - 1; i >= 0; --i) {
         CLX_TRY(put_node(&b, h5, i));
     }

@@ -31,7 +31,7 @@ typedef struct {
     int64_t left;
 } stretch;
 
-static const char *take(stretch *s, int64_t n)
+static const char *next_bytes(stretch *s, int64_t n)
 {
     const char *at = s->at;
     if (n < 0 || n > s->left) {
@@ -45,7 +45,7 @@ static const char *take(stretch *s, int64_t n)
 
 static uint64_t take_word(stretch *s, int width)
 {
-    const char *at = take(s, width);
+    const char *at = next_bytes(s, width);
     uint64_t word = 0;
     for (int k = 0; at != NULL && k < width; ++k) {
         word |= (uint64_t)(unsigned char)at[k] << 8 * k;
@@ -76,7 +76,7 @@ static bool take_type(stretch *s, bool *is_text, clx_h5_type *type, int64_t *siz
     if (*is_text) {
         return s->left >= 0 && *size > 0;
     }
-    (void)take(s, head == 0x11 ? 12 : 4);
+    (void)next_bytes(s, head == 0x11 ? 12 : 4);
     if (s->left < 0) {
         return false;
     }
@@ -152,7 +152,7 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
     const uint64_t version = take_word(&s, 2);
     const int64_t n_name = (int64_t)take_word(&s, 2);
     (void)take_word(&s, 5);
-    const char *name = take(&s, n_name);
+    const char *name = next_bytes(&s, n_name);
     if (version != 3) {
         return foreign(f);
     }
@@ -160,7 +160,7 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
         !take_type(&s, &is_text, &type, &size) || !take_space(&s, &space) || space.rank != 0) {
         return damaged(f);
     }
-    const char *value = take(&s, size);
+    const char *value = next_bytes(&s, size);
     if (value == NULL || (is_text && value[size - 1] != '\0')) {
         return damaged(f);
     }
@@ -182,7 +182,7 @@ static clast_status read_link(const file *f, stretch s, int64_t folder, int dept
     int64_t number = 0;
     const uint64_t head = take_word(&s, 3);
     const int64_t n = (int64_t)take_word(&s, 2);
-    const char *name = take(&s, n);
+    const char *name = next_bytes(&s, n);
     const uint64_t address = take_word(&s, 8);
     if (head != 0x011101) {
         return foreign(f);
@@ -233,7 +233,7 @@ static clast_status read_messages(const file *f, stretch all, int64_t number, in
         const uint64_t kind = take_word(&all, 1);
         const int64_t size = (int64_t)take_word(&all, 2);
         (void)take_word(&all, 1);
-        const char *at = take(&all, size);
+        const char *at = next_bytes(&all, size);
         if (at == NULL) {
             return damaged(f);
         }
@@ -255,9 +255,9 @@ static clast_status read_node(const file *f, int64_t number, uint64_t address, i
         return damaged(f);
     }
     stretch s = {f->bytes + address, f->n - (int64_t)address};
-    const char *head = take(&s, HEAD - 4);
+    const char *head = next_bytes(&s, HEAD - 4);
     const int64_t size = (int64_t)take_word(&s, 4);
-    const char *messages = take(&s, size);
+    const char *messages = next_bytes(&s, size);
     const uint64_t sum = take_word(&s, 4);
     if (head == NULL || memcmp(head, "OHDR\x02", 5) != 0) {
         return damaged(f);
@@ -281,7 +281,7 @@ clast_status clx_h5_plain_parse(const char *image, int64_t n, clx_h5 *h5)
 {
     const file f = {image, n, h5};
     stretch s = {image, n};
-    const char *head = take(&s, 12);
+    const char *head = next_bytes(&s, 12);
     const uint64_t base = take_word(&s, 8);
     (void)take_word(&s, 8);
     const uint64_t end = take_word(&s, 8);

@@ -37,12 +37,21 @@ clast_status clx_xyzd(const char *name, const char *bytes, int64_t n, clast_tabl
 clast_status clx_packing_of_table(const clast_table *table, const clast_packing_options *options,
                                   bool is_lammps, clast_assembly *assembly, bool *has_density);
 
-/// A configuration of Rockable, its library of shapes beside it.
-///
-/// @param shapes  the library's bytes; NULL: *library is set to the file it names, nothing is read
-clast_status clx_rockable(const char *name, const char *bytes, size_t n, const char *shapes,
-                          size_t n_shape, char library[4096], clast_assembly *assembly,
-                          bool *has_density);
+/// A configuration of Rockable and the library of shapes that it names.
+typedef struct {
+    const char *name;  ///< of the configuration, for messages
+    const char *bytes; ///< [n]
+    size_t n;
+    const char *shapes; ///< [n_shape] of the library
+    size_t n_shape;
+    char library[4096]; ///< its file, as the configuration names it
+} clx_rockable_files;
+
+/// Finds the library's name alone.
+clast_status clx_rockable_library(clx_rockable_files *files);
+
+/// @param has_density  whether it told densities; else they are 1
+clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly, bool *has_density);
 
 /// clast_packing_read that tells whether the file knew densities; else they are 1.
 clast_status clx_packing_read(const char *path, const clast_packing_options *options,

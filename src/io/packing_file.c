@@ -82,15 +82,16 @@ static clast_status read_rockable(const char *path, const char *bytes, int64_t n
                                   clast_assembly *assembly, bool *has_density)
 {
     clast_status status = CLAST_OK;
-    char library[4096];
+    clx_rockable_files files = {.name = path, .bytes = bytes, .n = (size_t)n};
     char place[8192];
     char *shapes = NULL;
     int64_t n_shape = 0;
-    CLX_TRY(clx_rockable(path, bytes, (size_t)n, NULL, 0, library, NULL, NULL));
-    CLX_TRY(beside(path, library, place));
+    CLX_TRY(clx_rockable_library(&files));
+    CLX_TRY(beside(path, files.library, place));
     CLX_TRY(clx_file_read_all(place, BYTE_LIMIT, &shapes, &n_shape));
-    CLX_TRY(clx_rockable(path, bytes, (size_t)n, shapes, (size_t)n_shape, library, assembly,
-                         has_density));
+    files.shapes = shapes;
+    files.n_shape = (size_t)n_shape;
+    CLX_TRY(clx_rockable(&files, assembly, has_density));
 done:
     clx_free(shapes);
     return status;

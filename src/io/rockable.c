@@ -391,37 +391,47 @@ done:
     return status;
 }
 
-clast_status clx_rockable(const char *name, const char *bytes, size_t n, const char *shapes,
-                          size_t n_shape, char library[4096], clast_assembly *assembly,
-                          bool *has_density)
+/// Goes over a configuration, whose first word the cursor is behind.
+static clast_status read_configuration(configuration *c, const char *name)
 {
     clast_status status = CLAST_OK;
     clx_word word;
     bool more = true;
-    configuration c = {.text = clx_text_begin(bytes, n, '#', false),
-                       .library = library,
-                       .assembly = shapes != NULL ? assembly : NULL};
-    if (!clx_text_word(&c.text, &word) || !clx_word_is(word, "rockable")) {
+    if (!clx_text_word(&c->text, &word) || !clx_word_is(word, "rockable")) {
         return clx_fail(CLAST_E_FORMAT, "%s:1: a configuration begins with 'Rockable DATE'", name);
     }
-    if (shapes != NULL) {
-        CLX_TRY(read_library(library, shapes, n_shape, assembly));
-    }
     while (more && status == CLAST_OK) {
-        more = clx_text_next_line(&c.text);
-        if (more && clx_text_word(&c.text, &word)) {
-            status = read_key(&c, word);
+        more = clx_text_next_line(&c->text);
+        if (more && clx_text_word(&c->text, &word)) {
+            status = read_key(c, word);
         }
     }
-    if (status == CLAST_OK && !c.has_library) {
+    if (status == CLAST_OK && !c->has_library) {
         status = clx_fail(CLAST_E_FORMAT, "no shapeFile is named");
     }
     if (status != CLAST_OK) {
-        clx_fail_prefix("%s:%" PRId64, name, c.text.line);
-    } else if (shapes != NULL) {
-        (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
-        *has_density = c.n_density > 0;
+        clx_fail_prefix("%s:%" PRId64, name, c->text.line);
     }
+    return status;
+}
+
+clast_status clx_rockable_library(clx_rockable_files *files)
+{
+    configuration c = {.text = clx_text_begin(files->bytes, files->n, '#', false),
+                       .library = files->library};
+    return read_configuration(&c, files->name);
+}
+
+clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly, bool *has_density)
+{
+    clast_status status = CLAST_OK;
+    configuration c = {.text = clx_text_begin(files->bytes, files->n, '#', false),
+                       .library = files->library,
+                       .assembly = assembly};
+    CLX_TRY(read_library(files->library, files->shapes, files->n_shape, assembly));
+    CLX_TRY(read_configuration(&c, files->name));
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
+    *has_density = c.n_density > 0;
 done:
     return status;
 }

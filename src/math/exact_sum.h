@@ -35,7 +35,7 @@ static inline void clx_exact_add(clx_exact_sum *sum, double term)
     int64_t *digit = sum->digit + place / 32;
     const uint64_t low = m << shift;                          // the lowest 64 bits of m 2^shift
     const uint64_t high = shift > 11 ? m >> (64 - shift) : 0; // at most 20 bits
-    const int64_t sign = -(int64_t)(bits >> 63); // all bits set below 0
+    const int64_t sign = -(int64_t)(bits >> 63);              // all bits set below 0
     digit[0] += ((int64_t)(low & 0xffffffffu) ^ sign) - sign;
     digit[1] += ((int64_t)(low >> 32) ^ sign) - sign;
     digit[2] += ((int64_t)high ^ sign) - sign;

@@ -162,7 +162,7 @@ static void put_cell(clx_file *file, const shown *s, int64_t row)
 }
 
 /// Columns that stand side by side without scrolling.
-enum { ACROSS = 12 };
+enum { ACROSS = 10 };
 
 /// Some of a table's columns: the first, which tells the row, and n more.
 typedef struct {

@@ -59,18 +59,19 @@ static void read_yade(const uint8_t *bytes, size_t n)
 
 static void read_rockable(const uint8_t *bytes, size_t n)
 {
-    char library[4096];
     clast_assembly a = {0};
     bool has_density = false;
-    const uint8_t *zero = n > 0 ? memchr(bytes, 0, n) : NULL;
-    const size_t n_conf = zero != NULL ? (size_t)(zero - bytes) : n;
-    const char *shapes = (const char *)bytes + (zero != NULL ? n_conf + 1 : n);
     const char *text = (const char *)bytes;
-    clast_status status = clx_rockable("fuzz", text, n_conf, NULL, 0, library, NULL, NULL);
+    const char *zero = memchr(text, 0, n);
+    const char *shapes = zero != NULL ? zero + 1 : text + n;
+    clx_rockable_files files = {.name = "fuzz",
+                                .bytes = text,
+                                .n = (size_t)((zero != NULL ? zero : text + n) - text),
+                                .shapes = shapes,
+                                .n_shape = (size_t)(text + n - shapes)};
+    clast_status status = clx_rockable_library(&files);
     if (status == CLAST_OK) {
-        status =
-            clx_rockable("fuzz", text, n_conf, shapes, (size_t)((const char *)bytes + n - shapes),
-                         library, &a, &has_density);
+        status = clx_rockable(&files, &a, &has_density);
     }
     check(status, &a);
     clast_assembly_free(&a);

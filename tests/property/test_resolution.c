@@ -34,6 +34,12 @@ typedef struct {
     double bias, needed;
 } outcome;
 
+/// Clouds in a closed surface, whose inside tests and chords are most of this test: a third.
+static int clouds_in(density_place place, int n_cloud)
+{
+    return place == PLACE_SURFACE ? n_cloud / 3 : n_cloud;
+}
+
 /// Decomposes clouds of a density and adds up what was said.
 static outcome run(clast_estimator estimator, const char *name, density_place place, int32_t d,
                    double mean_n, int n_cloud, uint64_t first)
@@ -69,8 +75,8 @@ static outcome run(clast_estimator estimator, const char *name, density_place pl
     return o;
 }
 
-/* 40 clouds of 2000 points a row. Bias: 2 % and three standard errors of 5 % / sqrt(40); excluded:
- * 5 % and three sampling errors of 3.4 %. */
+/* 40 clouds of 2000 points a row (closed surface: 13). Bias: 2 % and three standard errors of 5 % /
+ * sqrt(n); excluded: 5 % and three sampling errors. */
 static void resolved_events_are_right_and_intervals_cover(void **state)
 {
     (void)state;
@@ -86,10 +92,10 @@ static void resolved_events_are_right_and_intervals_cover(void **state)
     int n_resolved = 0;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o = run(CLAST_ESTIMATOR_CELLS, rows[k].name, rows[k].place, rows[k].d, 2000.0,
-                              40, 41000 + 1000 * k);
-        assert_true(o.n_resolved > 13);
-        CHECK_ABS(o.bias, 0.0, 0.02 + 3.0 * 0.05 / sqrt(40.0));
-        assert_true(o.n_excluded <= (0.05 + 3.0 * 0.034) * o.n);
+                              clouds_in(rows[k].place, 40), 41000 + 1000 * k);
+        assert_true(3 * o.n_resolved >= o.n);
+        CHECK_ABS(o.bias, 0.0, 0.02 + 3.0 * 0.05 / sqrt(o.n));
+        assert_true(o.n_excluded <= 0.05 * o.n + 3.0 * sqrt(0.0475 * o.n));
         n_resolved += o.n_resolved;
         n_covered += o.n_resolved - o.n_excluded;
     }
@@ -111,9 +117,9 @@ static void what_is_not_resolved_says_so_and_its_lower_bound_holds(void **state)
                 {"inertia_01", PLACE_BOX, 2, 1000},   {"uniform", PLACE_BOX, 3, 100}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o = run(CLAST_ESTIMATOR_CELLS, rows[k].name, rows[k].place, rows[k].d,
-                              rows[k].n, 30, 61000 + 1000 * k);
+                              rows[k].n, clouds_in(rows[k].place, 30), 61000 + 1000 * k);
         assert_true(o.n_resolved <= 1);
-        assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= 3);
+        assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= (o.n + 9) / 10);
         assert_true(o.needed > 1.1 * rows[k].n);
     }
 }
@@ -130,17 +136,17 @@ static void pairs_resolve_what_cells_do_not(void **state)
         int32_t d;
         double n;
         int least; ///< resolved
-    } rows[] = {{"sheet_02", PLACE_BOX, 3, 2000, 12},     {"line_02", PLACE_BOX, 3, 1000, 12},
-                {"blob_all_08", PLACE_BOX, 3, 1000, 12},  {"line_half_05", PLACE_BOX, 3, 1000, 10},
-                {"plume_08", PLACE_SURFACE, 3, 1000, 10}, {"blob_tenth_03", PLACE_BOX, 3, 3000, 8}};
+    } rows[] = {{"sheet_02", PLACE_BOX, 3, 2000, 12},    {"line_02", PLACE_BOX, 3, 1000, 12},
+                {"blob_all_08", PLACE_BOX, 3, 1000, 12}, {"line_half_05", PLACE_BOX, 3, 1000, 10},
+                {"plume_08", PLACE_SURFACE, 3, 1000, 3}, {"blob_tenth_03", PLACE_BOX, 3, 3000, 8}};
     double bias = 0.0;
     int n_resolved = 0;
     int n_excluded = 0;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o = run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d,
-                              rows[k].n, 24, 81000 + 1000 * k);
+                              rows[k].n, clouds_in(rows[k].place, 24), 81000 + 1000 * k);
         assert_true(o.n_resolved >= rows[k].least);
-        assert_true(o.n - o.n_resolved - o.n_low <= 3);
+        assert_true(o.n - o.n_resolved - o.n_low <= (o.n + 7) / 8);
         bias += o.n_resolved * o.bias;
         n_resolved += o.n_resolved;
         n_excluded += o.n_excluded;
@@ -164,9 +170,9 @@ static void pairs_do_not_resolve_what_nothing_can(void **state)
                 {"uniform", PLACE_BOX, 3, 100},       {"sheet_02", PLACE_BOX, 3, 300}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o = run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d,
-                              rows[k].n, 24, 91000 + 1000 * k);
-        assert_true(o.n_resolved <= 2);
-        assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= 3);
+                              rows[k].n, clouds_in(rows[k].place, 24), 91000 + 1000 * k);
+        assert_true(12 * o.n_resolved <= o.n);
+        assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= (o.n + 7) / 8);
     }
 }
 

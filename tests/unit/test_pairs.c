@@ -6,7 +6,9 @@
 #include "cloud/covariogram.h"
 #include "cloud/pair_edge.h"
 #include "cloud/pair_integral.h"
+#include "drifting.h"
 #include "math/rng.h"
+#include <clast/workspace.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -564,6 +566,47 @@ static void threads_do_not_change_bytes(void **state)
     clast_cloud_free(&cloud);
 }
 
+/* A count of some of the points: another number, within its interval, the same for any order. */
+static void a_count_of_pairs_takes_a_part_of_the_points(void **state)
+{
+    (void)state;
+    static const int32_t most[4] = {0, 2000, 2000, 7};
+    clast_decompose_config c;
+    clast_workspace_policy policy;
+    drifting cloud = {0};
+    double events[3];
+    double low = 0.0;
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
+    CHECK_OK(clast_fields_default(clast_workspace_fields, &policy));
+    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c,
+                             "box:0,0,0,1,1,1", false));
+    CHECK_OK(drifting_start(DRIFTING_MOVING, 3000, 31, &cloud));
+    const clast_points points = {
+        .n = cloud.n, .dimension = 3, .x = cloud.x, .stride = 3, .axis_stride = 1};
+    for (int k = 0; k < 4; ++k) {
+        const clast_decomposition *made = NULL;
+        clast_workspace *workspace = NULL;
+        policy.pairs_most = most[k];
+        CHECK_OK(clast_workspace_create(&workspace));
+        CHECK_OK(clast_workspace_set_policy(workspace, &policy));
+        CHECK_STATUS(clast_workspace_decompose(workspace, &points, &c, &made),
+                     k < 3 ? CLAST_OK : CLAST_E_CONFIG);
+        for (int32_t j = 0; j < 3 && k < 3; ++j) { // the first point last
+            const double x = cloud.x[j];
+            cloud.x[j] = cloud.x[3 * (cloud.n - 1) + j];
+            cloud.x[3 * (cloud.n - 1) + j] = x;
+            events[k] = made->events;
+            low = made->events_low;
+        }
+        clast_workspace_destroy(workspace);
+    }
+    assert_non_null(strstr(clast_error_detail(), "pairs_most = 7"));
+    assert_true(events[1] != events[0] && events[2] == events[1]);
+    CHECK_REL(events[1], events[0], log(events[1] / low));
+    drifting_free(&cloud);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
 static clast_status count_in(void *context)
 {
     const clast_domain *domain = context;
@@ -685,6 +728,7 @@ int main(void)
         cmocka_unit_test(repeated_points_have_no_bound),
         cmocka_unit_test(placed_domains_have_the_same_pairs),
         cmocka_unit_test(threads_do_not_change_bytes),
+        cmocka_unit_test(a_count_of_pairs_takes_a_part_of_the_points),
         cmocka_unit_test(allocations_are_refused),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(few_points_are_not_resolved),

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <clast/porosity_model.h>
+#include <clast/statistics.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>

@@ -720,49 +720,6 @@ static void a_count_of_pairs_is_carried_from_cut_to_cut(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
-/* A count of some of the points: another number, within both intervals, and the same for any order
- * of the points. */
-static void a_count_of_pairs_takes_a_part_of_the_points(void **state)
-{
-    (void)state;
-    clast_decompose_config c = config_of("tree");
-    drifting cloud = {0};
-    double events[3] = {0};
-    double half[3] = {0}; // of the intervals, as logarithms
-    clast_workspace_policy policy = policy_of("never", "each");
-    CHECK_OK(drifting_start(DRIFTING_MOVING, 3000, 31, &cloud));
-    for (int k = 0; k < 3; ++k) {
-        const clast_decomposition *made = NULL;
-        policy.pairs_most = k == 0 ? 0 : 2000;
-        clast_workspace *workspace = workspace_with(policy);
-        const clast_points points = {
-            .n = cloud.n, .dimension = 3, .x = cloud.x, .stride = 3, .axis_stride = 1};
-        CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
-        assert_int_equal(made->estimator, CLAST_ESTIMATOR_PAIRS);
-        assert_int_equal(made->n, 3000);
-        events[k] = made->events;
-        half[k] = log(made->events / made->events_low);
-        clast_workspace_destroy(workspace);
-        for (int64_t i = 0; i < 3 * (cloud.n / 2); ++i) { // for the next: the first comes last
-            const int64_t other = 3 * (cloud.n - 1 - i / 3) + i % 3;
-            const double x = cloud.x[i];
-            cloud.x[i] = cloud.x[other];
-            cloud.x[other] = x;
-        }
-    }
-    assert_true(events[1] != events[0] && half[1] > half[0]);
-    CHECK_REL(events[1], events[0], half[1]);
-    assert_true(events[2] == events[1]);
-    policy.pairs_most = 7;
-    clast_workspace *workspace = workspace_with(policy);
-    const clast_decomposition *made = NULL;
-    CHECK_STATUS(clast_workspace_decompose(workspace, &dense_points, &c, &made), CLAST_E_CONFIG);
-    assert_non_null(strstr(clast_error_detail(), "pairs_most = 7"));
-    clast_workspace_destroy(workspace);
-    drifting_free(&cloud);
-    clast_fields_free(clast_decompose_fields, &c);
-}
-
 /* Two calls, the second by cells that are kept. */
 static clast_status keep_once(void *context)
 {
@@ -811,7 +768,6 @@ int main(void)
         cmocka_unit_test(policies_test_and_cut_when_they_say),
         cmocka_unit_test(events_of_a_drifting_cloud_are_within_the_told_error),
         cmocka_unit_test(a_count_of_pairs_is_carried_from_cut_to_cut),
-        cmocka_unit_test(a_count_of_pairs_takes_a_part_of_the_points),
         cmocka_unit_test(kept_cells_have_the_same_bytes_for_any_threads),
         cmocka_unit_test(any_domain_is_taken),
         cmocka_unit_test(policies_that_cannot_be_are_refused),

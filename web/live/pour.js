@@ -103,7 +103,7 @@ class PourRoom extends Room {
   ended(refusal) {
     this.running = false;
     this.setReady();
-    this.say(refusal ? '' : this.result?.json.phase === 'done' ? 'the bed is still' : 'stopped');
+    this.say(refusal ? '' : this.result?.json.phase !== 'done' ? 'stopped' : this.result.json.still_moving ? 'the bed is level, its grains still move' : 'the bed is at rest');
     if (refusal) this.refuse(refusal);
   }
 
@@ -214,7 +214,7 @@ class PourRoom extends Room {
   showNumbers() {
     const { json, files } = this.result;
     const text = (name) => new TextDecoder().decode(files[name]);
-    const phases = { fill: 'filling', shake: 'shaking', damp: 'damping', done: 'still' };
+    const phases = { generate: 'filling', shake: 'shaking', damp: 'damping', done: json.still_moving ? 'level' : 'at rest' };
     this.$('figures').replaceChildren(
       figure(json.n_grain.toLocaleString('en'), json.n_grain === 1 ? 'grain' : 'grains'),
       figure(withUnit(json.time, 's'), `${phases[json.phase] ?? json.phase}, step ${json.n_step.toLocaleString('en')}`),
