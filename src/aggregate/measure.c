@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include <clast/assembly.h>
+#include <clast/settling.h>
 #include <math.h>
 #include <stdio.h>
 

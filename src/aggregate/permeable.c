@@ -4,6 +4,7 @@
 // where there is none: clusters). Its grain size is Sauter's mean of the placed grains.
 #include "aggregate/state.h"
 
+#include <clast/settling.h>
 #include <math.h>
 #include <string.h>
 

@@ -10,7 +10,6 @@
 #include "aggregate/march.h"
 #include "aggregate/trial.h"
 #include "touch/scene.h"
-#include <clast/settling.h>
 
 /// What follows a landing and the next search does not need, so that it is done beside that: the
 /// proof that nothing overlaps, the new grains' share of the envelopes, and what its row says of
@@ -135,9 +134,10 @@ clast_status clx_aggregate_measure_begin(clast_aggregate *a);
 clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row);
 clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster *cluster,
                                            double *row);
+struct clast_drag;
 /// Terminal velocity in air of a body of these widths, and the drag that it has.
 clast_status clx_aggregate_fall_speed(const double width[3], double diameter, double density,
-                                      clast_drag *drag, double *velocity);
+                                      struct clast_drag *drag, double *velocity);
 /// Terminal velocities in air of a body with the first envelope's volume and these widths.
 clast_status clx_aggregate_measure_settling(const clast_aggregate *a, const clast_assembly *grains,
                                             const double width[3], clast_aggregate_result *result);

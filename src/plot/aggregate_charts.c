@@ -3,13 +3,12 @@
 //
 // A chart of 600 points is as sharp as a page shows; all 10,000 rows of five repeats would make a
 // page of several megabytes.
-#include <clast/chart.h>
+#include "plot/aggregate_charts.h"
 
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
 #include "math/sort.h"
-#include "plot/figure.h"
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>

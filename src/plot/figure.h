@@ -40,6 +40,3 @@ double clx_figure_legend(clx_figure *figure, bool draw);
 /// Points whose middle lies outside are left out, and their bars end at the frame.
 void clx_figure_series(clx_figure *figure, const clast_series *series);
 void clx_figure_heat(clx_figure *figure);
-
-/// Title for people.
-const char *clx_aggregate_chart_title(clast_aggregate_chart chart);

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "plot/figure.h"
+#include "plot/aggregate_charts.h"
 #include "report/page.h"
 #include "report/run.h"
 #include <clast/chart.h>
