@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The three cases that nine DEM codes were compared on (Dosta and others, Comput. Phys. Commun. 296 (2024) 109066), made smaller.
+"""The three cases that nine DEM codes were compared on (Dosta and others, Computer Physics Communications 296 (2024) 109066), made smaller.
 
 Geometry, densities, friction and speeds are those of public scripts of the comparison (YADE's, examples/DEM2020Benchmark; MercuryDPM's);
 its start files and its curves were not at hand, so beds are poured here and no published curve stands beside the numbers. Grains are larger by
