@@ -16,6 +16,7 @@
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/mesh.h>
+#include <clast/shape.h>
 #include <stdlib.h>
 
 enum { MAX_POINTS = 200000, MAX_SAMPLES = 20000000, MAX_LEVEL = 5 };
