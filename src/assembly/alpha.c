@@ -15,7 +15,6 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
-#include <clast/mesh.h>
 #include <clast/shape.h>
 #include <stdlib.h>
 
