@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/field.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "shape/whole.h"
 #include <clast/table.h>
 #include <math.h>

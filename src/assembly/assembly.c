@@ -3,7 +3,7 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/vec3.h"
 #include "shape/whole.h"
 #include <clast/mesh.h>

@@ -9,7 +9,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/miniball.h"
 #include "math/vec3.h"
 #include <clast/shape.h>

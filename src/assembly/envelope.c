@@ -7,7 +7,6 @@
 #include "assembly/whole.h"
 #include "assembly/wrap.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include <math.h>
 #include <string.h>
 

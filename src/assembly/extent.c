@@ -5,7 +5,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/sym3.h"
 
 enum { MAX_STEPS = 200, N_START = 16 };

@@ -7,7 +7,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/vec3.h"
 #include <clast/shape.h>
 

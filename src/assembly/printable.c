@@ -5,7 +5,7 @@
 #include "assembly/distance_field.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/isosurface.h"
 #include "math/vec3.h"
 #include <clast/shape.h>

@@ -6,7 +6,6 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/vec3.h"
 #include <clast/shape.h>
 #include <stdlib.h>

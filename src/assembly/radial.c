@@ -8,7 +8,6 @@
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <clast/shape.h>

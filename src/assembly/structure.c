@@ -4,7 +4,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include <clast/settling.h>
 #include <clast/shape.h>
 #include <clast/table.h>

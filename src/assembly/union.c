@@ -15,7 +15,6 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "shape/shape.h"

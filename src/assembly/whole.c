@@ -1,7 +1,7 @@
 // Whether an assembly that a caller has filled himself holds together.
 #include "assembly/whole.h"
 
-#include "base/whole.h"
+#include "base/status.h"
 #include "shape/whole.h"
 #include <clast/assembly.h>
 #include <clast/shape.h>

@@ -2,7 +2,6 @@
 #include "base/status.h"
 
 #include "base/number.h"
-#include "base/whole.h"
 #include "clast_version.h"
 #include <clast/field.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
 #include <clast/table.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include <string.h>
 
 static void free_column(clast_column *column, int64_t n_row)

@@ -2,7 +2,7 @@
 #include <clast/cloud.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
 #include "math/rng.h"

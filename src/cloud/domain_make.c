@@ -2,7 +2,7 @@
 #include "cloud/surface.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "math/rng.h"
 #include <clast/mesh_repair.h>

@@ -1,7 +1,7 @@
 // Whether a decomposition, as a caller hands it back, holds together.
 #include "cloud/whole.h"
 
-#include "base/whole.h"
+#include "base/status.h"
 #include <clast/decompose.h>
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // Shapes as mechanics sees them, and the items that collide for them.
 #include "base/alloc.h"
 #include "base/lines.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "dem/dem.h"
 #include "shape/whole.h"
 #include <clast/mesh.h>

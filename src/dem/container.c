@@ -2,7 +2,7 @@
 #include "dem/container.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "dem/dem.h"
 #include "dem/pair_force.h"
 #include "geom/whole.h"

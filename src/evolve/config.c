@@ -3,7 +3,7 @@
 
 #include "aggregate/config.h"
 #include "assembly/whole.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "cloud/contract.h"
 #include <clast/agglomerate.h>
 #include <float.h>

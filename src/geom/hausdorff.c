@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>

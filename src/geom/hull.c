@@ -9,7 +9,7 @@
 #include "geom/hull.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/qhull_call.h"
 #include "geom/whole.h"
 #include "math/vec3.h"

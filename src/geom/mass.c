@@ -5,7 +5,6 @@
 #include <clast/mesh.h>
 
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 #include <clast/mesh.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "geom/repair.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/check.h"
 #include "geom/topology.h"
 #include "geom/weld.h"

@@ -6,7 +6,7 @@
 // was; their sizes differ so much that a few hundred leave 1e-11.
 #include <clast/mesh_repair.h>
 
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/collapse.h"
 #include "geom/repair.h"
 #include "geom/whole.h"

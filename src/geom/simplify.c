@@ -7,7 +7,7 @@
 #include <clast/mesh_repair.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/collapse.h"
 #include "geom/repair.h"
 #include "geom/topology.h"

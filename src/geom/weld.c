@@ -6,7 +6,7 @@
 #include "geom/weld.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/topology.h"
 #include "geom/whole.h"
 #include "math/vec3.h"

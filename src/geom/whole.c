@@ -1,6 +1,6 @@
 // Whether a mesh that a caller has filled himself holds together.
 #include "geom/whole.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include <clast/mesh.h>
 
 const char *clx_mesh_fault(const clast_mesh *mesh)

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "cloud/contract.h"
 #include "cloud/surface.h"
 #include "cloud/whole.h"

@@ -4,7 +4,7 @@
 #include "assembly/whole.h"
 #include "base/number.h"
 #include "base/path.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include <clast/field.h>
 #include <clast/mesh.h>
 #include <clast/state.h>

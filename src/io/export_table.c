@@ -4,7 +4,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <clast/field.h>

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "io/mesh_io.h"
 #include <clast/field.h>

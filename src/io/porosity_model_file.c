@@ -14,7 +14,6 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "porosity/model.h"
 #include "porosity/whole.h"
 #include <jansson.h>

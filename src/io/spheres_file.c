@@ -5,7 +5,6 @@
 #include "base/lock.h"
 #include "base/path.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "io/spheres_table.h"
 #include "shape/whole.h"
 #include <clast/state.h>

@@ -1,7 +1,7 @@
 // Surfaces that must bound a solid: one weld, one count, and the command that closes the file.
 #include "base/alloc.h"
 #include "base/path.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>

@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "io/vtk_array.h"
 #include <inttypes.h>
 #include <math.h>

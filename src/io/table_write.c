@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "io/json.h"
 #include <inttypes.h>
 #include <math.h>

@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/sample.h"
 #include "math/sort.h"
 #include "math/special.h"

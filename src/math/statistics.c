@@ -2,7 +2,7 @@
 #include <clast/statistics.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/bootstrap.h"
 #include "math/pca.h"
 #include "math/sample.h"

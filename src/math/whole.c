@@ -1,6 +1,6 @@
 // Whether statistics that a caller has filled himself hold together.
 #include "math/whole.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include <clast/statistics.h>
 
 const char *clx_statistics_fault(const clast_statistics *s)

@@ -7,7 +7,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/sort.h"
 #include <clast/table.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "plot/figure.h"
 
 static void draw_marks(clx_figure *f)

@@ -2,7 +2,7 @@
 #include <clast/chart.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "cloud/contract.h"
 #include "cloud/whole.h"
 #include "math/sort.h"

@@ -4,7 +4,6 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/least_squares.h"
 #include "porosity/whole.h"
 #include <clast/porosity_model.h>

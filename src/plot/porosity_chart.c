@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include <clast/porosity.h>
 #include <clast/table.h>
 #include <stdio.h>

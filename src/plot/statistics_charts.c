@@ -4,7 +4,6 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/sort.h"
 #include "math/whole.h"
 #include "shape/whole.h"

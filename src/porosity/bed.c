@@ -4,7 +4,6 @@
 #include "assembly/whole.h"
 #include "base/number.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "porosity/whole.h"
 #include <clast/assembly.h>
 #include <clast/field.h>

@@ -2,7 +2,6 @@
 #include <clast/porosity.h>
 
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"

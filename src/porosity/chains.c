@@ -9,7 +9,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/union_find.h"
 #include "math/sym3.h"
 #include "math/vec3.h"

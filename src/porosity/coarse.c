@@ -16,7 +16,6 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/quadrature.h"
 #include "math/vec3.h"
 #include "porosity/contact_columns.h"

@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/least_squares.h"
 #include "math/special.h"
 #include "porosity/model.h"

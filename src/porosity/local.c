@@ -8,7 +8,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/convex_cell.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"

@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/bootstrap.h"
 #include "math/sample.h"
 #include "porosity/form_inputs.h"

@@ -4,7 +4,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"

@@ -5,7 +5,6 @@
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"
 #include <clast/shape.h>

@@ -2,7 +2,7 @@
 #include <clast/porosity.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/special.h"
 #include <math.h>
 

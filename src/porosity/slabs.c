@@ -11,7 +11,7 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/quadrature.h"
 #include "math/vec3.h"
 #include "porosity/discs.h"

@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "porosity/contact_columns.h"
 #include "porosity/whole.h"
 #include <math.h>

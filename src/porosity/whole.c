@@ -1,7 +1,7 @@
 // Whether beds and models that a caller has filled himself hold together.
 #include "porosity/whole.h"
 
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include <clast/porosity.h>
 #include <clast/porosity_model.h>

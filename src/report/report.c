@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "report/figures.h"
 #include "report/frames.h"
 #include "report/page.h"

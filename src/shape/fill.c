@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/number.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "shape/shape.h"
 #include <float.h>

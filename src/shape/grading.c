@@ -7,7 +7,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "math/rng.h"
 #include "math/special.h"
 #include "shape/curve.h"

@@ -2,7 +2,7 @@
 #include "shape/grain.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/hull.h"
 #include "geom/hull_body.h"
 #include "geom/topology.h"

@@ -2,7 +2,6 @@
 #include "shape/grain.h"
 
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/smooth_hull.h"
 #include "shape/shape.h"
 #include "shape/whole.h"

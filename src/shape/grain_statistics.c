@@ -2,7 +2,6 @@
 #include <clast/statistics.h>
 
 #include "base/status.h"
-#include "base/whole.h"
 #include <clast/table.h>
 
 void clast_grain_statistics_free(clast_grain_statistics *statistics)

@@ -6,7 +6,6 @@
 #include <clast/form.h>
 
 #include "base/status.h"
-#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"

@@ -5,7 +5,7 @@
 #include "shape/shape.h"
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"

@@ -2,7 +2,7 @@
 #include <clast/shape.h>
 
 #include "base/alloc.h"
-#include "base/whole.h"
+#include "base/status.h"
 #include "shape/whole.h"
 #include <string.h>
 

@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "base/whole.h"
 #include "shape/whole.h"
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // Whether shapes and what they are made of, as a caller has filled them himself, hold together.
 #include "shape/whole.h"
 
-#include "base/whole.h"
+#include "base/status.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include <clast/form.h>

@@ -2,7 +2,6 @@
 #include <clast/statistics.h>
 
 #include "base/status.h"
-#include "base/whole.h"
 #include "math/whole.h"
 #include "shape/whole.h"
 #include <clast/chart.h>
