@@ -173,7 +173,8 @@ static clast_status draw_walls(const char *folder, const clast_table *walls)
     }
     if (n > 0) {
         CLX_TRY(clx_pack_path(path, folder, "walls.svg"));
-        CLX_TRY(draw_lines(path, walls, "Vertical force of grains on walls", "force (N)", n, name));
+        CLX_TRY(draw_lines(path, walls, "Vertical force of grains on walls", "force (N)", n,
+                           (const char *const(*)[2])name));
     }
 done:
     return status;
