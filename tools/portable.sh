@@ -19,7 +19,7 @@ mkdir -p "$sources"
 while read -r name path digest members; do
     file=$sources/$(basename "$path")
     if ! echo "$digest  $file" | sha256sum -c --status 2>/dev/null; then
-        curl -sSfL --retry 3 -o "$file.part" "$mirror/pool/$path" || { echo "portable: cannot fetch $mirror/pool/$path" >&2; exit 3; }
+        curl -sSfL --connect-timeout 20 --retry 3 -o "$file.part" "$mirror/pool/$path" || { echo "portable: cannot fetch $mirror/pool/$path" >&2; exit 3; }
         echo "$digest  $file.part" | sha256sum -c --status || { echo "portable: $path is not the file whose digest is known" >&2; exit 1; }
         mv "$file.part" "$file"
     fi

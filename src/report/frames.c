@@ -217,9 +217,10 @@ static clast_status read_frame(const clx_run *run, const entry *e, const clast_a
     }
     CLX_TRY(frame_alloc(table.n_row, &made));
     for (int64_t i = 0; i < table.n_row; ++i) {
-        const named key = {.id = (int64_t)c.grain[i]};
+        const bool is_named = list != NULL && fabs(c.grain[i]) < 0x1p63;
+        const named key = {.id = is_named ? (int64_t)c.grain[i] : 0};
         const named *found =
-            list != NULL ? bsearch(&key, list, (size_t)a->n_grain, sizeof *list, by_id) : NULL;
+            is_named ? bsearch(&key, list, (size_t)a->n_grain, sizeof *list, by_id) : NULL;
         add_grain(&c, i, shape_of(a, &names, c.shape[i]), found != NULL ? found->place : -1, &made);
     }
     *frame = made;

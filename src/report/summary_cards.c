@@ -309,8 +309,7 @@ static bool is_column(const clx_run *run, const char *key)
 }
 
 /// Numbers that one of the run's tables has anyway: history.csv those of the list "events" and of
-/// {"M1": [], "M2": []}, stress.csv those of the object "stress",
-/// a quantity a row.
+/// {"M1": [], "M2": []}; stress.csv, a quantity a row, those of the object "stress".
 static bool is_in_table(const clx_run *run, const char *key, const json_t *value)
 {
     const char *name = NULL;

@@ -88,6 +88,13 @@ class Grow(page.Live):
                 self.assertRegex(self.text("grow-error"), "^clast aggregate: ")
         self.assertEqual(self.browser.value("document.images.length"), 0)
 
+    def test_an_answer_that_the_page_cannot_show_is_told(self):
+        self.set(more="--help")
+        self.run_room(20)
+        self.assertRegex(self.text("grow-error"), "cannot show what clast answered .* in a terminal: clast aggregate .*--help")
+        self.set(more="")
+        self.grow()
+
     def test_a_scene_that_is_too_large_says_so(self):
         self.set(replicate="1000000")
         self.run_room()

@@ -1,4 +1,4 @@
-// ClastWorkers under node: workers.mjs PACKAGE CORES -> {one, many, same, aborted, first}: seconds of runs one after the other and side by side.
+// ClastWorkers under node: workers.mjs PACKAGE CORES -> {one, many, same, ...}: seconds of runs one after the other and side by side; what aborted ones say.
 import { pathToFileURL } from 'node:url';
 
 const { load, loadWorkers } = await import(pathToFileURL(`${process.argv[2]}/clast.mjs`).href);
@@ -17,7 +17,15 @@ const many = (performance.now() - begun) / 1e3;
 const stop = new AbortController();
 setTimeout(() => stop.abort(), 300);
 begun = performance.now();
-const aborted = await workers.pack({ ...bed, max_steps: 1000000, shaking_time: '5s' }, { signal: stop.signal }).then(() => 'done', (fault) => fault.name);
+const long = (signal) => workers.pack({ ...bed, max_steps: 1000000, shaking_time: '5s' }, { signal }).then(() => 'done', (fault) => fault.name);
+const aborted = await long(stop.signal);
 const took = performance.now() - begun;
+const [all, last] = [new AbortController(), new AbortController()];
+const order = [];
+const row = [...Array(workers.most).fill(all.signal), last.signal].map((signal, k) => long(signal).then((name) => { order.push(k); return name; }));
+last.abort(); // it waits for a worker yet, and ends before those that have one
+await row[workers.most];
+all.abort();
+const waiting = [order[0] === workers.most, ...new Set(await Promise.all(row)), workers.busy];
 const refused = await workers.pack({ curve: '4' }).then(() => 'done', (fault) => fault.name);
-process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, took, refused }));
+process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, took, waiting, refused }));

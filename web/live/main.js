@@ -67,7 +67,7 @@ async function begin() {
   const isGiven = openAddress(location.hash);
   const failAll = (text) => Object.values(rooms).forEach((room) => { room.say(''); room.fail(text); });
   if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') {
-    failAll('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 80, Firefox 113, Safari 16.4)');
+    failAll('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 85, Firefox 114, Safari 16.4)');
     return;
   }
   try {

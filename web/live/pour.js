@@ -96,7 +96,7 @@ class PourRoom extends Room {
     this.running = true;
     this.setReady();
     this.say('computing');
-    const refusal = await this.pour(['pack', '--resume', 'bed']);
+    const refusal = await this.told(this.pour(['pack', '--resume', 'bed']));
     this.ended(refusal);
   }
 

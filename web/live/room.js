@@ -167,8 +167,17 @@ class Room {
     this.setReady();
     this.say('computing');
     const begun = performance.now();
-    const refusal = this.tooLarge() ?? await this.compute();
+    const refusal = this.tooLarge() ?? await this.told(this.compute());
     this.ended(refusal, (performance.now() - begun) / 1000);
+  }
+
+  /// What a run comes to; of one whose answer this page cannot show (to `--help`, say) the command for a terminal.
+  async told(run) {
+    try {
+      return await run;
+    } catch (fault) {
+      return `this page cannot show what clast answered (${fault.message}); in a terminal: ${commandOf(this.words)}`;
+    }
   }
 
   ended(refusal, seconds) {

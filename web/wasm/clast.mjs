@@ -227,14 +227,29 @@ export class ClastWorkers extends Clast {
   }
 
   async run(words, how = {}) {
-    if (this.busy >= this.most) await new Promise((go) => { this.waiting.push(go); });
-    this.busy += 1;
+    how.signal?.throwIfAborted();
+    if (this.busy < this.most) this.busy += 1;
+    else await this.turn(how.signal);
     try {
       return await this.runAlone(words, how);
-    } finally {
-      this.busy -= 1;
-      this.waiting.shift()?.();
+    } finally { // the next in the row takes this one's place
+      const next = this.waiting.shift();
+      if (next) next();
+      else this.busy -= 1;
     }
+  }
+
+  /// Until a run that ends gives its place; or until the signal, which leaves the row.
+  turn(signal) {
+    return new Promise((go, fail) => {
+      this.waiting.push(go);
+      signal?.addEventListener('abort', () => {
+        const place = this.waiting.indexOf(go);
+        if (place < 0) return;
+        this.waiting.splice(place, 1);
+        fail(signal.reason);
+      }, { once: true });
+    });
   }
 
   async runAlone(words, { files = {}, onProgress, signal }) {
