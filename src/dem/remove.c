@@ -25,7 +25,7 @@ static void take_pairs(clast_dem *dem, const removal *r)
     int64_t n = 0;
     int64_t k = 0;
     int32_t n_item = 0;
-    for (int32_t i = 0; i < dem->n_item && l->n_known > 0; ++i) {
+    for (int32_t i = 0; i < l->n_known; ++i) { // the list has no room for items added since
         if (r->item[i] >= 0) {
             l->begin[n_item++] = n;
         }

@@ -189,20 +189,16 @@ done:
     return status;
 }
 
-static clast_status write_library(const clast_assembly *a, const char *path, double (*turn)[4])
+static clast_status put_library(clx_file *file, const clast_assembly *a, double (*turn)[4])
 {
     clast_status status = CLAST_OK;
-    clx_file file = {0};
-    CLX_TRY(clx_file_begin(path, &file));
     for (int32_t i = 0; i < a->n_shape; ++i) {
         const clast_shape *shape = &a->shape[i];
-        (void)clx_file_print(&file, "<\nname %s\n", shape->name);
-        CLX_TRY(shape->kind == CLAST_SHAPE_SPHERE ? put_sphere(&file, shape)
-                                                  : put_polyhedron(&file, shape, turn[i]));
+        (void)clx_file_print(file, "<\nname %s\n", shape->name);
+        CLX_TRY(shape->kind == CLAST_SHAPE_SPHERE ? put_sphere(file, shape)
+                                                  : put_polyhedron(file, shape, turn[i]));
     }
-    CLX_TRY(clx_file_commit(&file));
 done:
-    clx_file_abandon(&file);
     return status;
 }
 
@@ -255,11 +251,10 @@ done:
     return status;
 }
 
-static clast_status write_configuration(const clast_assembly *a, const char *path,
-                                        const char *library, double (*turn)[4])
+static clast_status put_configuration(clx_file *file, const clast_assembly *a, const char *library,
+                                      double (*turn)[4])
 {
     clast_status status = CLAST_OK;
-    clx_file file = {0};
     int32_t *group = NULL;
     double *density = NULL;
     int32_t n_group = 0;
@@ -267,18 +262,15 @@ static clast_status write_configuration(const clast_assembly *a, const char *pat
     CLX_TRY(clx_alloc(&group, a->n_grain, sizeof *group));
     CLX_TRY(clx_alloc(&density, a->n_grain + 1, sizeof *density));
     CLX_TRY(find_groups(a, group, density, &n_group));
-    CLX_TRY(clx_file_begin(path, &file));
-    (void)clx_file_print(&file, "Rockable 29-11-2018\nt 0\nprecision 17\nnDriven 0\nshapeFile %s\n",
+    (void)clx_file_print(file, "Rockable 29-11-2018\nt 0\nprecision 17\nnDriven 0\nshapeFile %s\n",
                          slash != NULL ? slash + 1 : library);
     for (int32_t g = 0; g < n_group; ++g) {
-        (void)clx_file_print(&file, "density %d", g);
-        clx_export_numbers(&file, &density[g], 1);
-        (void)clx_file_print(&file, "\n");
+        (void)clx_file_print(file, "density %d", g);
+        clx_export_numbers(file, &density[g], 1);
+        (void)clx_file_print(file, "\n");
     }
-    CLX_TRY(put_particles(&file, a, group, turn));
-    CLX_TRY(clx_file_commit(&file));
+    CLX_TRY(put_particles(file, a, group, turn));
 done:
-    clx_file_abandon(&file);
     clx_free(group);
     clx_free(density);
     return status;
@@ -289,6 +281,8 @@ clast_status clx_export_rockable(const clast_assembly *a, const char *path)
     clast_status status = CLAST_OK;
     char library[4096];
     double(*turn)[4] = NULL;
+    clx_file shapes = {0};
+    clx_file grains = {0};
     const char *dot = strrchr(path, '.');
     const int stem = (int)(dot != NULL ? dot - path : (ptrdiff_t)strlen(path));
     const int n = snprintf(library, sizeof library, "%.*s.shp", stem, path);
@@ -299,9 +293,15 @@ clast_status clx_export_rockable(const clast_assembly *a, const char *path)
     for (int32_t i = 0; i < a->n_shape; ++i) {
         principal_turn(&a->shape[i], turn[i]);
     }
-    CLX_TRY(write_library(a, library, turn));
-    CLX_TRY(write_configuration(a, path, library, turn));
+    CLX_TRY(clx_file_begin(library, &shapes));
+    CLX_TRY(clx_file_begin(path, &grains));
+    CLX_TRY(put_library(&shapes, a, turn));
+    CLX_TRY(put_configuration(&grains, a, library, turn));
+    CLX_TRY(clx_file_commit(&shapes)); // both are whole before either takes an old one's place
+    CLX_TRY(clx_file_commit(&grains));
 done:
+    clx_file_abandon(&shapes);
+    clx_file_abandon(&grains);
     clx_free(turn);
     return status;
 }

@@ -72,6 +72,23 @@ static double speed_of(const clast_pack_wall *wall)
            reach * (fabs(m->rate) + w * fabs(m->swing) + slope[1]);
 }
 
+/// A pressure acts on what a wall shows in the direction in which it presses.
+static clast_status check_areas(const clast_pack *p, int32_t number, const clx_wall_stage *s)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t d = 0; d < s->n; ++d) {
+        const clast_pack_wall *wall = &p->input.wall[s->drive[d].wall];
+        const bool is_asked = (s->drive[d].kind == CLX_WALL_PRESSED && !s->drive[d].is_force) ||
+                              (s->end == CLX_UNTIL_STRESS && v3_norm2(wall->press) > 0.0);
+        CLX_CHECK(!is_asked || area_of(p, wall) > 0.0, CLAST_E_CONFIG,
+                  "stage %d, '%s': wall %s shows no area in the direction in which it presses; "
+                  "turn that direction (press), or give the area (area 1cm^2)",
+                  number + 1, p->config.stages.item[number], wall->name);
+    }
+done:
+    return status;
+}
+
 static clast_status check_speeds(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
@@ -97,6 +114,7 @@ static clast_status check_speeds(const clast_pack *p)
                       "(load_rate), or stiffer contacts",
                       k + 1, c->stages.item[k], speed, limit);
         }
+        CLX_TRY(check_areas(p, k, &s));
     }
 done:
     return status;

@@ -59,6 +59,15 @@ class Starts(Case):
             self.assert_fails(2, "export", run, "-o", self.folder / f"no.{ending}", says=(says,))
         self.assert_fails(2, "export", self.bed("--shapes", "ellipsoid:2,1,1"), "-o", self.folder / "no.conf", says=("spheres and polyhedra",))
 
+    def test_old_shapes_stay_where_rockables_configuration_fails(self):
+        """The shapes' file was replaced before the configuration was whole."""
+        many, shapes = self.folder / "many.data", self.folder / "many.shp"
+        many.write_text("\n\n1100 atoms\n1 atom types\n\nAtoms # sphere\n\n"
+                        + "".join(f"{i + 1} 1 1 {1000 + i} {2 * i} 0 0\n" for i in range(1100)))
+        shapes.write_text("old")
+        self.assert_fails(3, "export", many, "-o", self.folder / "many.conf", says=("1024 densities",))
+        self.assertEqual(shapes.read_text(), "old")
+
     def test_files_as_others_write_them(self):
         """LAMMPS's and LIGGGHTS's data, YADE's clumps, Rockable's rounded cube of its documentation."""
         data = self.folder / "liggghts.data"

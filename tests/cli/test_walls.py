@@ -154,6 +154,7 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall, "--wall", wall, says=("wall 2", "has this name"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-40m/s", says=("wall 1", "faster than half"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate=1kPa", says=("stage 1", "direction"))
+        self.assert_fails(2, *bed, "--wall", wall + " press 1,0,0", "--stages", "plate=1kPa until stress", says=("stage 1", "no area"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate until time 1s", says=("stage 1", "no motion"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
         self.assert_fails(2, *bed, "--stages", "hold", says=("stages", "neither"))

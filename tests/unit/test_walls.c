@@ -231,12 +231,13 @@ static void moving_walls_miss_no_contact(void **state)
 static void those_who_stay_go_on_as_they_were(void **state)
 {
     (void)state;
-    enum { N = 30 };
+    enum { N = 30, N_LATE = 60 }; // those that no list knows yet
     uint64_t hash[2];
     for (int k = 0; k < 2; ++k) {
         clast_dem_config c = scene_physics();
         clast_dem_grain grain[N];
-        uint8_t goes[N] = {0};
+        clast_dem_grain late[N_LATE];
+        uint8_t goes[N + N_LATE] = {0};
         clast_shape sphere = {0};
         clast_dem *dem = NULL;
         int32_t id = 0;
@@ -257,9 +258,13 @@ static void those_who_stay_go_on_as_they_were(void **state)
         CHECK_OK(clast_dem_begin_energy(dem));
         CHECK_OK(clast_dem_add_grains(dem, n, grain));
         CHECK_OK(clast_dem_step(dem, 4000));
+        for (int i = 0; i < N_LATE; ++i) {
+            late[i] = at(2.0 + 0.02 * i, 0.0, 4e-3);
+        }
+        CHECK_OK(clast_dem_add_grains(dem, N_LATE, late));
         if (k == 0) {
             CHECK_OK(clast_dem_remove_grains(dem, goes));
-            assert_int_equal(clast_dem_n_grain(dem), 20);
+            assert_int_equal(clast_dem_n_grain(dem), 20 + N_LATE);
         }
         CHECK_OK(clast_dem_step(dem, 4000));
         clast_dem_energy e;
