@@ -146,7 +146,7 @@ const cli_command cli_export = {
     .name = "export",
     .arguments = "RUN",
     .summary =
-        "write a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV, or for LAMMPS, YADE, Rockable",
+        "a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV, LAMMPS, YADE, Rockable",
     .example = {"clast export run/ -o grains.vtu", "clast export run/ -o grains.3mf --level 4",
                 "clast export run/ --table history -o history.json"},
     .details =

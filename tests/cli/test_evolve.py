@@ -102,7 +102,7 @@ class Evolve(Case):
         deposit = rows(run / "deposit.csv")
         self.assertGreater(out["bed_width"], max(row["envelope_m"] for row in deposit))  # 1 um was too narrow
         self.assertGreater(max(row["grains"] for row in deposit), 1)
-        self.assertIn("Envelope's diameter, mean by mass", (run / "report.html").read_text())  # the card of the deposit
+        self.assertIn("Envelope&#39;s diameter, mean by mass", (run / "report.html").read_text())  # the card of the deposit
         start = clast("export", run / "deposit.h5", "-o", self.folder / "start.csv", "--json")
         self.assertEqual(start.code, 0, start.err)
         packed = clast("pack", "--start", run / "deposit.h5", "--domain", "periodic", "--width", f"{out['bed_width']}m",

@@ -143,7 +143,10 @@ class Export(Case):
         self.assert_fails(2, "export", STATE, "-o", out, "--table", "history", says=[".csv or .json"])
         self.assert_fails(3, "export", self.folder / "absent", "-o", out, says=["cannot read"])
         self.assert_fails(3, "export", self.folder, "-o", out, says=["state.h5"])
-        self.assert_fails(3, "export", ROOT / "LICENSE", "-o", out, says=["not an HDF5 file"])
+        self.assert_fails(3, "export", ROOT / "LICENSE", "-o", out, says=["LICENSE:3: 6 cells"])  # a table of another program's, it seems
+        text = self.folder / "text.h5"
+        text.write_bytes((ROOT / "LICENSE").read_bytes())
+        self.assert_fails(3, "export", text, "-o", out, says=["not an HDF5 file"])
         self.assert_fails(3, "export", STATE, "-o", self.folder / "t.csv", "--table", "none", says=["history"])
         self.assert_fails(4, "export", STATE, "-o", "/dev/full/a.vtu", says=["cannot write"])
         self.assert_fails(4, "export", STATE, "-o", self.folder / "absent/a.stl", says=["no folder"])
