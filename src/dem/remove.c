@@ -25,7 +25,7 @@ static void take_pairs(clast_dem *dem, const removal *r)
     int64_t n = 0;
     int64_t k = 0;
     int32_t n_item = 0;
-    for (int32_t i = 0; i < l->n_known; ++i) { // the list has no room for items added since
+    for (int32_t i = 0; i < l->n_known; ++i) { // those added since have no pairs
         if (r->item[i] >= 0) {
             l->begin[n_item++] = n;
         }
