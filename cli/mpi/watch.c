@@ -87,7 +87,8 @@ static _Noreturn void end_job(int32_t lost, int32_t n_lost, const watched *w)
                      sizeof watch.other[k].from);
     }
     clast_outputs_abandon();
-    const ssize_t written = write(STDERR_FILENO, line, (size_t)n);
+    const size_t most = sizeof line - 1; // the command is a word of the user's
+    const ssize_t written = write(STDERR_FILENO, line, n < (int)most ? (size_t)n : most);
     (void)written; // nobody is left to be told
     _exit(LOST_CODE);
 }

@@ -22,6 +22,7 @@ enum {
 typedef struct {
     const char *bytes;
     int64_t n;
+    int64_t *unread; ///< bytes that no header or array has told yet: each lies in its own place
     clx_h5 *h5;
 } file;
 
@@ -64,6 +65,14 @@ static clast_status foreign(const file *f)
                     "%s was written by HDF5 and this clast is built without HDF5: it reads states "
                     "of its own writing (CLAST_HDF5=ON; tools/setup.sh build installs it)",
                     f->h5->label);
+}
+
+/// Takes bytes that nothing else has told; false for links that lead to the same place again and
+/// again, which would take many times the file's size of memory.
+static bool is_told_once(const file *f, int64_t n)
+{
+    *f->unread -= n <= *f->unread ? n : *f->unread + 1;
+    return *f->unread >= 0;
 }
 
 /// Type of a number or text; *size are the bytes of one.
@@ -131,7 +140,7 @@ static clast_status read_layout(const file *f, stretch s, clx_h5_node *node)
     if (version != 3 || kind != 1) {
         return foreign(f);
     }
-    if (s.left < 0 || !fits(f, node, at, size)) {
+    if (s.left < 0 || !fits(f, node, at, size) || !is_told_once(f, (int64_t)size)) {
         return damaged(f);
     }
     CLX_TRY(clx_alloc(&node->data, (int64_t)size, 1));
@@ -187,8 +196,8 @@ static clast_status read_link(const file *f, stretch s, int64_t folder, int dept
     if (head != 0x011101) {
         return foreign(f);
     }
-    if (s.left < 0 || f->h5->n > f->n / HEAD || // a header each: links in a circle end here
-        n == 0 || memchr(name, '\0', (size_t)n) != NULL || memchr(name, '/', (size_t)n) != NULL ||
+    if (s.left < 0 || n == 0 || memchr(name, '\0', (size_t)n) != NULL ||
+        memchr(name, '/', (size_t)n) != NULL ||
         snprintf(path, sizeof path, "%s/%.*s", folder == 0 ? "" : above, (int)n, name) >=
             (int)sizeof path) {
         return damaged(f);
@@ -265,7 +274,8 @@ static clast_status read_node(const file *f, int64_t number, uint64_t address, i
     if (head[5] != 2) {
         return foreign(f);
     }
-    if (messages == NULL || s.left < 0 || sum != clx_h5_plain_sum(head, HEAD + size)) {
+    if (messages == NULL || s.left < 0 || !is_told_once(f, HEAD + size) ||
+        sum != clx_h5_plain_sum(head, HEAD + size)) {
         return damaged(f);
     }
     f->h5->node[number].is_folder = true; // until it tells a layout
@@ -279,7 +289,8 @@ done:
 
 clast_status clx_h5_plain_parse(const char *image, int64_t n, clx_h5 *h5)
 {
-    const file f = {image, n, h5};
+    int64_t unread = n;
+    const file f = {image, n, &unread, h5};
     stretch s = {image, n};
     const char *head = next_bytes(&s, 12);
     const uint64_t base = take_word(&s, 8);
