@@ -145,8 +145,7 @@ static clast_status run(const cli_common *common, void *context)
 const cli_command cli_export = {
     .name = "export",
     .arguments = "RUN",
-    .summary =
-        "a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV, LAMMPS, YADE, Rockable",
+    .summary = "a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV, LAMMPS, YADE, Rockable",
     .example = {"clast export run/ -o grains.vtu", "clast export run/ -o grains.3mf --level 4",
                 "clast export run/ --table history -o history.json"},
     .details =

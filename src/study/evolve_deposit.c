@@ -10,7 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double ROOM = 1.05; ///< of a body's place, by its diameter
+static const double ROOM = 1.05;  ///< of a body's place, by its diameter
+static const double SIDES = 2.25; ///< of the column, by the widest body: more than twice it with
+                                  ///< the skin of its neighbour list, which a periodic bed asks for
 
 /// Where the next body's enclosing sphere goes: row by row, layer by layer.
 typedef struct {
@@ -118,12 +120,13 @@ static double diameter_of(const clast_assembly *bed, int32_t i)
     return 2.0 * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
 }
 
-/// Puts all into the column, which is as wide as the widest body at least; its width and height.
+/// Puts all into the column, which is no narrower than a periodic bed of them; its width and
+/// height.
 static void place_all(double width, clast_assembly *bed, clast_evolve_result *result)
 {
     shelf s = {.width = width};
     for (int32_t i = 0; i < bed->n_grain; ++i) {
-        s.width = fmax(s.width, ROOM * diameter_of(bed, i));
+        s.width = fmax(s.width, SIDES * diameter_of(bed, i));
     }
     for (int32_t i = 0; i < bed->n_grain; ++i) {
         next_place(&s, diameter_of(bed, i), bed->position[i]);
