@@ -307,7 +307,7 @@ def main():
     parser.add_argument("--renew", action="store_true")
     asked = parser.parse_args()
     if not shutil.which("chromium"):
-        print("view: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
+        print("SKIPPED LOUDLY: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
         return 0
     began, axe, faults = time.monotonic(), axe_source(), []
     with tempfile.TemporaryDirectory() as name:

@@ -1,18 +1,20 @@
 // The grain under the pointer, and all of its numbers.
 import { Raycaster, Vector2 } from 'three';
 import { isCutAway } from './cut.js';
+import { isEnd, WALL } from './data.js';
 import { findGrain } from './grains.js';
 import { tag } from './legend.js';
 import { length, lengths, si, volume } from './units.js';
 
-/// Number of the grain at a place of the stage (pixels), or -1.
+/// Number of the grain at a place of the stage (pixels), or -1; also for one that the end of the run does not have, of which nothing more is known.
 export function grainAt(view, x, y) {
   const { clientWidth: w, clientHeight: h } = view.stage;
   const ray = new Raycaster();
   ray.setFromCamera(new Vector2((2 * x) / w - 1, 1 - (2 * y) / h), view.camera);
   const hits = ray.intersectObjects([...view.meshes, ...view.near ?? []].filter((m) => m?.count > 0), false);
   const first = hits.find((hit) => !isCutAway(view, hit.point));
-  return first ? first.object.userData.grain[first.instanceId] : -1;
+  const grain = first ? first.object.userData.grain[first.instanceId] : WALL;
+  return grain === WALL ? -1 : grain;
 }
 
 function degrees(radian) {
@@ -39,8 +41,9 @@ function rowsOf(view, g) {
   rows.push(['centroid x, y, z', lengths(data, [x, y, z].map((v, k) => v + data.centre[k] / data.length))]);
   rows.push(['turned by', `${degrees(2 * Math.acos(Math.min(1, Math.abs(qw))))} (quaternion ${[qw, qx, qy, qz].map((q) => q.toFixed(4)).join(', ')})`]);
   if (data.contacts) {
-    rows.push(['contacts', String(data.contacts.count[g])]);
-    if (data.contacts.force) rows.push(['greatest force', si(data.contacts.most[g], 'N')]);
+    const when = isEnd(view) ? '' : ', at the end';
+    rows.push([`contacts${when}`, String(data.contacts.count[g])]);
+    if (data.contacts.force) rows.push([`greatest force${when}`, si(data.contacts.most[g], 'N')]);
   }
   return rows;
 }
