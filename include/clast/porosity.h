@@ -323,8 +323,10 @@ CLAST_API clast_status clast_stress_profile(const clast_table *contacts, const c
 /// of them. Cells are as wide, or what divides a period; the grid holds all of the kernels, so that
 /// sums over cells are those over grains: mass, momentum, sum f l. [docs/theory/load.md]
 ///
-/// @param contacts    of clast_dem_contact_table, in the assembly's order; NULL: no stress
-/// @param velocities  a row a grain, columns velocity_x_m/s, .. y, .. z; NULL: at rest
+/// @param contacts    of clast_dem_contact_table, in the assembly's order; NULL: stress and wall
+///                    force are NaN
+/// @param velocities  a row a grain, columns velocity_x_m/s, .. y, .. z; NULL: velocity and kinetic
+///                    stress are NaN
 /// @param width       of the kernel, at most a period [m]
 /// @param table       must be empty; written only on success
 /// @return CLAST_E_LIMIT beyond 5e7 cells; CLAST_E_FORMAT for tables that are none of these

@@ -97,6 +97,8 @@ class Porosity:
     pores: Table
     stress: Table
     stress_profile: Table
+    fields: Table  #: coarse-grained; stresses of a run that knows its forces alone
+    chains: Table
     _profile: Owner = field(repr=False)
     _bulk: Any = field(repr=False)
 
@@ -115,7 +117,7 @@ class _Bed:
 
     def __init__(self, run: Path | Assembly, bed: str, columns: str, diameter: Quantity) -> None:
         self.bed, self.surface = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free")
-        self.contacts = Owner(c.clast_table(), "clast_table_free")
+        self.contacts, self.velocities = (Owner(c.clast_table(), "clast_table_free") for _ in range(2))
         has_bed = False
         if isinstance(run, Assembly):
             self.grains = run._copy()
@@ -128,6 +130,7 @@ class _Bed:
                 self.grains = Assembly.read(run)
                 has_bed = call("clast_bed_read")(state.value, ctypes.byref(self.bed), ctypes.byref(self.surface.struct)) == 0
                 call("clast_state_read_table")(state.value, b"contacts", ctypes.byref(self.contacts.struct))  # other programs have none
+                call("clast_state_read_table")(state.value, b"velocities", ctypes.byref(self.velocities.struct))
             else:
                 self.grains = Assembly.read_spheres(run, columns=columns, diameter=diameter)
         if bed:
@@ -151,13 +154,14 @@ class _Bed:
 
 def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, method: str = "exact", layer: Quantity = 0.0, cut: float = 0.5,
              trim: Quantity = 0.0, at_slice: bool = False, core: float = 0.0, gap: Quantity = 0.0, local: bool = False, rings: int = 0,
-             pores: int = 0, columns: str = "", diameter: Quantity = 0.0) -> Porosity:
+             pores: int = 0, fields: Quantity = 0.0, chains: bool = False, columns: str = "", diameter: Quantity = 0.0) -> Porosity:
     """Profile and bulk porosity of a run's folder, a state file, spheres of another program, or an assembly.
 
     `bed` is what holds the grains ("cylinder:52mm"); a run of `clast pack` knows its own.
     """
-    given = settled("porosity", dict(method=method, cut=cut, at_slice=at_slice, core=core, local=local, rings=rings, pores=pores))
+    given = settled("porosity", dict(method=method, cut=cut, at_slice=at_slice, core=core, local=local, rings=rings, pores=pores, chains=chains))
     b = _Bed(run, bed, columns, diameter)
+    given["fields"] = b.length("fields", fields)
     placed, held = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed)
     bottom = b.length("floor", floor, -1e9)
     if bed and b.bed.kind in (c.VALUES["CLAST_BED_MESH"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
@@ -212,7 +216,7 @@ def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
 def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: Any) -> dict[str, Any]:
     """What is measured when it is asked for, and the stresses of a run that knows its forces."""
     placed, held, z = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), (ctypes.c_double * 2)(bulk.z_low, bulk.z_high)
-    made = {name: Owner(c.clast_table(), "clast_table_free") for name in ("local", "radial", "stress", "stress_profile")}
+    made = {name: Owner(c.clast_table(), "clast_table_free") for name in ("local", "radial", "stress", "stress_profile", "fields", "chains")}
     to = {name: ctypes.byref(owner.struct) for name, owner in made.items()}
     pores = Owner(c.clast_pores(), "clast_pores_free")
     if given["local"]:
@@ -224,8 +228,15 @@ def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: An
         wanted = c.clast_pore_options(n_point=given["pores"], n_bin=50)
         call("clast_bed_period")(held, wanted.period)
         check(call("clast_pores_measure")(placed, held, z, ctypes.byref(wanted), ctypes.byref(pores.struct)))
+    forces = ctypes.byref(b.contacts.struct)
+    if given["fields"]:
+        moves = ctypes.byref(b.velocities.struct) if b.velocities.struct.n_column else None
+        check(call("clast_bed_fields")(held, placed, forces if b.contacts.struct.n_column else None, moves, given["fields"], to["fields"]))
+    if given["chains"]:
+        if not b.contacts.struct.n_column:
+            raise refuse("chains: force chains are of runs of clast pack, which know their contact forces; this bed knows none")
+        check(call("clast_bed_chains")(held, placed, forces, to["chains"]))
     if b.contacts.struct.n_row:
-        forces = ctypes.byref(b.contacts.struct)
         check(call("clast_stress")(forces, held, z, to["stress"]))
         check(call("clast_stress_profile")(forces, held, ctypes.byref(profile.struct), to["stress_profile"]))
     return {**{name: table_of(owner) for name, owner in made.items()}, "pores": table_of(pores, pores.struct.sizes)}

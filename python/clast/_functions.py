@@ -694,7 +694,7 @@ def evolve(
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
-        bed_width: width of the column in deposit.h5 (that of its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
+        bed_width: width of the column in deposit.h5 (2.25 times its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)
@@ -1200,6 +1200,8 @@ def porosity(
         local: bool = False,
         rings: int = 0,
         pores: int = 0,
+        fields: Quantity = 0.0,
+        chains: bool = False,
         columns: str = '',
         diameter: Quantity = 0.0,
 ) -> Porosity:
@@ -1220,6 +1222,8 @@ def porosity(
         local: porosity around each grain too, by radical Voronoi cells of equal-volume spheres (default False)
         rings: porosity over the radius of a cylinder too, in this many rings (0 to 100000; default 0)
         pores: sizes of pores too, from this many even points of the bed (0 to 1e+08; default 0)
+        fields: coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide (its standard deviation, as 3mm), in cells as wide; 0: not (default 0)
+        chains: force chains too (chains.vtp, .csv, .svg), of runs that know their forces (default False)
         columns: spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed over); none: by their names (no default)
         diameter: spheres: diameter of all, in place of the file's; 0: the file's (default 0)
     """

@@ -98,6 +98,10 @@ static clast_status read_header_line(data *d, int n, const clx_word *word, bool 
                 return fail(d, "the box is tilted; clast reads orthogonal boxes");
             }
         }
+    } else if (*is_header && n == 4 &&
+               (clx_word_is(last, "avec") || clx_word_is(last, "bvec") ||
+                clx_word_is(last, "cvec"))) {
+        return fail(d, "the box is a general triclinic one; clast reads orthogonal boxes");
     } else if (*is_header && n == 2 &&
                (clx_word_is(last, "bodies") || clx_word_is(last, "lines") ||
                 clx_word_is(last, "triangles")) &&

@@ -16,11 +16,15 @@ const char *clx_next_word(const char *text, char *word, size_t size)
     while (text[n] != '\0' && !isspace((unsigned char)text[n])) {
         ++n;
     }
-    if (n == 0 || n >= size) {
+    if (n == 0) {
         return NULL;
     }
-    memcpy(word, text, n);
-    word[n] = '\0';
+    const size_t kept = n < size ? n : size - 1;
+    memcpy(word, text, kept);
+    word[kept] = '\0';
+    if (kept < n) {
+        word[kept - 1] = '~'; // cut: no name and no word of a wall ends so
+    }
     return text + n;
 }
 

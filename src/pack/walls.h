@@ -19,7 +19,8 @@ clast_status clx_wall_read(const clast_pack_config *config, int32_t i, clx_wall_
 /// Number of a wall of the domain among the simulation's, or -1; the direction into the domain.
 int32_t clx_wall_of_domain(const clast_dem_config *config, const char *name, double inward[3]);
 
-/// The words of a text, one after the other; NULL when there is no more, or one is too long.
+/// The words of a text, one after the other; NULL when there is no more. One that is too long is
+/// cut, and ends in ~.
 const char *clx_next_word(const char *text, char *word, size_t size);
 
 typedef enum {

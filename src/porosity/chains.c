@@ -47,6 +47,12 @@ static clast_status check_contacts(const clx_contacts *c, int32_t n_grain)
         CLX_CHECK(c->a[k] >= 0.0 && c->a[k] < n_grain && c->b[k] >= -1.0 && c->b[k] < n_grain,
                   CLAST_E_FORMAT, "contact %lld is one of grains %g and %g of %d", (long long)k + 1,
                   c->a[k], c->b[k], n_grain);
+        for (int i = 0; i < 3; ++i) {
+            CLX_CHECK(isfinite(c->force[i][k]) && isfinite(c->branch[i][k]) &&
+                          isfinite(c->point[i][k]),
+                      CLAST_E_FORMAT, "contact %lld has no finite force, branch and point",
+                      (long long)k + 1);
+        }
     }
 done:
     return status;

@@ -29,6 +29,8 @@
 static const double CUT = 5.0;
 static const double HELD = 0.99999942669685624;
 
+static const double MOST_WIDTHS = 1e5; ///< of a branch
+
 enum { MOST_CELLS = 50000000, REACH = 32 };
 
 enum { DENSITY, SOLID, MOMENTUM, STRESS = 5, MOTION = 11, WALL = 17, N_FIELD = 20 };
@@ -40,6 +42,7 @@ typedef struct {
     double low[3], step[3];
     int64_t n[3];
     bool is_periodic[3];
+    bool has_forces, has_velocities; ///< else what comes from them is NAN
     double (*cell)[N_FIELD];
 } grid;
 
@@ -153,6 +156,9 @@ static clast_status spread_contacts(grid *g, const clast_assembly *a, const clx_
         }
         CLX_CHECK(v3_is_finite(branch) && v3_is_finite(force), CLAST_E_FORMAT,
                   "contact %lld has no finite force and branch", (long long)k + 1);
+        CLX_CHECK(v3_norm(branch) <= MOST_WIDTHS * g->width, CLAST_E_FORMAT,
+                  "contact %lld has a branch of %g m, above %g widths of %g m", (long long)k + 1,
+                  v3_norm(branch), MOST_WIDTHS, g->width);
         spread_branch(g, from, branch, force);
         if (c->b[k] < 0.0) {
             v3_add(end, from, branch);
@@ -289,7 +295,9 @@ static clast_status make_table(grid *g, clast_table *table)
             made.column[3 + axis].number[row] = g->step[axis];
         }
         for (int f = 0; f < N_FIELD; ++f) {
-            made.column[PLACES + f].number[row] = g->cell[row][f];
+            const bool is_force = (f >= STRESS && f < MOTION) || f >= WALL;
+            const bool is_known = f < MOMENTUM || (is_force ? g->has_forces : g->has_velocities);
+            made.column[PLACES + f].number[row] = is_known ? g->cell[row][f] : (double)NAN;
         }
     }
     *table = made;
@@ -333,6 +341,8 @@ clast_status clast_bed_fields(const clast_bed *bed, const clast_assembly *assemb
     }
     CLX_TRY(find_velocities(velocities, assembly, velocity));
     CLX_TRY(make_grid(bed, assembly, &c, width, &g));
+    g.has_forces = contacts != NULL;
+    g.has_velocities = velocities != NULL;
     spread_grains(&g, assembly, velocities != NULL ? velocity : NULL);
     CLX_TRY(spread_contacts(&g, assembly, &c));
     CLX_TRY(make_table(&g, table));
