@@ -4469,7 +4469,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
         'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
         'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
-        'bed_width': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width of the column in deposit.h5 (2.25 times its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none'),
+        'bed_width': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none'),
         'frames': ('integer', 0.0, '-', 0.0, 1000000.0, None, 'a frame for ParaView at each so many rows; 0: none'),
         'checkpoint_time': ('number', 60.0, 's', 0.0, 1000000000.0, None, 'between checkpoints, of the clock'),
         'resume': ('text', '', '-', None, None, None, 'run folder to go on with'),

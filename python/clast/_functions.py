@@ -694,7 +694,7 @@ def evolve(
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
-        bed_width: width of the column in deposit.h5 (2.25 times its widest body at least), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
+        bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)

@@ -164,9 +164,9 @@ const clast_field clast_evolve_fields[] = {
           "aggregates of most grains, each written as a state.h5 for clast pack --shapes",
           .group = "files"),
     NUMBER(bed_width, 0, 0, 1e6, "m",
-           "width of the column in deposit.h5 (2.25 times its widest body at least), where all "
-           "bodies of "
-           "the floor wait for clast pack --start, those that came first below; 0: none"),
+           "width of the column in deposit.h5 (that of its widest body at least; a periodic bed "
+           "asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, "
+           "those that came first below; 0: none"),
     COUNT(frames, 0, 0, 1e6, "a frame for ParaView at each so many rows; 0: none"),
     NUMBER(checkpoint_time, 60, 0, 1e9, "s", "between checkpoints, of the clock"),
     TEXT(resume, "", "run folder to go on with"),

@@ -10,9 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double ROOM = 1.05;  ///< of a body's place, by its diameter
-static const double SIDES = 2.25; ///< of the column, by the widest body: more than twice it with
-                                  ///< the skin of its neighbour list, which a periodic bed asks for
+static const double ROOM = 1.05; ///< of a body's place, by its diameter
 
 /// Where the next body's enclosing sphere goes: row by row, layer by layer.
 typedef struct {
@@ -126,7 +124,7 @@ static void place_all(double width, clast_assembly *bed, clast_evolve_result *re
 {
     shelf s = {.width = width};
     for (int32_t i = 0; i < bed->n_grain; ++i) {
-        s.width = fmax(s.width, SIDES * diameter_of(bed, i));
+        s.width = fmax(s.width, ROOM * diameter_of(bed, i));
     }
     for (int32_t i = 0; i < bed->n_grain; ++i) {
         next_place(&s, diameter_of(bed, i), bed->position[i]);

@@ -105,7 +105,7 @@ class Evolve(Case):
         self.assertIn("Envelope&#39;s diameter, mean by mass", (run / "report.html").read_text())  # the card of the deposit
         start = clast("export", run / "deposit.h5", "-o", self.folder / "start.csv", "--json")
         self.assertEqual(start.code, 0, start.err)
-        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "periodic", "--width", f"{out['bed_width']}m",
+        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "box", "--width", f"{out['bed_width']}m",
                        "--height", f"{out['bed_height']}m",
                        "--collision-time", "20us", "--time-step", "0.5us", "--fluid-density", 0, "--shaking-time", 0, "--max-steps", 2000,
                        "--quiet", "-o", bed, "--json")
