@@ -12,7 +12,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, ROOM = 12000000, GRAIN_ROOM = 14 };
+enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, ROOM = 12000000 };
+
+/// Bytes a grain takes on the page; with its own number, shape and scale, which the end does not
+/// tell.
+enum { GRAIN_ROOM = 14, STRANGER_ROOM = 30 };
 static const int64_t PVD_LIMIT = (int64_t)256 << 20;
 
 typedef struct {
@@ -232,10 +236,20 @@ done:
     return status;
 }
 
-/// How many frames a page has room for.
-static int64_t most_frames(const clast_assembly *a)
+/// Whether a grain has one number in all frames and at the end: not where grains leave and others
+/// move up, and not where bodies join.
+static bool keeps_numbers(const clx_run *run)
 {
-    const int64_t n = ROOM / (GRAIN_ROOM * ((int64_t)a->n_grain + 1));
+    const char *command = json_string_value(json_object_get(run->manifest, "command"));
+    return (command == NULL || strcmp(command, "evolve") != 0) &&
+           !(json_number_value(json_object_get(run->summary, "n_left")) > 0.0);
+}
+
+/// How many frames a page has room for.
+static int64_t most_frames(const clast_assembly *a, bool has_numbers)
+{
+    const int64_t room = has_numbers ? GRAIN_ROOM : STRANGER_ROOM;
+    const int64_t n = ROOM / (room * ((int64_t)a->n_grain + 1));
     return n < 2 ? 2 : n > MOST_FRAMES ? MOST_FRAMES : n;
 }
 
@@ -245,9 +259,12 @@ static clast_status read_frames(const clx_run *run, const clast_assembly *a, con
     clast_status status = CLAST_OK;
     named *names = NULL;
     bool has_poses = true;
-    const int64_t most = most_frames(a);
+    const bool has_numbers = keeps_numbers(run);
+    const int64_t most = most_frames(a, has_numbers);
     const int64_t n = n_file < most ? n_file : most;
-    CLX_TRY(names_of(a, &names));
+    if (has_numbers) {
+        CLX_TRY(names_of(a, &names));
+    }
     CLX_TRY(clx_alloc(&frames->frame, n, sizeof *frames->frame));
     for (int64_t k = 0; k < n && has_poses; ++k) {
         const int64_t index = n == 1 ? 0 : (k * (n_file - 1) + (n - 1) / 2) / (n - 1);

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """clast evolve: a cloud from the fluid to the floor, its files, stopped and resumed, any threads, bad input."""
+import base64
 import csv
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import time
@@ -123,6 +125,9 @@ class Evolve(Case):
         self.assertEqual(done.json["n_start"], 10)
         self.assertEqual(done.json["n_frame"], 3)
         self.assertEqual((run / "frames.pvd").read_text().count("<DataSet"), 3)
+        views = [json.loads(text) for text in re.findall(r'class="view-data">(.*?)</script>', (run / "report.html").read_text(), re.S)]
+        for frame in (frame for view in views if view.get("frames") for frame in view["frames"]["frame"]):
+            self.assertEqual(set(base64.b64decode(frame["grain"])), {255})  # rows of a frame are no bodies of the end
         for frame in (run / "frames").iterdir():
             for name in ("node", "on_floor", "grains", "envelope_m", "porosity", "speed_m/s", "mass_kg"):
                 self.assertIn(f'Name="{name}"', frame.read_text())
