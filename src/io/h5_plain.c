@@ -7,6 +7,7 @@
 #include "io/h5_trailer.h"
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { ATTRIBUTE_LIMIT = 65000 }; // bytes that fit a header's message
@@ -403,28 +404,30 @@ done:
     return status;
 }
 
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
 clast_status clx_h5_member(clx_h5 *h5, const char *folder, int64_t index,
                            char name[CLX_H5_NAME_LIMIT])
 {
     CLAST_ASSERT(index >= 0);
     clast_status status = CLAST_OK;
-    const char *last = "";
+    const char **member = NULL;
+    int64_t n = 0;
     int64_t at = 0;
     CLX_TRY(take_folder(h5, folder, &at));
-    for (int64_t k = 0; k <= index; ++k) {
-        const char *next = NULL;
-        for (int64_t i = 1; i < h5->n; ++i) {
-            const char *one = h5->node[i].name;
-            if (h5->node[i].parent == at && strcmp(one, last) > 0 &&
-                (next == NULL || strcmp(one, next) < 0)) {
-                next = one;
-            }
+    CLX_TRY(clx_alloc(&member, h5->n, sizeof *member));
+    for (int64_t i = 1; i < h5->n; ++i) {
+        if (h5->node[i].parent == at) {
+            member[n++] = h5->node[i].name;
         }
-        CLX_CHECK(next != NULL, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label, folder,
-                  index);
-        last = next;
     }
-    (void)snprintf(name, CLX_H5_NAME_LIMIT, "%s", strrchr(last, '/') + 1);
+    CLX_CHECK(index < n, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label, folder, index);
+    qsort(member, (size_t)n, sizeof *member, by_name);
+    (void)snprintf(name, CLX_H5_NAME_LIMIT, "%s", strrchr(member[index], '/') + 1);
 done:
+    clx_free(member);
     return status;
 }

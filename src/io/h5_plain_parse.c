@@ -122,7 +122,7 @@ static bool fits(const file *f, const clx_h5_node *node, uint64_t at, uint64_t s
     uint64_t bytes = (uint64_t)clx_h5_plain_width(node->type);
     for (int32_t d = 0; d < node->rank; ++d) {
         const uint64_t one = (uint64_t)node->shape[d];
-        if (one > 0 && bytes > n / one) {
+        if (one > n || (one > 0 && bytes > n / one)) {
             return false;
         }
         bytes *= one;
