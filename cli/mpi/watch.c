@@ -213,17 +213,30 @@ static bool read_limit(double *limit)
 }
 
 /// A thread that no signal reaches: they are the main thread's.
-static void begin_thread(void)
+static bool begin_thread(void)
 {
     sigset_t all;
     sigset_t before;
     pthread_t thread;
     (void)sigfillset(&all);
     (void)pthread_sigmask(SIG_SETMASK, &all, &before);
-    if (pthread_create(&thread, NULL, keep_watch, NULL) == 0) {
+    const bool is_begun = pthread_create(&thread, NULL, keep_watch, NULL) == 0;
+    if (is_begun) {
         (void)pthread_detach(thread);
     }
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return is_begun;
+}
+
+/// For those who asked for a watch: without a socket or a thread there is none.
+static void tell_unwatched(int32_t rank)
+{
+    if (getenv("CLAST_RANK_TIMEOUT") != NULL) { // NOLINT(concurrency-mt-unsafe)
+        (void)fprintf(stderr,
+                      "clast-mpi: rank %d has no socket or thread for the watch of "
+                      "CLAST_RANK_TIMEOUT: should it hang, the job waits\n",
+                      rank);
+    }
 }
 
 bool cli_watch_begin(const char *command, const clast_comm *comm)
@@ -236,7 +249,11 @@ bool cli_watch_begin(const char *command, const clast_comm *comm)
     (void)gethostname(watch.own.host, HOST - 1);
     if (comm->rank == 0) {
         is_fine = read_limit(&m->limit);
-        m->limit = !is_fine ? -1.0 : open_first(m) ? m->limit : 0.0;
+        m->limit = is_fine ? m->limit : -1.0;
+        if (m->limit > 0.0 && comm->n_rank > 1 && !open_first(m)) {
+            tell_unwatched(0);
+            m->limit = 0.0;
+        }
     }
     comm->broadcast(comm->context, 0, m, (int64_t)sizeof *m);
     if (m->limit < 0.0) {
@@ -250,9 +267,9 @@ bool cli_watch_begin(const char *command, const clast_comm *comm)
     watch.own.rank = comm->rank;
     watch.own.process = (int32_t)getpid();
     watch.other = calloc(comm->rank == 0 ? (size_t)comm->n_rank : 1, sizeof *watch.other);
-    if (m->limit > 0.0 && comm->n_rank > 1 && watch.other != NULL &&
-        (comm->rank == 0 || open_other(m))) {
-        begin_thread();
+    if (m->limit > 0.0 && comm->n_rank > 1 &&
+        !(watch.other != NULL && (comm->rank == 0 || open_other(m)) && begin_thread())) {
+        tell_unwatched(comm->rank);
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #include "evolve/state.h"
 
 #include "base/alloc.h"
+#include "math/vec3.h"
 #include <math.h>
 #include <string.h>
 
@@ -269,6 +270,9 @@ static clast_status load_bodies(const clast_table *table, clast_evolve *e)
         body *b = &e->body[i];
         CLX_CHECK(b->mass > 0.0 && b->volume > 0.0 && isfinite(b->mass + b->volume + b->reach),
                   CLAST_E_FORMAT, "the saved body %d has no mass or volume", i + 1);
+        CLX_CHECK(v3_is_finite(b->x) && isfinite(b->time) && b->reach >= 0.0 &&
+                      v3_is_finite(b->second) && v3_is_finite(b->second + 3),
+                  CLAST_E_FORMAT, "the saved body %d has no place, time or extent", i + 1);
         clx_evolve_update(e, b);
     }
     CLX_TRY(check_lists(e));
