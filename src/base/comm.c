@@ -82,6 +82,15 @@ const clast_comm *clx_comm_or_one(const clast_comm *comm)
     return comm != NULL ? comm : clast_comm_one();
 }
 
+/// Whether a text names its rank already: what failed is agreed on again further out.
+static bool names_rank(const char *text)
+{
+    static const char word[] = "rank ";
+    const size_t n = sizeof word - 1;
+    const size_t n_digit = strncmp(text, word, n) == 0 ? strspn(text + n, "0123456789") : 0;
+    return n_digit > 0 && text[n + n_digit] == ':';
+}
+
 clast_status clast_comm_agree(const clast_comm *comm, clast_status status, const char *text)
 {
     struct {
@@ -109,7 +118,8 @@ clast_status clast_comm_agree(const clast_comm *comm, clast_status status, const
     comm->broadcast(comm->context, who, &word, (int64_t)sizeof word);
     // what fails on the first rank fails on all alike, but for files: each has its own disk
     const bool is_file = word.status == CLAST_E_IO || word.status == CLAST_E_DISK;
-    if ((who == 0 && !is_file) || word.text[0] == '\0' || word.status == CLAST_E_STOPPED) {
+    if ((who == 0 && !is_file) || word.text[0] == '\0' || word.status == CLAST_E_STOPPED ||
+        names_rank(word.text)) {
         return clx_fail((clast_status)word.status, "%s", word.text);
     }
     return clx_fail((clast_status)word.status, "rank %d: %s", (int)who, word.text);

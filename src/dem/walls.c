@@ -331,6 +331,17 @@ static double reach_of(const clx_wall_mesh *mesh, const double pivot[3])
     return most;
 }
 
+static bool is_finite_motion(const clast_dem_wall_motion *m)
+{
+    bool is_finite = v3_is_finite(m->velocity) && v3_is_finite(m->amplitude) &&
+                     v3_is_finite(m->pivot) && isfinite(m->period) && isfinite(m->rate) &&
+                     isfinite(m->swing);
+    for (int32_t i = 0; i < m->n && is_finite; ++i) {
+        is_finite = isfinite(m->time[i]) && v3_is_finite(m->place[i]) && isfinite(m->place[i][3]);
+    }
+    return is_finite;
+}
+
 clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
                                        const clast_dem_wall_motion *motion)
 {
@@ -347,6 +358,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     CLX_CHECK(w->clock == 0, CLAST_E_USAGE, "wall %d moves already", wall);
     CLX_CHECK(v3_norm2(motion->axis) == 0.0 || v3_is_unit(motion->axis, 1e-9), CLAST_E_USAGE,
               "the axis of wall %d has not length 1", wall);
+    CLX_CHECK(is_finite_motion(motion), CLAST_E_USAGE, "the motion of wall %d is not finite", wall);
     for (int32_t i = 1; i < motion->n; ++i) {
         CLX_CHECK(motion->time[i] > motion->time[i - 1], CLAST_E_USAGE,
                   "times of wall %d do not rise in row %d", wall, i + 1);

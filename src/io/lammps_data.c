@@ -189,8 +189,9 @@ static int64_t row_of(const data *d, double id)
 {
     const int64_t wanted[2] = {(int64_t)fmax(-1.0, fmin(id, 9e15)), 0};
     const int64_t *found =
-        d->n_atom > 0 ? bsearch(wanted, d->order, (size_t)d->n_atom, 2 * sizeof *d->order, by_id)
-                      : NULL;
+        d->n_atom > 0 && id == floor(id)
+            ? bsearch(wanted, d->order, (size_t)d->n_atom, 2 * sizeof *d->order, by_id)
+            : NULL;
     return found != NULL ? found[1] : -1;
 }
 

@@ -111,8 +111,8 @@ static clast_status read_faces(shape_library *l)
         double corners = 0.0;
         int32_t tri[3];
         CLX_TRY(next_numbers(l, "a face", 1, &corners));
-        CLX_CHECK(corners >= 3.0 && corners <= mesh->n_vert, CLAST_E_FORMAT,
-                  "a face of shape %s has %g corners", l->now.name, corners);
+        CLX_CHECK(corners >= 3.0 && corners <= mesh->n_vert && corners == floor(corners),
+                  CLAST_E_FORMAT, "a face of shape %s has %g corners", l->now.name, corners);
         CLX_TRY(read_corner(l, &tri[0]));
         CLX_TRY(read_corner(l, &tri[2]));
         for (int k = 2; k < (int)corners; ++k) {

@@ -99,6 +99,14 @@ class Starts(Case):
             path.write_text(text)
             self.assert_fails(3, "porosity", path, "--bed", "periodic:0,0,0,1,1,1", says=says)
 
+        box = ("two\n\n1 atoms\n1 ellipsoids\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\n"
+               "Atoms # ellipsoid\n\n1 1 1 2500 0.5 0.5 0.5\n\nEllipsoids\n\n")
+        wrong("half.data", box + "1.5 0.2 0.2 0.2 1 0 0 0\n", "there is no atom 1.5")
+        wrong("slant.data", "two\n\n1 atoms\n1 atom types\n1 0 0 avec\n0 1 0 bvec\n0 0 1 cvec\n0 0 0 abc origin\n\nAtoms\n\n1 1 0.5 2500 0.5 0.5 0.5\n")
+        faces = "0.4 0 0\n0 0.4 0\n0 0 0.4\n0 0 0\n"
+        (self.folder / "half.shp").write_text(f"<\nname T\nradius 0.1\npreCompDone y\nnv 4\n{faces}ne 0\nnf 4\n3.5 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3 0\n>\n")
+        wrong("half.conf", "Rockable 29-11-2018\nt 0\nshapeFile half.shp\ndensity 0 2600\nParticles 1\nT 0 0 1 1 1 1 0 0 0 0 0 0 1 0 0 0 0 0 0 0 0 0\n",
+              "3.5 corners")
         head = "x\n\n1 atoms\n1 atom types\n\n"
         wrong("a.data", head + "Atoms # bond\n\n1 1 1 0 0 0\n", ":6:", "style 'bond'", "sphere")
         wrong("a.data", head + "Atoms # sphere\n\n1 1 0.5 2500 0 0\n", ":8:", "6 words", "has 7")

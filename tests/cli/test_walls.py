@@ -157,6 +157,7 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall + " press 1,0,0", "--stages", "plate=1kPa until stress", says=("stage 1", "no area"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate until time 1s", says=("stage 1", "no motion"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
+        self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-1mm/s", "--stages", f"plate {'x' * 70} until time 1s", says=("stage 1", "x~"))
         self.assert_fails(2, *bed, "--stages", "hold", says=("stages", "neither"))
         self.assert_fails(2, *bed, "--outlet", "down", says=("outlet 1", "half-space"))
         self.assert_fails(2, *bed, "--wall", "floor axis 1,0,0 rotate 3rpm", says=("wall 1", "turns about its normal"))

@@ -297,6 +297,8 @@ static void walls_open_and_stay_what_they_are(void **state)
     assert_int_equal(clast_dem_n_wall(dem), 3); // floor, cylinder, plate
     CHECK_STATUS(clast_dem_set_wall_motion(dem, 0, &tilts), CLAST_E_CONFIG);
     CHECK_STATUS(clast_dem_set_wall_motion(dem, 1, &tilts), CLAST_E_CONFIG);
+    const clast_dem_wall_motion lost = {.velocity = {NAN, 0.0, 0.0}};
+    CHECK_STATUS(clast_dem_set_wall_motion(dem, 2, &lost), CLAST_E_USAGE);
     CHECK_OK(clast_dem_step(dem, 2000));
     clast_dem_read_grain(dem, 0, &g);
     assert_true(g.position[2] > 0.99 * RADIUS);
