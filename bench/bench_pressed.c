@@ -29,18 +29,6 @@ static double cpu(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void make_forms(clast_shape form[N_FORM])
-{
-    for (int k = 0; k < N_FORM; ++k) {
-        clast_mesh hull = {0};
-        char name[16];
-        support_gravel(30, (uint64_t)k, 152, &hull);
-        (void)snprintf(name, sizeof name, "form%d", k);
-        CHECK_OK(clast_shape_mesh(name, &hull, &form[k]));
-        clast_mesh_free(&hull);
-    }
-}
-
 typedef struct {
     const char *name;
     clast_pack_config config;
@@ -121,7 +109,7 @@ int main(int argc, char **argv)
     clast_shape form[N_FORM] = {0};
     bed beds[2];
     clast_parallel_set_threads(1);
-    make_forms(form);
+    support_gravel_forms(N_FORM, form);
     pour(&beds[0], form, n);
     press(&beds[1], form, n);
     for (int turn = 0; turn < TURNS; ++turn) {

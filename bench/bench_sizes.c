@@ -35,18 +35,6 @@ static double cpu(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void make_forms(clast_shape form[N_FORM])
-{
-    for (int k = 0; k < N_FORM; ++k) {
-        clast_mesh hull = {0};
-        char name[16];
-        support_gravel(30, (uint64_t)k, 152, &hull);
-        (void)snprintf(name, sizeof name, "form%d", k);
-        CHECK_OK(clast_shape_mesh(name, &hull, &form[k]));
-        clast_mesh_free(&hull);
-    }
-}
-
 static clast_pack *pour(const scene *s, const clast_shape form[N_FORM], clast_pack_config *config,
                         clast_curve *curve, clast_grading **grading)
 {
@@ -118,7 +106,7 @@ int main(int argc, char **argv)
     bed beds[N_SCENE] = {0};
     int n = 0;
     clast_parallel_set_threads(1);
-    make_forms(form);
+    support_gravel_forms(N_FORM, form);
     for (size_t k = 0; k < N_SCENE; ++k) {
         if (k == 0 || is_wanted(argc, argv, scenes[k].curve)) {
             bed *b = &beds[n++];

@@ -45,17 +45,12 @@ static clast_dem *make_box(int nx, int ny)
     config.depth = WIDTH * ny;
     config.height = 2.0;
     CHECK_OK(clast_dem_create(&config, &dem));
+    clast_shape form[N_FORM] = {0};
+    support_gravel_forms(N_FORM, form);
     for (int k = 0; k < N_FORM; ++k) {
-        clast_mesh hull = {0};
-        clast_shape form = {0};
-        char name[16];
         int32_t id = 0;
-        support_gravel(30, (uint64_t)k, 152, &hull);
-        (void)snprintf(name, sizeof name, "form%d", k);
-        CHECK_OK(clast_shape_mesh(name, &hull, &form));
-        CHECK_OK(clast_dem_add_shape(dem, &form, &id));
-        clast_shape_free(&form);
-        clast_mesh_free(&hull);
+        CHECK_OK(clast_dem_add_shape(dem, &form[k], &id));
+        clast_shape_free(&form[k]);
     }
     clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 1.0});
     return dem;

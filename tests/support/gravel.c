@@ -4,6 +4,8 @@
 #include "shape/gravel.h"
 #include "support.h"
 
+#include <stdio.h>
+
 void support_gravel(uint64_t seed, uint64_t index, int32_t n, clast_mesh *hull)
 {
     CHECK_OK(clx_gravel(seed, index, n, hull));
@@ -15,6 +17,18 @@ static clx_hull_core *core_of(clast_mesh *mesh)
     CHECK_OK(clx_hull_core_create(mesh, &core));
     clast_mesh_free(mesh);
     return core;
+}
+
+void support_gravel_forms(int n, clast_shape *form)
+{
+    for (int k = 0; k < n; ++k) {
+        clast_mesh hull = {0};
+        char name[16];
+        support_gravel(30, (uint64_t)k, 152, &hull);
+        (void)snprintf(name, sizeof name, "form%d", k);
+        CHECK_OK(clast_shape_mesh(name, &hull, &form[k]));
+        clast_mesh_free(&hull);
+    }
 }
 
 clx_hull_core *support_core(uint64_t seed, uint64_t index, int32_t n, const double axes[3])

@@ -34,25 +34,31 @@ static void square(int k, const double middle[3], double half, clast_mesh *mesh)
     memcpy(mesh->tri, tri, sizeof tri);
 }
 
+/* Balls of the sphere of radius 1, and the energy book from now on. */
+static void add_balls(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
+{
+    clast_shape sphere = {0};
+    int32_t id = 0;
+    CHECK_OK(clast_shape_sphere("sphere", 1.0, &sphere));
+    CHECK_OK(clast_dem_add_shape(dem, &sphere, &id));
+    CHECK_OK(clast_dem_begin_energy(dem));
+    CHECK_OK(clast_dem_add_grains(dem, n, grain));
+    clast_shape_free(&sphere);
+}
+
 /* A simulation with one square wall that moves, and grains. */
 static clast_dem *with_wall(const clast_dem_config *config, const clast_mesh *mesh,
                             const clast_dem_wall_motion *motion, int32_t n,
                             const clast_dem_grain *grain)
 {
     const double none[3] = {0.0, 0.0, 0.0};
-    clast_shape sphere = {0};
     clast_dem *dem = NULL;
     int32_t wall = 0;
-    int32_t id = 0;
     CHECK_OK(clast_dem_create(config, &dem));
     CHECK_OK(clast_dem_add_wall(dem, mesh, &wall));
     CHECK_OK(clast_dem_set_wall_motion(dem, wall, motion));
     CHECK_OK(clast_dem_drive_wall(dem, wall, true, none));
-    CHECK_OK(clast_shape_sphere("sphere", 1.0, &sphere));
-    CHECK_OK(clast_dem_add_shape(dem, &sphere, &id));
-    CHECK_OK(clast_dem_begin_energy(dem));
-    CHECK_OK(clast_dem_add_grains(dem, n, grain));
-    clast_shape_free(&sphere);
+    add_balls(dem, n, grain);
     return dem;
 }
 
@@ -172,9 +178,7 @@ static clast_dem *shaken(double skin)
     clast_dem_grain grain[N_BED];
     clast_mesh plate = {0};
     int32_t wall = 0;
-    clast_shape sphere = {0};
     clast_dem *dem = NULL;
-    int32_t id = 0;
     const double none[3] = {0.0, 0.0, 0.0};
     double time[3] = {0.0, 0.01, 0.03};
     double place[3][4] = {{0.0}, {0.01, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.005, 0.3}};
@@ -199,11 +203,7 @@ static clast_dem *shaken(double skin)
         CHECK_OK(clast_dem_drive_wall(dem, wall, true, none));
         clast_mesh_free(&plate);
     }
-    CHECK_OK(clast_shape_sphere("sphere", 1.0, &sphere));
-    CHECK_OK(clast_dem_add_shape(dem, &sphere, &id));
-    CHECK_OK(clast_dem_begin_energy(dem));
-    CHECK_OK(clast_dem_add_grains(dem, N_BED, grain));
-    clast_shape_free(&sphere);
+    add_balls(dem, N_BED, grain);
     return dem;
 }
 
