@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Each public header compiles alone, and all of them together, as C99, C17, C++17 and C++20 by GCC and Clang, without a warning;
-# in C++ inside extern "C" too. The declarations of each stand between CLAST_BEGIN and CLAST_END. A compiler that is not here is named and left out.
+# in C++ inside extern "C" too. The declarations of each stand between CLAST_BEGIN and CLAST_END. So do code_saturne's user sources, as the
+# solver compiles them. What is not here is named and left out.
 set -eu
 cd "$(dirname "$0")/.."
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
@@ -32,3 +33,15 @@ for standard in c++17 c++20; do
     compile clang++-14 "$standard" "$work"/*.cpp
 done
 echo "headers: $(ls include/clast/*.h | wc -l) compile as C99, C17, C++17 and C++20 ($n compilations)"
+solver=/usr/include/code_saturne
+if [ -d "$solver" ] && command -v mpicc > /dev/null; then
+    for ranks in '' -DHAVE_CLAST_MPI; do
+        for path in examples/code_saturne/SRC/*.c; do
+            mpicc -std=c99 -pedantic -Wall -Wextra -Wno-unused-parameter -Werror -fsyntax-only -DHAVE_CONFIG_H $ranks -Iinclude -isystem "$solver" "$path" ||
+                { echo "headers: $path does not compile with code_saturne's (above)"; exit 1; }
+        done
+    done
+    echo "headers: the user sources of examples/code_saturne compile"
+else
+    echo "SKIPPED: code_saturne's headers or mpicc are not here, its user sources were not compiled (tools/setup.sh test)"
+fi
