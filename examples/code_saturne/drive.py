@@ -46,6 +46,7 @@ class Study:
 
     def __init__(self, folder, build):
         self.folder, self.build = folder.resolve(), build.resolve()
+        self.pipe = None  # the half pipe's run, once it is begun
         if shutil.which("code_saturne") is None:
             sys.exit("drive.py: code_saturne is not installed: tools/setup.sh saturne (Debian: code-saturne, code-saturne-include)")
         if not (self.build / "libclast.so").exists():
@@ -191,17 +192,22 @@ def part_growth(study):
         sys.exit(f"drive.py: growth: mass is off by {worst:.1e} of what came in")
 
 
-def part_pipe(study):
-    """Positions after 20 s, one file for each number of particles, rounded to a micrometre."""
+def run_pipe(study):
     n_cell = []
     _, result = study.run("pipe", lambda path: n_cell.append(meshes.write_half_pipe(path, *PIPE.values())), PIPE_SETTINGS)
+    return n_cell[0], result
+
+
+def part_pipe(study):
+    """Positions after 20 s, one file for each number of particles, rounded to a micrometre."""
+    n_cell, result = study.pipe.result()
     with open(result / "parcels.csv", newline="") as f:
         parcels = list(csv.DictReader(f))
     for weight, printed in enumerate(PRINTED, 1):
         chosen = [r for r in parcels if float(r["weight"]) == weight]
         path = study.folder / f"half_pipe_{printed}.csv"
         path.write_text("x_m,y_m,z_m\n" + "".join(f"{float(r['x_m']):.6f},{float(r['y_m']):.6f},{float(r['z_m']):.6f}\n" for r in chosen))
-        print(f"{path}: {len(chosen)} particles, {printed} in the paper; {n_cell[0]} cells")
+        print(f"{path}: {len(chosen)} particles, {printed} in the paper; {n_cell} cells")
 
 
 PARTS = {"small": part_small, "meshes": part_meshes, "ranks": part_ranks, "cost": part_cost, "growth": part_growth, "pipe": part_pipe}
@@ -229,9 +235,13 @@ def main():
         sys.exit(f"drive.py: no part {unknown[0]!r}; parts are {', '.join(PARTS)}")
     study = Study(args.output, args.build)
     begun = time.monotonic()
-    for part in args.parts or PARTS:
-        print(f"== {part}")
-        PARTS[part](study)
+    parts = args.parts or list(PARTS)
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        for part in parts:
+            if study.pipe is None and "pipe" in parts and part != "small":
+                study.pipe = pool.submit(run_pipe, study)  # the longest, on one core beside all others
+            print(f"== {part}", flush=True)
+            PARTS[part](study)
     if args.keep:
         keep(study)
     print(f"{time.monotonic() - begun:.0f} s")
