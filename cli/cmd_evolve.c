@@ -31,7 +31,7 @@ static void print_range(const clast_range_use *use)
 {
     char words[512];
     if (clast_range_use_words(use, sizeof words, words)[0] != '\0') {
-        (void)printf("%-26s %.3g of %.6g collisions: %s\n", "out of range", use->outside, use->n,
+        (void)printf("%-26s %.6g of %.6g collisions: %s\n", "out of range", use->outside, use->n,
                      words);
     }
 }
