@@ -26,16 +26,26 @@ tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log;
 rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
-say "commands of the documents"; python3 tools/check_docs_commands.py build/release/clast
-say "ranks (mpirun), Python"
-ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
-say "ranks with MPICH"; tools/check_mpich.sh | tee -a build/ctest.log | grep -v '^ *Start '
-say "bundle of the 3-D view"; tools/check_web.sh
-say "WebAssembly"; skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
-say "packages"
+say "commands of the documents, Python, ranks, bundle of the 3-D view; beside them WebAssembly and packages"
+one_core() { # tests that take one core each; what they print comes after the other core's
+    python3 tools/check_docs_commands.py build/release/clast
+    ctest --test-dir build/release -L python --output-on-failure --no-tests=error
+    ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error
+    tools/check_mpich.sh
+    tools/check_web.sh
+}
+(set -e; one_core) > build/one-core.log 2>&1 &
+one_core=$!
+trap 'kill "$one_core" 2>/dev/null || true' EXIT
+skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
 if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
     tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
 fi
+say "the other core's"
+one_core_status=0; wait "$one_core" || one_core_status=$?
+trap - EXIT
+tee -a build/ctest.log < build/one-core.log | grep -v '^ *Start '
+[ "$one_core_status" = 0 ]
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
 say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; python3 tools/check_report.py; }
 say "done"
