@@ -73,7 +73,7 @@ def drums(folder, name, library):
     print("drum: small grains in zone 2 turn at " + ", ".join(f"{x:.1f} s ({y:.3f})" for x, y in turns))
     if library:
         series = [chart.line("small", 0, small), chart.line("large", 1, [(r["time_s"], r["large_zone_2"]) for r in rows])]
-        series.append(chart.points("small, LIGGGHTS at full size: lowest (when), highest (share)", 2, [(1.4, 0.0), (3.4, 0.0)]))
+        series.append(chart.points("small, LIGGGHTS at full size: troughs", 2, [(1.4, 0.0), (3.4, 0.0)]))
         chart.draw(library, f"{name}_drum.svg", "Drum: share of grains in zone 2 (x, z < 0)", "time turned (s)", "share (-)", series)
 
 
