@@ -3,7 +3,7 @@
 
 python3 tools/load_nine.py FOLDER [--library build/release/libclast_view.so] [-o docs/validation/load]
 
-FOLDER holds folders silo*, drum and impact*, one a run. Writes NAME_silo.csv, NAME_rates.csv, NAME_drum.csv and NAME_impact.csv, with the library
+FOLDER holds folders silo*, drum and impactFACTOR, one a run. Writes NAME_silo.csv, NAME_rates.csv, NAME_drum.csv and NAME_impact.csv, with the library
 NAME_silo.svg, NAME_drum.svg and NAME_impact.svg.
 """
 import argparse
@@ -84,7 +84,7 @@ def impacts(folder, name, library):
         least = min(xy, key=lambda p: p[1])
         print(f"{run}: deepest {1e3 * least[1]:.1f} mm at {least[0]:.4f} s, {1e3 * xy[-1][1]:.1f} mm at {xy[-1][0]:.3f} s")
     if library:
-        lines = [chart.line(run[7:] or run, i, [(t, 1e3 * z) for t, z in xy]) for i, (run, xy) in enumerate(curves.items())]
+        lines = [chart.line(f"{2 * float(run[6:]):g} mm", i, [(t, 1e3 * z) for t, z in xy]) for i, (run, xy) in enumerate(curves.items())]
         lines.append(chart.points("25k, deepest: LIGGGHTS, MUSEN", len(lines), [(0.03, -139), (0.03, -138)]))
         chart.draw(library, f"{name}_impact.svg", "Way of a sphere that strikes a bed", "time (s)", "displacement (mm)", lines)
 
