@@ -25,8 +25,10 @@ def stages(run):
             last[int(float(row["stage"]))] = row
     wanted = json.loads((run / "manifest.json").read_text())["config"]["stages"]
     for number, row in sorted(last.items()):
-        text = wanted[number - 1]
-        value, unit = text.split()[1], text.split()[1].lstrip("0123456789.")
+        value = wanted[number - 1].split()[1]
+        if not value.endswith("Pa") or not wanted[number - 1].endswith("rest"):  # on the way to the first pressure
+            continue
+        unit = value.lstrip("0123456789.")
         pressure = float(value[:-len(unit)]) * {"Pa": 1, "kPa": 1e3, "MPa": 1e6}[unit]
         if abs(float(row["pressure_Pa"]) / pressure - 1) < 0.02:  # a stage that was cut off has not reached it
             yield pressure, float(row["porosity"]), float(row["coordination_held"])

@@ -1,23 +1,25 @@
 #!/usr/bin/env python3
-"""The three cases that nine DEM codes were compared on (Dosta and others, Computer Physics Communications 296 (2024) 109066), made smaller.
+"""The three cases that eight open-source DEM codes were compared on (Dosta and others, Computer Physics Communications 296 (2024) 109066), made smaller.
 
-Geometry, densities, friction and speeds are those of public scripts of the comparison (YADE's, examples/DEM2020Benchmark; MercuryDPM's);
-its start files and its curves were not at hand, so beds are poured here and no published curve stands beside the numbers. Grains are larger by
---factor (their number falls with its cube), the modulus is lower (1e9 Pa there), and one restitution stands for its three to five.
+Geometry, densities, friction and speeds are those of public scripts for the comparison (YADE's, MercuryDPM's, peclet's); its start files were not
+at hand, so beds are poured here. Grains are larger by --factor (their number falls with its cube), the modulus is lower (1e9 Pa there), and one
+restitution stands for its three to five.
 
-    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 4] [--time 1]
+    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 2] [--time 5] [--orifice 0.06] [--grains 25000]
+
+Writes FOLDER/CASE.csv.
 """
 import argparse
 import csv
 import json
 import math
 import os
+import random
 import subprocess
 
 CLAST = os.environ.get("CLAST", "clast")
-STEP = "2e-5"  # s, silo and drum
 COMMON = ["--law", "hertz", "--poisson", "0.2", "--fluid-density", "0", "--restitution", "0.5", "--friction", "0.3", "--wall-friction", "0.2",
-          "--shaking-time", "0", "--shake-amplitude", "0", "--rule", "speed", "--still-speed", "0.03", "--quiet"]
+          "--shake-amplitude", "0", "--rule", "speed", "--still-speed", "0.03", "--quiet", "-j", "1", "--force"]
 
 
 def clast(*arguments):
@@ -60,7 +62,31 @@ def write_start(path, grains):
         out = csv.writer(file)
         out.writerow("shape x_m y_m z_m qw qx qy qz scale density_kg/m^3".split())
         for x, y, z, d, density in grains:
-            out.writerow(["1-sphere", x, y, z, 1, 0, 0, 0, d / 2, density])
+            out.writerow(["1-sphere", x, y, z, 1, 0, 0, 0, d, density])
+
+
+def loose(n, d, low, sides, round_=False):
+    """n places on a loose lattice from `low` on, each off by a random way; sides(z) are its width and depth at a height."""
+    chance, pitch, shift = random.Random(1), 1.12 * d, 0.05 * d
+    grains, z = [], low
+    while True:
+        width, depth = sides(z)
+        nx, ny = (int((side - 2 * shift) / pitch) for side in (width, depth))
+        for i in range(nx + 1):
+            for j in range(ny + 1):
+                x, y = (i - nx / 2) * pitch, (j - ny / 2) * pitch
+                if not round_ or math.hypot(x, y) + shift <= width / 2:
+                    grains.append((*(v + chance.uniform(-shift, shift) for v in (x, y, z)), d, 2500))
+                    if len(grains) == n:
+                        return grains
+        z += pitch
+
+
+def write_rows(path, names, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(names)
+        out.writerows(["%.6g" % v for v in row] for row in rows)
 
 
 def table(run, name):
@@ -68,95 +94,139 @@ def table(run, name):
         return [{k: float(v) if k != "shape" else v for k, v in row.items()} for row in csv.DictReader(file)]
 
 
-def silo(folder, factor, time):
-    """Cylinder of radius 0.1 m, cone of 0.07 m to an orifice of radius 0.03 m: 100,000 spheres of 4 mm leave."""
-    lip, cone, top = -0.0554222, 0.07, 0.3146
-    diameter, n = 4e-3 * factor, round(100000 / factor ** 3)
-    v, t = rings([0.1, 0.1, 0.03], [top + 0.2, lip + cone, lip])
+def silo(folder, options):
+    """Cylinder of radius 0.1 m, cone of 45 degrees to an orifice of 0.06 or 0.04 m: 100,000 spheres of 4 mm leave."""
+    radius = options.orifice / 2
+    cone = 0.1 - radius
+    lip = -0.0554222 if radius > 0.025 else -0.0593008
+    diameter, n = 4e-3 * options.factor, round(100000 / options.factor ** 3)
+    v, t = rings([0.1, 0.1, radius], [lip + cone + 0.5, lip + cone, lip])
     write_off(os.path.join(folder, "silo.off"), v, t)
-    v, t = rings([0.0305], [lip + 1e-6])
+    v, t = rings([radius + 5e-4], [lip + 1e-6])
     capped(v, t, 0)
     write_off(os.path.join(folder, "gate.off"), v, t)
     run = os.path.join(folder, "silo")
     mass = n * 2500 * math.pi / 6 * diameter ** 3
-    result = clast("pack", *COMMON, "--curve", f"{diameter}m", "--mass", f"{mass}kg", "--density", "2500", "--young", "5e6", "--time-step", STEP,
-                   "--domain", "cylinder", "--width", "0.1999m", "--height", "0.5m", "--floor=no", "--wall", f"silo {folder}/silo.off m", "--wall",
-                   f"gate {folder}/gate.off m", "--outlet", f"z<{lip - diameter}m", "--stages", f"open gate until time {time}s", "--series-time",
-                   "0.05s", "--force", "-o", run)
+    write_start(os.path.join(folder, "silo_start.csv"), loose(n, diameter, lip + 0.6 * diameter, lambda z: (2 * (min(0.1, radius + z - lip) - 0.75 * diameter),) * 2, round_=True))
+    clast("pack", *COMMON, "--start", f"{folder}/silo_start.csv", "--young", "5e6", "--time-step", 2e-5 * options.factor, "--still-speed", "0.1",
+          "--shaking-time", "0", "--domain", "cylinder", "--width", "0.1999m", "--height", "1m", "--floor=no", "--wall", f"silo {folder}/silo.off m",
+          "--wall", f"gate {folder}/gate.off m", "--outlet", f"z<{lip - diameter}m", "--stages", f"open gate until time {options.time or 5}s",
+          "--series-time", "0.02s", "-o", run)
     rows = [row for row in table(run, "walls.csv") if row["stage"] == 1]
-    print(f"{n} spheres of {1e3 * diameter:g} mm; time after opening, number inside")
-    for row in rows[:: max(1, len(rows) // 20)]:
-        print(f"{row['time_s'] - rows[0]['time_s']:6.3f} s  {row['n_grain']:6.0f}")
-    first, last = rows[len(rows) // 4], rows[3 * len(rows) // 4]
-    rate = (first["mass_kg"] - last["mass_kg"]) / (last["time_s"] - first["time_s"])
-    print(f"discharge {rate:.3f} kg/s; C rho_b sqrt(g) (D - k d)^2.5 with C 0.58, k 1.5, rho_b 0.6 of 2500 (Beverloo, a flat bottom): "
-          f"{0.58 * 0.6 * 2500 * 9.81 ** 0.5 * max(0.0, 0.06 - 1.5 * diameter) ** 2.5:.3f} kg/s; {result['n_left']} left")
+    rows = [(row["time_s"] - rows[0]["time_s"], row["mass_kg"] / mass) for row in rows]
+    write_rows(os.path.join(folder, "silo.csv"), ("time_s", "mass_inside"), rows)
+    steady = [row for row in rows if row[0] >= 0.3 and row[1] >= 0.4]
+    rate = mass * (steady[0][1] - steady[-1][1]) / (steady[-1][0] - steady[0][0])
+    with open(os.path.join(folder, "rate.json"), "w", encoding="utf-8") as file:
+        json.dump({"n": n, "diameter_m": diameter, "orifice_m": options.orifice, "rate_kg/s": rate}, file)
+    beverloo = 0.58 * 0.6 * 2500 * 9.81 ** 0.5 * max(0.0, options.orifice - 1.5 * diameter) ** 2.5
+    print(f"{n} spheres of {1e3 * diameter:g} mm, orifice {1e3 * options.orifice:g} mm: {rate:.4f} kg/s from {steady[0][0]:.2f} to {steady[-1][0]:.2f} s; "
+          f"C rho_b sqrt(g) (D - k d)^2.5 with C 0.58, k 1.5, rho_b 0.6 of 2500 (Beverloo, a flat bottom): {beverloo:.4f} kg/s; "
+          f"{100 * rows[-1][1]:.1f} % inside after {rows[-1][0]:.2f} s")
 
 
-def drum(folder, factor, time):
-    """Drum of radius 0.1 m and depth 0.06 m, 2 rad/s: 30,000 spheres of 2 mm (2500 kg/m3) lie on 8,000 of 4 mm (2000 kg/m3)."""
+def drum(folder, options):
+    """Drum of radius 0.1 m and depth 0.06 m, 2 rad/s, up at x > 0: 30,000 spheres of 2 mm (2500 kg/m3) lie on 8,000 of 4 mm (2000 kg/m3)."""
+    factor, time, step = options.factor, options.time or 5.0, 1e-5 * options.factor
     v, t = rings([0.1, 0.1], [-0.03, 0.03], along_y=True)
     capped(v, t, 0)
     capped(v, t, 1)
     write_off(os.path.join(folder, "drum.off"), v, t)
     grains, z = [], -0.085
     for d, density, n in ((4e-3 * factor, 2000, round(8000 / factor ** 3)), (2e-3 * factor, 2500, round(30000 / factor ** 3))):
-        step = 1.05 * d
+        pitch = 1.05 * d
         while n > 0:
             across = math.sqrt(max(0.0, (0.099 - 0.5 * d) ** 2 - (abs(z) + 0.5 * d) ** 2))
-            for i in range(-int(across / step), int(across / step) + 1):
-                rows = int((0.06 - d) / step) + 1
+            for i in range(-int(across / pitch), int(across / pitch) + 1):
+                rows = int((0.06 - d) / pitch) + 1
                 for j in range(rows):
                     if n > 0:
-                        grains.append((i * step, (j - (rows - 1) / 2) * step, z, d, density))
+                        grains.append((i * pitch, (j - (rows - 1) / 2) * pitch, z, d, density))
                         n -= 1
-            z += step
+            z += pitch
             assert z < 0.08, "the drum is full: take a greater factor"
     write_start(os.path.join(folder, "drum.csv"), grains)
     run = os.path.join(folder, "drum")
-    steps = None
-    for k in range(6):
-        if k == 0:
-            clast("pack", *COMMON, "--start", f"{folder}/drum.csv", "--young", "5e6", "--time-step", STEP, "--container",
-                  f"{folder}/drum.off", "--container-unit", "m", "--floor=no", "--wall", "container axis 0,-1,0 rotate 2rad/s", "--stages",
-                  "container until time 1us", "--force", "-o", run)
-            steps = table(run, "walls.csv")[-1]["step"]
-            clast("pack", *COMMON, "--start", f"{folder}/drum.csv", "--young", "5e6", "--time-step", STEP, "--container",
-                  f"{folder}/drum.off", "--container-unit", "m", "--floor=no", "--wall", "container axis 0,-1,0 rotate 2rad/s", "--stages",
-                  f"container until time {time}s", "--force", "-o", run, "--max-steps", int(steps))
-        else:
-            clast("pack", "--resume", run, "--quiet", *(["--max-steps", int(steps + k * time / 5 / float(STEP))] if k < 5 else []))
+    bed = ["pack", *COMMON, "--start", f"{folder}/drum.csv", "--young", "5e6", "--time-step", step, "--shaking-time", "0", "--container",
+           f"{folder}/drum.off", "--container-unit", "m", "--floor=no", "--wall", "container axis 0,-1,0 rotate 2rad/s", "-o", run]
+    clast(*bed, "--stages", "container until time 1us")
+    begun = table(run, "walls.csv")[-1]["step"]
+    clast(*bed, "--stages", f"container until time {time}s", "--max-steps", int(begun))
+    out, n = [], round(5 * time)
+    for k in range(n + 1):
+        if k:
+            clast("pack", "--resume", run, "--quiet", *(["--max-steps", int(begun + k / (5 * step))] if k < n else []))
         zones = {}
         for row in table(run, "grains.csv"):
             small = row["sieve_size_m"] < 3e-3 * factor
             zone = 1 if row["x_m"] > 0 and row["z_m"] > 0 else 2 if row["x_m"] < 0 and row["z_m"] < 0 else 0
             zones[small, zone] = zones.get((small, zone), 0) + 1
-        print(f"{k * time / 5:5.2f} s turned: small and large in zone 1 (x, z > 0) {zones.get((True, 1), 0)}, {zones.get((False, 1), 0)}; "
-              f"in zone 2 (x, z < 0) {zones.get((True, 2), 0)}, {zones.get((False, 2), 0)}")
+        of = {which: sum(v for (s, _), v in zones.items() if s == which) for which in (True, False)}
+        out.append((k / 5, *(zones.get((s, i), 0) / of[s] for i in (1, 2) for s in (True, False))))
+        write_rows(os.path.join(folder, "zones.csv"), ("time_s", "small_zone_1", "large_zone_1", "small_zone_2", "large_zone_2"), out)
+        print("%5.2f s turned: share of the small and large grains in zone 1 (x, z > 0) %.4f, %.4f, in zone 2 (x, z < 0) %.4f, %.4f" % out[-1], flush=True)
 
 
-def impact(folder, factor, time):
-    """A steel sphere (7200 kg/m3) meets a bed of spheres (2500 kg/m3) at 5 m/s: here one of 20 mm, 25,000 / factor^3 spheres of 2 mm times factor, a box of 0.1 m."""
-    d, n = 2e-3 * factor, round(25000 / factor ** 3)
-    mass = n * 2500 * math.pi / 6 * d ** 3
-    bed, run = os.path.join(folder, "bed"), os.path.join(folder, "impact")
-    clast("pack", *COMMON, "--curve", f"{d}m", "--mass", f"{mass}kg", "--density", "2500", "--young", "2e7", "--time-step", "5e-6", "--domain", "box",
-          "--width", "0.1m", "--height", "0.15m", "--force", "-o", bed)
-    lying = [row for row in table(bed, "grains.csv")]
-    grains = [(row["x_m"], row["y_m"], row["z_m"], d, 2500.0) for row in lying]
-    top = max(g[2] for g in grains) + d / 2
-    fall = 5.0 ** 2 / (2 * 9.81)
-    write_start(os.path.join(folder, "impact.csv"), [*grains, (0.0, 0.0, top + 0.01 + fall, 0.02, 7200.0)])
-    met = math.sqrt(2 * fall / 9.81)
-    for k in range(11):
-        steps = ["--max-steps", int((met + k * time / 10) / 5e-6)]
-        if k == 0:
-            clast("pack", *COMMON, "--start", f"{folder}/impact.csv", "--young", "2e7", "--time-step", "5e-6", "--domain", "box",
-                  "--width", "0.1m", "--height", "2m", "--shaking-time", f"{met + time}s", "--force", "-o", run, *steps)
+def struck(folder, grains, step, name, speed, *more):
+    """A run of these grains and a sphere of steel 0.15 m above the floor that a plate strikes down at this speed."""
+    v, t = rings([0.02], [BEGIN + 0.01])
+    capped(v, t, 0)
+    write_off(os.path.join(folder, "plate.off"), v, t)
+    with open(os.path.join(folder, "plate.csv"), "w", encoding="utf-8") as file:
+        file.write(f"time_s,z_m\n0,0\n0.004,{-0.004 * speed}\n")
+    write_start(os.path.join(folder, name + ".csv"), [*grains, (0.0, 0.0, BEGIN, 0.02, 7200.0)])
+    run = os.path.join(folder, name)
+    clast("pack", *COMMON, "--start", f"{folder}/{name}.csv", "--young", "2e7", "--time-step", step, *BOX, "--height", "0.4m", "--shaking-time", "1s",
+          "--wall", f"plate {folder}/plate.off m table {folder}/plate.csv", "--wall-forces", "--series-time", "0.5ms", "-o", run, *more)
+    return run
+
+
+def height(run):
+    rows = table(run, "grains.csv")
+    return max(rows, key=lambda row: row["sieve_size_m"])["z_m"]
+
+
+BEGIN = 0.0902431 + 0.06  # m above the floor
+BOX = ["--domain", "box", "--width", "0.1m", "--depth", "0.06m"]
+
+
+def impact(folder, options):
+    """A steel sphere (20 mm, 7200 kg/m3) comes at 5 m/s, 0.15 m above the floor of a box of 0.1 by 0.06 m, onto 25,000 or 100,000 spheres of 2 mm (2500 kg/m3).
+
+    Grains of a start are at rest: a plate strikes the sphere, at the speed that alone gives it 5 m/s."""
+    d, n, time, step = 2e-3 * options.factor, round(options.grains / options.factor ** 3), options.time or 0.1, 5e-6 * options.factor
+    bed = os.path.join(folder, "bed")
+    write_start(os.path.join(folder, "bed.csv"), loose(n, d, 0.6 * d, lambda z: (0.1 - d, 0.06 - d)))
+    clast("pack", *COMMON, "--start", f"{folder}/bed.csv", "--young", "2e6", "--time-step", 3 * step, *BOX, "--height", "0.6m", "--still-speed", "0.05",
+          "--shaking-time", "0", "-o", bed)
+    lying = [(row["x_m"], row["y_m"], row["z_m"], d, 2500.0) for row in table(bed, "grains.csv")]
+    top = sorted(g[2] for g in lying)[-n // 100] + d / 2
+    print(f"{n} spheres of {1e3 * d:g} mm, top of the bed {1e3 * top:.1f} mm above the floor", flush=True)
+    speed, flown, late = 10 / 3, 0.008, 0.0
+    for _ in range(3):  # the sphere alone: 5 m/s where it would have begun, `late` after the start of the run
+        run = struck(folder, [], step, "alone", speed, "--max-steps", round(flown / step))
+        first = height(run)
+        clast("pack", "--resume", run, "--quiet", "--max-steps", round(2 * flown / step))
+        v = (first - height(run)) / (step * (round(2 * flown / step) - round(flown / step))) - 9.81 * 1.5 * flown
+        t = (-5 + math.sqrt(25 + 2 * 9.81 * (BEGIN - first))) / 9.81
+        late = round(flown / step) * step - t
+        v = v + 9.81 * late
+        print(f"plate at {speed:.4f} m/s: sphere at {v:.4f} m/s, {1e3 * late:.3f} ms late", flush=True)
+        speed *= 5 / v
+    out = []
+    for k in range(1, round(time / 0.0025) + 1):
+        steps = ["--max-steps", round((late + k * 0.0025) / step)]
+        if k == 1:
+            run = struck(folder, lying, step, "impact", speed, *steps)
         else:
             clast("pack", "--resume", run, "--quiet", *steps)
-        ball = max(table(run, "grains.csv"), key=lambda row: row["sieve_size_m"])
-        print(f"{k * time / 10:6.4f} s after the impact: lowest point of the sphere {1e3 * (top - ball['z_m'] + 0.01):7.2f} mm below the bed's top")
+        out.append((k * 0.0025, height(run) - BEGIN))
+        write_rows(os.path.join(folder, "way.csv"), ("time_s", "displacement_m"), [(0, 0), *out])
+        print("%6.4f s: %8.2f mm" % (out[-1][0], 1e3 * out[-1][1]), flush=True)
+    force = max((-row["floor_force_z_N"], row["time_s"] - late) for row in table(run, "walls.csv"))
+    least = min(out, key=lambda row: row[1])
+    print(f"deepest {1e3 * least[1]:.1f} mm at {least[0]:.4f} s, {1e3 * out[-1][1]:.1f} mm at {out[-1][0]:.4f} s; "
+          f"greatest force on the floor {force[0]:.0f} N (mean of 0.5 ms) at {force[1]:.4f} s")
 
 
 def main():
@@ -165,10 +235,11 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--factor", type=float, default=4)
     parser.add_argument("--time", type=float)
+    parser.add_argument("--orifice", type=float, choices=(0.06, 0.04), default=0.06)
+    parser.add_argument("--grains", type=int, default=25000)
     options = parser.parse_args()
     os.makedirs(options.folder, exist_ok=True)
-    case, usual = {"silo": (silo, 1.0), "drum": (drum, 1.0), "impact": (impact, 0.05)}[options.case]
-    case(options.folder, options.factor, options.time or usual)
+    {"silo": silo, "drum": drum, "impact": impact}[options.case](options.folder, options)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Runs of examples/load/nine_codes.py as the tables and pictures of docs/validation/load.md, beside what is published.
+
+python3 tools/load_nine.py FOLDER [--library build/release/libclast_view.so] [-o docs/validation/load]
+
+FOLDER holds folders silo*, drum and impactFACTOR, one a run. Writes NAME_silo.csv, NAME_rates.csv, NAME_drum.csv and NAME_impact.csv, with the library
+NAME_silo.svg, NAME_drum.svg and NAME_impact.svg.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import chart  # noqa: E402
+
+# Of 100,000 spheres of 4 mm, 8.38 kg: mean of eight codes, 23,200 spheres a second, all within 5 %.
+EIGHT = 23200 * 2500 * math.pi / 6 * 4e-3 ** 3
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+def write(path, names, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(names)
+        out.writerows([v if isinstance(v, str) else "%.6g" % v for v in row] for row in rows)
+
+
+def fit(xy):
+    """Slope and value at 0 by least squares."""
+    n, mx, my = len(xy), sum(x for x, _ in xy) / len(xy), sum(y for _, y in xy) / len(xy)
+    slope = sum((x - mx) * (y - my) for x, y in xy) / sum((x - mx) ** 2 for x, _ in xy)
+    return slope, my - slope * mx
+
+
+def silos(folder, name, library):
+    rates, curves = [], []
+    for run in sorted(folder.glob("silo*")):
+        result = json.loads((run / "rate.json").read_text())
+        rates.append(result)
+        if result["orifice_m"] == 0.06:
+            curves.append((result["diameter_m"], [(r["time_s"], r["mass_inside"]) for r in read(run / "silo.csv")]))
+    rates.sort(key=lambda r: (-r["orifice_m"], r["diameter_m"]))
+    wide = [r for r in rates if r["orifice_m"] == 0.06]
+    slope, at_zero = fit([(r["diameter_m"], r["rate_kg/s"] ** 0.4) for r in wide])  # W^0.4 = a (D - k d)
+    k = -slope * 0.06 / at_zero
+    c = (at_zero / 0.06) ** 2.5 / (0.6 * 2500 * math.sqrt(9.81))
+    small = (at_zero + slope * 4e-3) ** 2.5
+    write(f"{name}_rates.csv", ("orifice_m", "diameter_m", "n", "rate_kg/s", "by_the_fit_kg/s"),
+          [(r["orifice_m"], r["diameter_m"], r["n"], r["rate_kg/s"], (at_zero * (r["orifice_m"] - k * r["diameter_m"]) / 0.06) ** 2.5) for r in rates])
+    curves.sort()
+    write(f"{name}_silo.csv", ("diameter_m", "time_s", "mass_inside"), [(d, *p) for d, xy in curves for p in xy])
+    worst = max(abs((at_zero + slope * r["diameter_m"]) ** 2.5 / r["rate_kg/s"] - 1) for r in wide)
+    print(f"silo: W = C rho_b sqrt(g) (D - k d)^2.5 with C {c:.3f}, k {k:.3f} (rho_b 1500 kg/m3), off by {100 * worst:.2f} % at most; "
+          f"for d = 4 mm {small:.3f} kg/s, eight codes {EIGHT:.3f} kg/s: {100 * (small / EIGHT - 1):+.1f} %")
+    if library:
+        lines = [chart.line(f"{1e3 * d:g} mm", i, xy) for i, (d, xy) in enumerate(curves)]
+        lines.append(chart.line("4 mm, eight codes (mean rate)", len(lines), [(0.15, 1.0), (4.0, 1 - 0.232 * 3.85)], dashed=True))
+        chart.draw(library, f"{name}_silo.svg", "Silo, orifice of 60 mm", "time since it is open (s)", "mass inside (-)", lines)
+
+
+def drums(folder, name, library):
+    rows = read(folder / "drum" / "zones.csv")
+    write(f"{name}_drum.csv", tuple(rows[0]), [tuple(r.values()) for r in rows])
+    small = [(r["time_s"], r["small_zone_2"]) for r in rows]
+    turns = [(x, y) for (_, a), (x, y), (_, b) in zip(small, small[1:], small[2:]) if (y - a) * (b - y) <= 0 and y != a]
+    print("drum: small grains in zone 2 turn at " + ", ".join(f"{x:.1f} s ({y:.3f})" for x, y in turns))
+    if library:
+        series = [chart.line("small", 0, small), chart.line("large", 1, [(r["time_s"], r["large_zone_2"]) for r in rows])]
+        series.append(chart.points("small, LIGGGHTS at full size: troughs", 2, [(1.4, 0.0), (3.4, 0.0)]))
+        chart.draw(library, f"{name}_drum.svg", "Drum: share of grains in zone 2 (x, z < 0)", "time turned (s)", "share (-)", series)
+
+
+def impacts(folder, name, library):
+    curves = {run.name: [(r["time_s"], r["displacement_m"]) for r in read(run / "way.csv")] for run in sorted(folder.glob("impact*"))}
+    write(f"{name}_impact.csv", ("run", "time_s", "displacement_m"), [(run, *p) for run, xy in curves.items() for p in xy])
+    for run, xy in curves.items():
+        least = min(xy, key=lambda p: p[1])
+        print(f"{run}: deepest {1e3 * least[1]:.1f} mm at {least[0]:.4f} s, {1e3 * xy[-1][1]:.1f} mm at {xy[-1][0]:.3f} s")
+    if library:
+        lines = [chart.line(f"{2 * float(run[6:]):g} mm", i, [(t, 1e3 * z) for t, z in xy]) for i, (run, xy) in enumerate(curves.items())]
+        lines.append(chart.points("25k, deepest: LIGGGHTS, MUSEN", len(lines), [(0.03, -139), (0.03, -138)]))
+        chart.draw(library, f"{name}_impact.svg", "Way of a sphere that strikes a bed", "time (s)", "displacement (mm)", lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--library", type=pathlib.Path)
+    parser.add_argument("-o", "--output", default="load")
+    options = parser.parse_args()
+    for part in (silos, drums, impacts):
+        part(options.folder, options.output, options.library)
+
+
+if __name__ == "__main__":
+    main()
