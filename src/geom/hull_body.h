@@ -119,8 +119,9 @@ void clx_face_views_free(clx_face_views *views);
 /// Greatest and least shadow over all directions: greatest and least over the views and the given
 /// axes, each then improved to a local optimum.
 /// direction: of the greatest, unit
-void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
-                         double *least, double *greatest, double direction[3]);
+clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
+                                 double axis[3][3], double *least, double *greatest,
+                                 double direction[3]);
 
 /// A box: edge lengths in falling order and their unit directions.
 typedef struct clx_box {

@@ -8,18 +8,98 @@
 // axis' least rectangle [Chang2011, the local step]. For few faces every pair of edges is tried as
 // well (hull_box_edges.c). The result is a box that no such turn improves: an upper bound of the
 // least volume; docs/theory/form.md has the measured gap.
+//
+// Few faces have their shadow cast: chords between vertices bound the hull's widths, and so the
+// rectangle, from below, within a per cent.
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "base/machine.h"
 #include "math/vec3.h"
 
-enum { CANDIDATES = 6, MOST_TURNS = 60, FEW_FACES = 48 };
+enum { CANDIDATES = 6, MOST_TURNS = 60, FEW_FACES = 48, MANY_FACES = 128 };
+enum { GRID = 12, N_CELL = 3 * GRID * GRID, N_ARC = 16 };
 
 static const double GAIN = 1e-13;
+
+/// For cells of directions, the same of opposite ones, two vertices far apart along the cell's
+/// middle: no width is less than the chord's part along it.
+typedef struct {
+    double chord[N_CELL][3];
+    double turn[2 * N_ARC + 1]
+               [2]; ///< cosine and sine of the ends and middles of arcs of a half turn
+} chord_table;
 
 static double box_volume(const clx_box *box)
 {
     return box->edge[0] * box->edge[1] * box->edge[2];
+}
+
+/// The cell of a direction on the cube about it.
+CLX_INLINE int32_t cell_of(const double d[3])
+{
+    static const int after[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+    int k = fabs(d[1]) > fabs(d[0]);
+    k = fabs(d[2]) > fabs(d[k]) ? 2 : k;
+    const double scale = 0.5 * GRID / d[k];
+    const int32_t i = (int32_t)(0.5 * GRID + scale * d[after[k][0]]);
+    const int32_t j = (int32_t)(0.5 * GRID + scale * d[after[k][1]]);
+    return (k * GRID + (i < GRID ? i : GRID - 1)) * GRID + (j < GRID ? j : GRID - 1);
+}
+
+static void fill_chords(const clx_hull_body *body, chord_table *table)
+{
+    int32_t high = 0;
+    int32_t low = 0;
+    for (int32_t c = 0; c < N_CELL; ++c) {
+        const int k = c / (GRID * GRID);
+        const int row = c / GRID % GRID; // every other one backwards: the next cell is beside this
+        const int32_t cell = row % 2 == 0 ? c : c - c % GRID + GRID - 1 - c % GRID;
+        double d[3];
+        double back[3];
+        d[k] = 1.0;
+        d[(k + 1) % 3] = (2 * row + 1.0) / GRID - 1.0;
+        d[(k + 2) % 3] = (2 * (cell % GRID) + 1.0) / GRID - 1.0;
+        v3_scale(back, -1.0, d);
+        high = clx_hull_body_support(body, d, high);
+        low = clx_hull_body_support(body, back, low);
+        v3_sub(table->chord[cell], body->vert[high], body->vert[low]);
+    }
+    for (int k = 0; k <= 2 * N_ARC; ++k) {
+        table->turn[k][0] = cos(0.5 * CLAST_PI * k / N_ARC);
+        table->turn[k][1] = sin(0.5 * CLAST_PI * k / N_ARC);
+    }
+}
+
+/// No rectangle around the shadow in the plane of u and v is less. Within each arc of a half turn
+/// both widths are at least those of the chords of its middle: cosines, whose product is least at
+/// an end.
+static double least_rectangle(const chord_table *table, const double u[3], const double v[3])
+{
+    double width[N_ARC][2]; // at both ends of an arc
+    double least = INFINITY;
+    for (int a = 0; a < N_ARC; ++a) {
+        const double(*turn)[2] = table->turn + 2 * a;
+        double d[3];
+        for (int k = 0; k < 3; ++k) {
+            d[k] = turn[1][0] * u[k] + turn[1][1] * v[k];
+        }
+        const double *chord = table->chord[cell_of(d)];
+        const double x = v3_dot(chord, u);
+        const double y = v3_dot(chord, v);
+        width[a][0] = x * turn[0][0] + y * turn[0][1];
+        width[a][1] = x * turn[2][0] + y * turn[2][1];
+    }
+    for (int a = 0; a < N_ARC / 2; ++a) {
+        const double *w = width[a];
+        const double *across = width[a + N_ARC / 2];
+        const bool is_bound = w[0] * w[1] > 0.0 && across[0] * across[1] > 0.0; // no change of sign
+        const double one = fabs(w[0] * across[0]);
+        const double other = fabs(w[1] * across[1]);
+        const double area = is_bound ? (one < other ? one : other) : 0.0;
+        least = area < least ? area : least;
+    }
+    return least;
 }
 
 /// The least box with one axis along the unit vector n, if it is not clearly larger than `limit`.
@@ -51,11 +131,11 @@ static void box_in_frame(const clx_hull_body *body, double frame[3][3], clx_box 
     }
 }
 
-/// Turns the box about each axis in turn until none of the three gains.
-static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *box)
+/// Turns the box about each axis in turn until none of the three gains. `idle`: 1 where it is the
+/// least about its first axis already, else 0.
+static void turn_down(const clx_hull_body *body, int idle, clx_shadow *shadow, clx_box *box)
 {
-    int axis = 0;
-    int idle = 0;
+    int axis = idle;
     for (int turn = 0; turn < MOST_TURNS && idle < 3; ++turn) {
         clx_box next;
         const double limit = box_volume(box) * (1.0 - GAIN);
@@ -99,20 +179,30 @@ static void sort_edges(clx_box *box)
 }
 
 /// Tries every face as a side, the most promising first; width times shadow bounds the volume from
-/// below, so the rest need no look once that exceeds the last candidate.
+/// below, so the rest need no look once that exceeds the last candidate. Neither do those whose
+/// chords do (a table of them, or NULL).
 static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *views,
-                           clx_shadow *shadow, clx_box candidate[CANDIDATES], int *n_candidate)
+                           const chord_table *table, clx_shadow *shadow,
+                           clx_box candidate[CANDIDATES], int *n_candidate)
 {
+    const double sure = 1.0 - 1e-9; // of a bound, in spite of rounding
     for (int32_t i = 0; i < views->n; ++i) {
         const clx_face_view *view = &views->view[i];
         const double limit =
             *n_candidate < CANDIDATES ? (double)INFINITY : box_volume(&candidate[CANDIDATES - 1]);
+        const double *normal = body->normal[view->face];
+        double u[3];
+        double v[3];
         clx_box box;
         if (view->least >= limit) {
             break;
         }
-        if (box_along(body, body->normal[view->face], view->width, limit, shadow, &box) &&
-            box_volume(&box) < limit) {
+        v3_frame(normal, u, v);
+        if (table != NULL && *n_candidate == CANDIDATES &&
+            sure * view->width * least_rectangle(table, u, v) > limit) {
+            continue;
+        }
+        if (box_along(body, normal, view->width, limit, shadow, &box) && box_volume(&box) < limit) {
             insert_box(candidate, n_candidate, &box);
         }
     }
@@ -126,19 +216,24 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_v
     clx_box candidate[CANDIDATES] = {{.edge = {0}}};
     clx_box best;
     int n_candidate = 0;
+    chord_table *table = NULL;
     CLX_TRY(clx_shadow_alloc(body, &shadow));
+    if (body->n_face > MANY_FACES) {
+        CLX_TRY(clx_alloc(&table, 1, sizeof *table));
+        fill_chords(body, table);
+    }
     box_in_frame(body, frame, &best);
-    turn_down(body, &shadow, &best);
-    boxes_on_faces(body, views, &shadow, candidate, &n_candidate);
+    turn_down(body, 0, &shadow, &best);
+    boxes_on_faces(body, views, table, &shadow, candidate, &n_candidate);
     for (int k = 0; k < n_candidate; ++k) {
-        turn_down(body, &shadow, &candidate[k]);
+        turn_down(body, 1, &shadow, &candidate[k]);
         if (box_volume(&candidate[k]) < box_volume(&best)) {
             best = candidate[k];
         }
     }
     if (body->n_face <= FEW_FACES) {
         clx_hull_body_box_on_edges(body, &best);
-        turn_down(body, &shadow, &best);
+        turn_down(body, 0, &shadow, &best);
     }
     for (int k = 0; k < 3; ++k) {
         best.edge[k] = clx_hull_body_width(body, best.axis[k]);
@@ -146,6 +241,7 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_v
     sort_edges(&best);
     *box = best;
 done:
+    clx_free(table);
     clx_shadow_free(&shadow);
     return status;
 }

@@ -3,8 +3,9 @@
 // The area is half the sum of face area times |normal . direction|; its mean over all directions is
 // a quarter of the surface (Cauchy). It is the support function of a zonotope: between the
 // directions at right angles to normals it is a fixed vector's component, so stepping to that
-// vector's direction never lowers it (a fixed-point iteration to a greatest shadow), and a least
-// one is found by a pattern search.
+// vector's direction never lowers it (a fixed-point iteration to a greatest shadow). A least one is
+// at right angles to two normals: a pattern search comes near, slides from normal to normal end
+// there exactly.
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
@@ -14,8 +15,10 @@
 
 enum { MOST_VIEWS = 2048 };
 
-static const double UPRIGHT = 1e-14; ///< cosine below which a face counts as turned down
-static const double DOUBTFUL = 1e-9; ///< cosine below which the walk along an outline gives up
+static const double UPRIGHT = 1e-14;      ///< cosine below which a face counts as turned down
+static const double ON_CIRCLE = 1e-12;    ///< cosine below which a face is at right angles
+static const double SMALL_ANGLE = 0.0004; ///< of trial directions
+static const double DOUBTFUL = 1e-9;      ///< cosine below which the walk along an outline gives up
 
 clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow)
 {
@@ -219,40 +222,145 @@ static double climb(const clx_hull_body *body, const double start[3], double n[3
     return best;
 }
 
-/// Eight trial directions at one angle around n, halving the angle when none is better.
-static double descend(const clx_hull_body *body, const double start[3])
+/// A great circle from n towards t, at right angles to it, and what each face is on it.
+typedef struct {
+    const clx_hull_body *body;
+    double n[3], t[3];
+    double (*side)[2]; ///< [n_face] normal . n and normal . t
+} circle;
+
+/// Where |side . (n + tangent t)| of a face has its kink ahead of n; INFINITY: nowhere.
+static double kink_of(const double side[2])
+{
+    const double tangent = -side[0] / side[1];
+    return fabs(side[0]) > ON_CIRCLE && tangent > 0.0 ? tangent : (double)INFINITY;
+}
+
+/// Moves n along the circle while the shadow falls: between two kinks it is a cosine, which has no
+/// least value inside, so the way ends at a kink, that of the face returned; -1: it does not fall.
+static int32_t slide(circle *c)
+{
+    const clx_hull_body *body = c->body;
+    double at_n = 0.0;
+    double at_t = 0.0;
+    double tangent = 0.0;
+    int32_t face = -1;
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        double *side = c->side[f];
+        side[0] = v3_dot(body->normal[f], c->n);
+        side[1] = v3_dot(body->normal[f], c->t);
+        const bool is_on = fabs(side[0]) <= ON_CIRCLE; // rises to both sides
+        at_n += body->area[f] * fabs(side[0]);
+        at_t += body->area[f] * (is_on ? fabs(side[1]) : copysign(1.0, side[0]) * side[1]);
+    }
+    while (at_t - at_n * tangent < -1e-12 * at_n) {
+        double next = INFINITY;
+        int32_t at = -1;
+        for (int32_t f = 0; f < body->n_face; ++f) {
+            const double kink = kink_of(c->side[f]);
+            if (kink < next && kink > tangent) {
+                next = kink;
+                at = f;
+            }
+        }
+        if (at < 0) {
+            break;
+        }
+        for (int32_t f = 0; f < body->n_face; ++f) { // several have the same, or nearly
+            const double kink = kink_of(c->side[f]);
+            if (kink > tangent && kink <= next) {
+                at_n -= 2.0 * body->area[f] * fabs(c->side[f][0]);
+                at_t += 2.0 * body->area[f] * fabs(c->side[f][1]);
+            }
+        }
+        tangent = next;
+        face = at;
+    }
+    v3_axpy(c->n, c->n, tangent, c->t);
+    (void)v3_unit(c->n, c->n);
+    return face;
+}
+
+/// Where the shadow's area falls fastest from n; zero where it does not.
+static void steepest(const clx_hull_body *body, const double n[3], double t[3])
+{
+    double sum[3] = {0};
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        v3_axpy(sum, sum, copysign(body->area[f], v3_dot(body->normal[f], n)), body->normal[f]);
+    }
+    v3_axpy(t, sum, -v3_dot(sum, n), n);
+    v3_scale(t, -1.0, t);
+    if (!v3_unit(t, t)) {
+        v3_set(t, 0.0, 0.0, 0.0);
+    }
+}
+
+/// From n down to a least shadow: first where it falls fastest, then along the circles at right
+/// angles to a face, whose crossings are where least ones lie.
+static void slide_down(const clx_hull_body *body, double n[3], double *best, double (*side)[2])
+{
+    enum { MOST = 200 };
+    circle c = {.body = body, .side = side};
+    v3_copy(c.n, n);
+    steepest(body, n, c.t);
+    int32_t face = slide(&c);
+    for (int k = 0; k < MOST && face >= 0; ++k) {
+        const int32_t on = face;
+        v3_cross(c.t, c.n, body->normal[on]);
+        if (!v3_unit(c.t, c.t)) {
+            break;
+        }
+        face = slide(&c);
+        if (face < 0) {
+            v3_scale(c.t, -1.0, c.t);
+            face = slide(&c);
+        }
+    }
+    const double area = clx_shadow_area(body, c.n);
+    if (area < *best) {
+        *best = area;
+        v3_copy(n, c.n);
+    }
+}
+
+/// The least shadow of eight directions at one angle around n, if it is less than *best.
+static bool try_around(const clx_hull_body *body, double angle, double n[3], double *best)
+{
+    double u[3];
+    double v[3];
+    double trial[CLX_DIRECTIONS][3];
+    double area[CLX_DIRECTIONS];
+    bool better = false;
+    v3_frame(n, u, v);
+    for (int k = 0; k < CLX_DIRECTIONS; ++k) {
+        const double turn = 0.25 * CLAST_PI * k;
+        v3_axpy(trial[k], n, tan(angle) * cos(turn), u);
+        v3_axpy(trial[k], trial[k], tan(angle) * sin(turn), v);
+        (void)v3_unit(trial[k], trial[k]);
+    }
+    clx_shadow_areas(body, (const double(*)[3])trial, area);
+    for (int k = 0; k < CLX_DIRECTIONS; ++k) {
+        if (area[k] < *best) {
+            *best = area[k];
+            better = true;
+            v3_copy(n, trial[k]);
+        }
+    }
+    return better;
+}
+
+/// Steps in eight directions, at smaller angles where none is better, then slides.
+static double descend(const clx_hull_body *body, const double start[3], double (*side)[2])
 {
     double n[3];
     v3_copy(n, start);
     double best = clx_shadow_area(body, n);
-    for (double angle = 0.1; angle > 1e-9;) {
-        double u[3];
-        double v[3];
-        double next[3];
-        double trial[CLX_DIRECTIONS][3];
-        double area[CLX_DIRECTIONS];
-        bool better = false;
-        v3_copy(next, n);
-        v3_frame(n, u, v);
-        for (int k = 0; k < CLX_DIRECTIONS; ++k) {
-            const double turn = 0.25 * CLAST_PI * k;
-            v3_axpy(trial[k], n, tan(angle) * cos(turn), u);
-            v3_axpy(trial[k], trial[k], tan(angle) * sin(turn), v);
-            (void)v3_unit(trial[k], trial[k]);
-        }
-        clx_shadow_areas(body, (const double(*)[3])trial, area);
-        for (int k = 0; k < CLX_DIRECTIONS; ++k) {
-            if (area[k] < best) {
-                best = area[k];
-                better = true;
-                v3_copy(next, trial[k]);
-            }
-        }
-        v3_copy(n, next);
-        if (!better) {
+    for (double angle = 0.1; angle > SMALL_ANGLE;) {
+        if (!try_around(body, angle, n, &best)) {
             angle *= 0.5;
         }
     }
+    slide_down(body, n, &best, side);
     return best;
 }
 
@@ -310,12 +418,16 @@ void clx_face_views_free(clx_face_views *views)
     *views = (clx_face_views){0};
 }
 
-void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
-                         double *least, double *greatest, double direction[3])
+clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
+                                 double axis[3][3], double *least, double *greatest,
+                                 double direction[3])
 {
+    clast_status status = CLAST_OK;
+    double(*side)[2] = NULL;
     CLAST_ASSERT(views->n > 0);
     const double *low = axis[0];
     const double *high = axis[0];
+    CLX_TRY(clx_alloc(&side, body->n_face, sizeof *side));
     *least = INFINITY;
     *greatest = 0.0;
     for (int32_t i = -3; i < views->n; ++i) {
@@ -330,6 +442,9 @@ void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
             high = n;
         }
     }
-    *least = descend(body, low);
+    *least = descend(body, low, side);
     *greatest = climb(body, high, direction);
+done:
+    clx_free(side);
+    return status;
 }

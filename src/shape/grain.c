@@ -126,8 +126,8 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
     clx_grain_sort_axes(principal);
-    clx_shadow_extremes(&body, &views, frame, &grain->projected_least, &grain->projected_greatest,
-                        lying);
+    CLX_TRY(clx_shadow_extremes(&body, &views, frame, &grain->projected_least,
+                                &grain->projected_greatest, lying));
     grain->longest = feret.longest;
     grain->shortest = feret.shortest;
     grain->hull_volume = body.volume;

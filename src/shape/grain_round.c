@@ -12,13 +12,15 @@
 #include "shape/grain.h"
 
 #include "base/status.h"
+#include "math/lanes.h"
 #include "math/vec3.h"
 #include <clast/grain.h>
 #include <clast/mesh.h>
 
 enum { MOST_DEPTH = 12 };
 
-static const double PIECE = 0.01; ///< sr
+static const double PIECE = 0.01;         ///< sr
+static const double SMALL_TANGENT = 0.02; ///< the first term left out is below 1e-18 of the sum
 
 /// A triangle with its corners' distances from the origin.
 typedef struct {
@@ -29,8 +31,7 @@ typedef struct {
 /// 2 atan2(y, x); for small angles by the series, which is as good and five times as fast.
 static double twice_angle(double y, double x)
 {
-    const double small = 0.02; // the first term left out is below 1e-18 of the sum
-    if (x > 0.0 && fabs(y) < small * x) {
+    if (x > 0.0 && fabs(y) < SMALL_TANGENT * x) {
         const double t = y / x;
         const double t2 = t * t;
         return 2.0 * t *
@@ -102,37 +103,112 @@ static double length_in_map(const unit_map *m, const double p[3])
     return v3_norm(x);
 }
 
-static void add_angular(const unit_map *m, const facet *f, double signed_angle, int depth,
-                        double sum[2]);
+/// The four quarters of a triangle side by side: a corner each with the middles of its sides, and
+/// the middles.
+typedef struct {
+    clx_lanes p[3][3];
+    clx_lanes r[3];
+} quarters;
 
-/// The same for the four quarters.
+CLX_INLINE clx_lanes dot_lanes(const clx_lanes a[3], const clx_lanes b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Corner k of each quarter, and the last corner's distance.
+CLX_INLINE void set_quarters(const facet *f, quarters *q)
+{
+    double middle[3][3];
+    double r[3];
+    for (int k = 0; k < 3; ++k) {
+        v3_add(middle[k], f->p[k], f->p[(k + 1) % 3]);
+        v3_scale(middle[k], 0.5, middle[k]);
+        r[k] = v3_norm(middle[k]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        q->p[0][i] = (clx_lanes){f->p[0][i], f->p[1][i], f->p[2][i], middle[0][i]};
+        q->p[1][i] = (clx_lanes){middle[0][i], middle[1][i], middle[2][i], middle[1][i]};
+        q->p[2][i] = (clx_lanes){middle[2][i], middle[0][i], middle[1][i], middle[2][i]};
+    }
+    q->r[0] = (clx_lanes){f->r[0], f->r[1], f->r[2], r[0]};
+    q->r[1] = (clx_lanes){r[0], r[1], r[2], r[1]};
+    q->r[2] = (clx_lanes){r[2], r[0], r[1], r[2]};
+}
+
+/// solid_angle() of the quarters, without signs, and |r - r_e| / r_e in their middles.
+CLX_FOR_EACH_MACHINE
+static void measure_quarters(const unit_map *m, const facet *f, double angle[4], double off[4])
+{
+    quarters q;
+    clx_lanes n[3];
+    clx_lanes middle[3];
+    clx_lanes x[3];
+    set_quarters(f, &q);
+    const clx_lanes *a = q.p[0];
+    const clx_lanes *b = q.p[1];
+    const clx_lanes *c = q.p[2];
+    n[0] = b[1] * c[2] - b[2] * c[1];
+    n[1] = b[2] * c[0] - b[0] * c[2];
+    n[2] = b[0] * c[1] - b[1] * c[0];
+    const clx_lanes below = q.r[0] * q.r[1] * q.r[2] + dot_lanes(a, b) * q.r[2] +
+                            dot_lanes(b, c) * q.r[0] + dot_lanes(c, a) * q.r[1];
+    const clx_lanes above = dot_lanes(a, n);
+    for (int i = 0; i < 3; ++i) {
+        middle[i] = (a[i] + b[i] + c[i]) / 3.0;
+    }
+    for (int i = 0; i < 3; ++i) {
+        x[i] = middle[0] * m->row[i][0] + middle[1] * m->row[i][1] + middle[2] * m->row[i][2];
+    }
+    const clx_lanes t = above / below;
+    const clx_lanes t2 = t * t;
+    lanes_store(angle,
+                lanes_size(2.0 * t *
+                           (1.0 - t2 * (1.0 / 3.0 -
+                                        t2 * (1.0 / 5.0 - t2 * (1.0 / 7.0 - t2 * (1.0 / 9.0)))))));
+    lanes_store(off, lanes_size(lanes_root(dot_lanes(x, x)) - 1.0));
+    for (int k = 0; k < 4; ++k) {
+        if (!(below[k] > 0.0 && fabs(above[k]) < SMALL_TANGENT * below[k])) {
+            angle[k] = fabs(2.0 * atan2(above[k], below[k]));
+        }
+    }
+}
+
+static facet quarter_of(const facet *f, int k)
+{
+    quarters q;
+    facet one;
+    set_quarters(f, &q);
+    for (int c = 0; c < 3; ++c) {
+        v3_set(one.p[c], q.p[c][0][k], q.p[c][1][k], q.p[c][2][k]);
+        one.r[c] = q.r[c][k];
+    }
+    return one;
+}
+
+/// Adds |r - r_e| / r_e times solid angle, and the solid angle, for a triangle's quarters.
 static void add_quarters(const unit_map *m, const facet *f, int depth, double sum[2])
 {
     CLAST_ASSERT(depth >= 0 && depth <= MOST_DEPTH);
-    facet middle;
-    for (int k = 0; k < 3; ++k) {
-        v3_add(middle.p[k], f->p[k], f->p[(k + 1) % 3]);
-        v3_scale(middle.p[k], 0.5, middle.p[k]);
-        middle.r[k] = v3_norm(middle.p[k]);
+    double angle[4];
+    double off[4];
+    measure_quarters(m, f, angle, off);
+    for (int k = 0; k < 4; ++k) {
+        if (angle[k] > PIECE && depth < MOST_DEPTH) {
+            const facet one = quarter_of(f, k);
+            add_quarters(m, &one, depth + 1, sum);
+        } else {
+            sum[0] += angle[k] * off[k];
+            sum[1] += angle[k];
+        }
     }
-    for (int k = 0; k < 3; ++k) {
-        facet corner;
-        v3_copy(corner.p[0], f->p[k]);
-        v3_copy(corner.p[1], middle.p[k]);
-        v3_copy(corner.p[2], middle.p[(k + 2) % 3]);
-        v3_set(corner.r, f->r[k], middle.r[k], middle.r[(k + 2) % 3]);
-        add_angular(m, &corner, solid_angle(&corner), depth, sum);
-    }
-    add_angular(m, &middle, solid_angle(&middle), depth, sum);
 }
 
-/// Adds |r - r_e| / r_e times solid angle, and the solid angle, for one triangle.
-static void add_angular(const unit_map *m, const facet *f, double signed_angle, int depth,
-                        double sum[2])
+/// The same for one triangle of this solid angle.
+static void add_angular(const unit_map *m, const facet *f, double signed_angle, double sum[2])
 {
     const double angle = fabs(signed_angle);
-    if (angle > PIECE && depth < MOST_DEPTH) {
-        add_quarters(m, f, depth + 1, sum);
+    if (angle > PIECE) {
+        add_quarters(m, f, 1, sum);
         return;
     }
     double middle[3];
@@ -156,7 +232,7 @@ void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
         }
         const double angle = solid_angle(&f);
         cosine += cosine_integral(&f, angle);
-        add_angular(&map, &f, angle, 0, sum);
+        add_angular(&map, &f, angle, sum);
     }
     grain->normal_roundness = cosine / grain->area;
     grain->angularity = sum[0] / sum[1];

@@ -157,12 +157,78 @@ static void directions_at_once_equal_one_by_one(void **state)
     clast_mesh_free(&points);
 }
 
+/* Between two directions at right angles to normals a shadow is a cosine, so a least one is at
+   right angles to two of them. A pattern search alone stopped 1e-9 beside it. */
+static void a_least_shadow_is_along_two_faces(void **state)
+{
+    (void)state;
+    double frame[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    for (uint64_t seed = 0; seed < 8; ++seed) {
+        clast_mesh points = {0};
+        clx_hull_body body = {0};
+        clx_face_views views = {0};
+        double least = 0.0;
+        double greatest = 0.0;
+        double direction[3];
+        double nearest = (double)INFINITY;
+        make_points(seed, 8 + 8 * (int32_t)seed, &points);
+        CHECK_OK(clx_hull_body_make(&points, &body));
+        CHECK_OK(clx_face_views_make(&body, &views));
+        CHECK_OK(clx_shadow_extremes(&body, &views, frame, &least, &greatest, direction));
+        for (int32_t f = 0; f < body.n_face; ++f) {
+            for (int32_t g = 0; g < f; ++g) {
+                double along[3];
+                v3_cross(along, body.normal[f], body.normal[g]);
+                if (v3_unit(along, along)) {
+                    nearest = fmin(nearest, fabs(clx_shadow_area(&body, along) - least));
+                }
+            }
+        }
+        assert_true(nearest < 1e-14 * greatest);
+        clx_face_views_free(&views);
+        clx_hull_body_free(&body);
+        clast_mesh_free(&points);
+    }
+}
+
+/* Hundreds of faces, most of which need no shadow: none of those left out has a smaller box. */
+static void the_least_box_is_no_larger_than_on_any_face(void **state)
+{
+    (void)state;
+    double frame[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    for (uint64_t seed = 0; seed < 6; ++seed) {
+        clast_mesh points = {0};
+        clx_hull_body body = {0};
+        clx_face_views views = {0};
+        clx_shadow shadow = {0};
+        clx_box box;
+        double least = (double)INFINITY;
+        make_points(seed, 70 + 60 * (int32_t)seed, &points);
+        CHECK_OK(clx_hull_body_make(&points, &body));
+        CHECK_OK(clx_face_views_make(&body, &views));
+        CHECK_OK(clx_shadow_alloc(&body, &shadow));
+        CHECK_OK(clx_hull_body_least_box(&body, &views, frame, &box));
+        for (int32_t f = 0; f < body.n_face; ++f) {
+            clx_shadow_cast(&body, body.normal[f], &shadow);
+            least =
+                fmin(least, clx_hull_body_width(&body, body.normal[f]) * brute_rectangle(&shadow));
+        }
+        assert_true(box.edge[0] * box.edge[1] * box.edge[2] <= (1.0 + 1e-12) * least);
+        clx_shadow_free(&shadow);
+        clx_face_views_free(&views);
+        clx_hull_body_free(&body);
+        clast_mesh_free(&points);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shadows_equal_brute_force),
         cmocka_unit_test(shadows_of_regular_bodies_equal_brute_force),
         cmocka_unit_test(directions_at_once_equal_one_by_one),
+        cmocka_unit_test(a_least_shadow_is_along_two_faces),
+        cmocka_unit_test(the_least_box_is_no_larger_than_on_any_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
