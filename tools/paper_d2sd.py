@@ -455,6 +455,8 @@ def matrix_again(rows, again):
         name, was = row_words(of[row_name(r)]).split(": ", 1)
         lines.append(f"| {name} | {was} | {row_words(r).split(': ', 1)[1]} | {bias:.3g} | {cover:.3g} |")
     stays = [row_words(r).split(":")[0] for r, bias, cover in judged if min(bias, cover) < 0.05 / n_row]
+    due = [" ".join(row_name(r)[:3]) + f" n = {r['n']}" for r in rows if is_suspicious(r) and row_name(r) not in map(row_name, again)]
+    lines += ["", f"Not made again yet: {', '.join(due)}."] if due else []
     return lines + ["", f"What stays (p < 0.05 / {n_row}): {', '.join(stays) or 'none'}."]
 
 
