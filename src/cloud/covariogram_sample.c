@@ -35,15 +35,30 @@ typedef struct {
 } sampler;
 
 /// Numbers of the generalised golden ratio: the sequence frac(shift + k g^-j). [Roberts2018]
-static void quasi(int64_t shift, int64_t k, int n, double *u)
+typedef struct {
+    int n;
+    double shift[7], step[7];
+} sequence;
+
+static sequence sequence_at(int64_t shift, int n)
 {
     // roots of x^(n+1) = x + 1, n = 4 and 7
     const double base = n == 4 ? 1.1673039782614187 : 1.0969815577985598;
     clx_rng rng = clx_rng_at(0, CLX_STREAM_COVARIOGRAM, (uint64_t)shift);
+    sequence q = {.n = n};
     double step = 1.0;
     for (int j = 0; j < n; ++j) {
-        step /= base;
-        u[j] = fmod(clx_rng_uniform(&rng) + (double)k * step, 1.0);
+        q.shift[j] = clx_rng_uniform(&rng);
+        q.step[j] = step /= base;
+    }
+    return q;
+}
+
+static void quasi(const sequence *q, int64_t k, double *u)
+{
+    for (int j = 0; j < q->n; ++j) {
+        const double at = q->shift[j] + (double)k * q->step[j];
+        u[j] = at - floor(at);
     }
 }
 
@@ -269,10 +284,11 @@ static void sample_block(int64_t begin, int64_t end, int32_t worker, void *conte
     const sampler *s = context;
     (void)worker;
     for (int64_t block = begin; block < end; ++block) {
+        const bool is_map = s->domain->kind == CLAST_DOMAIN_MAP;
+        const sequence q = sequence_at(block / N_BLOCK, is_map ? 7 : 4);
         for (int64_t k = 0; k < BLOCK; ++k) {
             double u[7];
-            const bool is_map = s->domain->kind == CLAST_DOMAIN_MAP;
-            quasi(block / N_BLOCK, block % N_BLOCK * BLOCK + k, is_map ? 7 : 4, u);
+            quasi(&q, block % N_BLOCK * BLOCK + k, u);
             if (is_map) {
                 add_point(s, u, s->sum + block * (s->n + 1));
             } else {

@@ -84,8 +84,9 @@ int clx_triangle_crossing(double corner[3][3], const double point[3], bool *is_o
     const bool front =
         point[1] < corner[0][1] && point[1] < corner[1][1] && point[1] < corner[2][1];
     const bool back = point[1] > corner[0][1] && point[1] > corner[1][1] && point[1] > corner[2][1];
-    if (left || right || front || back) {
-        return 0; // seen from above, the point is beside the triangle's box
+    const bool over = point[2] > corner[0][2] && point[2] > corner[1][2] && point[2] > corner[2][2];
+    if (left || right || front || back || over) {
+        return 0; // the ray, seen from above, runs beside the triangle's box, or begins over it
     }
     *is_on = is_on_triangle(corner, point);
     return *is_on ? 0 : crossing(corner, point);
@@ -111,11 +112,10 @@ static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool
             continue;
         }
         for (int32_t i = node->first; i < node->first + node->count; ++i) {
-            if (is_on_triangle(bvh->corner[i], point)) {
-                *is_on_surface = true;
+            sum += clx_triangle_crossing(bvh->corner[i], point, is_on_surface);
+            if (*is_on_surface) {
                 return 0;
             }
-            sum += crossing(bvh->corner[i], point);
         }
     }
     return sum;

@@ -320,7 +320,7 @@ static void make_flow(int32_t d, flow_mode mode[N_MODE])
 static void advect(const flow_mode mode[N_MODE], int32_t d, double *x)
 {
     const double dt = 0.02;
-    const double relax = 0.06;
+    const double kept = exp(-dt / 0.06); // of the velocity's difference, in a step
     double v[3] = {0};
     for (int step = 0; step < N_STEP; ++step) {
         double u[3] = {0};
@@ -335,25 +335,25 @@ static void advect(const flow_mode mode[N_MODE], int32_t d, double *x)
             }
         }
         for (int32_t j = 0; j < d; ++j) {
-            v[j] = step == 0 ? u[j] : u[j] + (v[j] - u[j]) * exp(-dt / relax);
+            v[j] = step == 0 ? u[j] : u[j] + (v[j] - u[j]) * kept;
             x[j] += v[j] * dt;
             x[j] -= floor(x[j]);
         }
     }
 }
 
-/// Density of the pool's points i and j met after smoothing, times the chance that they meet inside
-/// the place (one draw; with no edge it is certain).
-static double met(const density_scene *s, int64_t i, int64_t j)
+/// Of points at p and q, number i and j of the pool, met after smoothing: exp(-r^2 / (4 size^2))
+/// times the chance that they meet inside the place (one draw; with no edge it is certain).
+static double met(const density_scene *s, const double *p, const double *q, int64_t i, int64_t j)
 {
     const double var = 2.0 * s->density->size * s->density->size;
     double r2 = 0.0;
     double at[3];
     for (int32_t k = 0; k < s->dimension; ++k) {
-        const double off = s->pool[i * s->dimension + k] - s->pool[j * s->dimension + k];
-        const double near = off - round(off);
+        const double off = p[k] - q[k];
+        const double near = off > 0.5 ? off - 1.0 : off < -0.5 ? off + 1.0 : off;
         r2 += near * near;
-        at[k] = s->pool[j * s->dimension + k] + 0.5 * near;
+        at[k] = q[k] + 0.5 * near;
     }
     if (r2 > 25.0 * var) {
         return 0.0;
@@ -363,9 +363,7 @@ static double met(const density_scene *s, int64_t i, int64_t j)
         at[k] += 0.5 * sqrt(var) * clx_rng_normal(&rng);
         at[k] -= floor(at[k]);
     }
-    return is_inside(s->place, at)
-               ? exp(-0.5 * r2 / var) * pow(2.0 * CLAST_PI * var, -0.5 * s->dimension)
-               : 0.0;
+    return is_inside(s->place, at) ? exp(-0.5 * r2 / var) : 0.0;
 }
 
 enum {
@@ -396,28 +394,12 @@ static int64_t beside(int64_t cell, int32_t d, int neighbour)
     return c;
 }
 
-/// Integral of the squared density of the pool's smoothed points: all pairs, each with itself too.
-static clast_status pool_integral(const density_scene *s, double *integral)
+/// The share of the pool's smoothed points that is inside the place, by 8 draws each, times n_pool.
+static double count_inside(const density_scene *s)
 {
-    clast_status status = CLAST_OK;
     const int32_t d = s->dimension;
-    const int n_cell = d == 2 ? SIDE * SIDE : SIDE * SIDE * SIDE;
-    int64_t *begin = NULL;
-    int64_t *item = NULL;
-    double sum = 0.0;
     double inside = 0.0;
-    CLX_TRY(clx_alloc(&begin, n_cell + 2, sizeof *begin));
-    CLX_TRY(clx_alloc(&item, s->n_pool, sizeof *item));
-    for (int64_t i = 0; i < s->n_pool; ++i) {
-        ++begin[cell_of(s->pool + i * d, d) + 2];
-    }
-    for (int c = 1; c <= n_cell; ++c) {
-        begin[c + 1] += begin[c];
-    }
-    for (int64_t i = 0; i < s->n_pool; ++i) {
-        item[begin[cell_of(s->pool + i * d, d) + 1]++] = i;
-    }
-    for (int64_t i = 0; i < s->n_pool; ++i) {
+    for (int64_t i = 0; i < s->n_pool && s->place == PLACE_CYLINDER; ++i) {
         clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, (uint64_t)i);
         for (int k = 0; k < 8; ++k) {
             double p[3];
@@ -427,18 +409,53 @@ static clast_status pool_integral(const density_scene *s, double *integral)
             }
             inside += is_inside(s->place, p) ? 0.125 : 0.0;
         }
-        const int64_t own = cell_of(s->pool + i * d, d);
+    }
+    return s->place == PLACE_CYLINDER ? inside : (double)s->n_pool;
+}
+
+/// Integral of the squared density of the pool's smoothed points: all pairs, each with itself too.
+static clast_status pool_integral(const density_scene *s, double *integral)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = s->dimension;
+    const int n_cell = d == 2 ? SIDE * SIDE : SIDE * SIDE * SIDE;
+    const bool is_both = s->place == PLACE_CYLINDER; // two draws a pair
+    int64_t *begin = NULL;
+    int64_t *item = NULL;
+    double *x = NULL; // by cells
+    double sum = 0.0;
+    CLX_TRY(clx_alloc(&begin, n_cell + 2, sizeof *begin));
+    CLX_TRY(clx_alloc(&item, s->n_pool, sizeof *item));
+    CLX_TRY(clx_alloc(&x, s->n_pool * d, sizeof *x));
+    for (int64_t i = 0; i < s->n_pool; ++i) {
+        ++begin[cell_of(s->pool + i * d, d) + 2];
+    }
+    for (int c = 1; c <= n_cell; ++c) {
+        begin[c + 1] += begin[c];
+    }
+    for (int64_t i = 0; i < s->n_pool; ++i) {
+        const int64_t m = begin[cell_of(s->pool + i * d, d) + 1]++;
+        item[m] = i;
+        memcpy(x + m * d, s->pool + i * d, (size_t)d * sizeof *x);
+    }
+    for (int64_t i = 0; i < s->n_pool; ++i) {
+        const int64_t own = cell_of(x + i * d, d);
+        double others = 0.0;
         for (int k = 0; k < (d == 2 ? 9 : 27); ++k) {
             const int64_t c = beside(own, d, k);
-            for (int64_t m = begin[c]; m < begin[c + 1]; ++m) {
-                sum += met(s, i, item[m]);
+            for (int64_t m = is_both || begin[c] > i ? begin[c] : i + 1; m < begin[c + 1]; ++m) {
+                others += m == i ? 0.0 : met(s, x + i * d, x + m * d, item[i], item[m]);
             }
         }
+        sum += (is_both ? 1.0 : 2.0) * others + met(s, x + i * d, x + i * d, item[i], item[i]);
     }
-    *integral = sum / (inside * inside);
+    const double inside = count_inside(s);
+    *integral = sum * pow(4.0 * CLAST_PI * s->density->size * s->density->size, -0.5 * d) /
+                (inside * inside);
 done:
     clx_free(begin);
     clx_free(item);
+    clx_free(x);
     return status;
 }
 
