@@ -195,12 +195,12 @@ static void compare(const scene *s)
         clx_rng rng = clx_rng_at(12, CLX_STREAM_TEST, (uint64_t)i);
         place(i, d, whole.x + i * d);
         if (s->is_weighted) {
-            whole.weight[i] = exp(2.0 * clx_rng_normal(&rng));
+            whole.weight[i] = exp(0.7 * clx_rng_normal(&rng));
         }
     }
     make_domain(s->domain, &space);
     CHECK_OK(clast_decompose_in(&space, &whole, &j.config, &expected));
-    assert_true(expected.cells.n > (s->is_weighted ? 1 : 100));
+    assert_in_range(expected.cells.n, 8, MANY);
     for (j.deal = 0; j.deal < N_DEAL; j.deal += s->domain == cube ? 1 : 2) {
         support_run_ranks(2 + j.deal % (MOST_RANKS - 1), decompose_part, &j);
     }
@@ -224,7 +224,7 @@ static void a_square_is_the_same_bytes(void **state)
     compare(&(scene){"box:0,0,1,1", 2, false, true, CLAST_CELLS_AUTO});
 }
 
-/// Parcels whose weights spread over four decades: those tested, the sums of weights and of pairs.
+/// Parcels whose weights spread over two decades: those tested, the sums of weights and of pairs.
 static void weights_are_the_same_bytes(void **state)
 {
     (void)state;
