@@ -368,9 +368,9 @@ CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const c
 ///
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param cloud  the points of this rank
-/// @return on several ranks CLAST_E_CONFIG for what one process alone does: a mesh as domain,
-/// weights, a variable, ghost samples, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
-/// than 200,000 points. The status is the same on every rank, and an error names the rank
+/// @return on several ranks CLAST_E_CONFIG for what one process alone does: a variable, ghost
+/// samples, cross-fitting; CLAST_E_ARGUMENT where points of some ranks have weights and of others
+/// none. The status is the same on every rank, and an error names the rank
 /// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
 CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
                                              const clast_cloud *cloud,

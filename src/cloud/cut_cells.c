@@ -2,9 +2,11 @@
 #include "cloud/cut_cells.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/parallel.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
+#include <clast/machine.h>
 #include <math.h>
 
 static double box_volume(const clast_domain *domain)
@@ -106,18 +108,25 @@ static clast_status leave_out_empty(const clx_sample *m, clast_cells *cells)
 {
     clast_status status = CLAST_OK;
     int32_t *number = NULL;
+    int64_t *moved = NULL; // points that a cell gets, less those that it loses
     int32_t n = 0;
-    CLX_TRY(clx_alloc(&number, cells->n, sizeof *number));
+    status = clx_alloc(&number, cells->n, sizeof *number);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&moved, cells->n, sizeof *moved);
+    }
+    CLX_TRY(clast_comm_agree(m->comm, status, NULL));
     for (int64_t i = 0; i < m->n; ++i) { // points on the surface
         const int32_t c = m->number[i] >= 0 ? cells->of_point[m->number[i]] : -1;
         if (c >= 0 && !(cells->volume[c] > 0.0)) {
             const int32_t other = nearest_cell(cells, m->u + 3 * i);
             cells->of_point[m->number[i]] = other;
-            --cells->count[c];
-            ++cells->count[other];
+            --moved[c];
+            ++moved[other];
         }
     }
+    clx_comm_sum(m->comm, moved, cells->n);
     for (int32_t c = 0; c < cells->n; ++c) {
+        cells->count[c] += moved[c];
         number[c] = cells->volume[c] > 0.0 ? n : -1;
         if (number[c] >= 0) {
             move_cell(cells, c, n++);
@@ -135,6 +144,7 @@ static clast_status leave_out_empty(const clx_sample *m, clast_cells *cells)
     }
 done:
     clx_free(number);
+    clx_free(moved);
     return status;
 }
 
@@ -147,7 +157,7 @@ clast_status clx_cells_cut(const clx_sample *sample, clast_cells *cells)
         return CLAST_OK;
     }
     if (cells->of_bin != NULL) {
-        CLX_TRY(cut_bins(sample->domain, cells));
+        CLX_TRY(clast_comm_agree(sample->comm, cut_bins(sample->domain, cells), NULL));
     } else {
         clx_parallel_for(cells->n, 16, cut_boxes, &context);
     }

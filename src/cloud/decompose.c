@@ -575,17 +575,30 @@ done:
     return status;
 }
 
+/// Whether the points of all ranks have weights; `none` stands for those of a rank without points.
+static clast_status agree_on_weights(const clast_comm *comm, double *none, clast_cloud *cloud)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n = clx_comm_total(comm, cloud->n);
+    const int64_t n_with = clx_comm_total(comm, cloud->weight != NULL ? cloud->n : 0);
+    CLX_CHECK(n_with == 0 || n_with == n, CLAST_E_ARGUMENT,
+              "%lld of %lld points have weights: some ranks give them, others do not",
+              (long long)n_with, (long long)n);
+    if (comm->n_rank > 1) {
+        cloud->weight = n_with == 0 ? NULL : cloud->weight != NULL ? cloud->weight : none;
+    }
+done:
+    return status;
+}
+
 /// What needs all points in one place, or sums whose order is that of the points.
-static clast_status check_ranks(const clast_domain *domain, const clast_cloud *cloud,
-                                const clast_decompose_config *config)
+static clast_status check_ranks(const clast_cloud *cloud, const clast_decompose_config *config)
 {
     clast_status status = CLAST_OK;
     const struct {
         bool is_asked;
         const char *what;
-    } single[] = {{domain->kind == CLAST_DOMAIN_MESH, "a mesh as domain"},
-                  {cloud->weight != NULL, "weights"},
-                  {cloud->variable != NULL, "a variable"},
+    } single[] = {{cloud->variable != NULL, "a variable"},
                   {config->ghost_samples > 0, "expected scores by sampling (--ghost-samples)"},
                   {config->crossfit, "cross-fitting"}};
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
@@ -604,7 +617,7 @@ static clast_status check_call(const clast_comm *comm, const clast_domain *domai
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
     CLX_TRY(clx_decompose_check(domain, cloud, config));
     if (comm->n_rank > 1) {
-        CLX_TRY(check_ranks(domain, cloud, config));
+        CLX_TRY(check_ranks(cloud, config));
     }
 done:
     return status;
@@ -619,12 +632,16 @@ clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *d
     const clast_comm *all = clx_comm_or_one(comm);
     clast_decomposition made = {0};
     clx_sample m = {0};
+    clast_cloud own;
+    double none = 1.0;
     CLX_NEED(result);
     CLX_TRY(clast_comm_agree(all, check_call(all, domain, cloud, config), NULL));
-    CLX_TRY(clx_sample_make(all, cloud, config, domain, &m));
+    own = *cloud;
+    CLX_TRY(agree_on_weights(all, &none, &own));
+    CLX_TRY(clx_sample_make(all, &own, config, domain, &m));
     CLX_TRY(clx_decompose_test(&m, config, &made.before));
-    CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
-    CLX_TRY(clx_decompose_events(cloud, &m, config, NULL, &made));
+    CLX_TRY(clx_decompose_cells(&own, &m, config, &made));
+    CLX_TRY(clx_decompose_events(&own, &m, config, NULL, &made));
     *result = made;
     made = (clast_decomposition){0};
 done:

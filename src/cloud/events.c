@@ -10,6 +10,7 @@
 #include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
+#include "math/fixed_sum.h"
 #include <clast/machine.h>
 #include <math.h>
 #include <string.h>
@@ -45,15 +46,6 @@ typedef struct {
     bool is_certified; ///< by the resolution: no error is added for what was extrapolated
 } count;
 
-static void add_weight(part *p, double w)
-{
-    double power = w;
-    for (int k = 0; k < N_POWER; ++k) {
-        p->power[k] += power;
-        power *= w;
-    }
-}
-
 /// Index among the halved cells, -1 for the others.
 static int32_t halved(const clast_cells *cells, int32_t c)
 {
@@ -71,62 +63,77 @@ static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t
     return half;
 }
 
-/// Makes halves of the cells hold the points of all ranks, which have no weights.
-static clast_status add_ranks(count *n)
+/// Sums of powers of weights, in integers, of the cells and behind them of the halves.
+typedef struct {
+    clx_fixed_scale scale;
+    clx_fixed_sum (*power)[N_POWER];
+    int64_t n;
+} weight_sums;
+
+static void add_point(const count *n, int64_t i, const weight_sums *sums)
 {
-    clast_status status = CLAST_OK;
-    int64_t *points = NULL;
-    if (n->sample->comm->n_rank > 1) {
-        CLX_TRY(
-            clast_comm_agree(n->sample->comm, clx_alloc(&points, n->n_half, sizeof *points), NULL));
-        for (int64_t h = 0; h < n->n_half; ++h) {
-            points[h] = (int64_t)n->half[h].power[0];
-        }
-        clx_comm_sum(n->sample->comm, points, n->n_half);
-        for (int64_t h = 0; h < n->n_half; ++h) {
-            for (int k = 0; k < N_POWER; ++k) {
-                n->half[h].power[k] = (double)points[h];
-            }
+    const clx_sample *m = n->sample;
+    const int32_t d = n->cloud->dimension;
+    const int64_t number = clx_sample_number(m, i);
+    double held[3];
+    clx_fixed_sum power[N_POWER];
+    if (number < 0) {
+        return;
+    }
+    const int32_t c = n->cells->of_point[number];
+    const int32_t k = halved(n->cells, c);
+    if (k < 0 && n->cloud->weight == NULL) { // counted already
+        return;
+    }
+    const double w = n->cloud->weight != NULL ? n->cloud->weight[number] : 1.0;
+    clx_fixed_powers(&sums->scale, w, N_POWER, power);
+    for (int j = 0; j < N_POWER; ++j) {
+        clx_fixed_add(&sums->power[c][j], &power[j]);
+    }
+    if (k >= 0) {
+        const int64_t h = k << d | half_of(n->cells, c, clx_sample_point(m, i, held), d);
+        for (int j = 0; j < N_POWER; ++j) {
+            clx_fixed_add(&sums->power[n->cells->n + h][j], &power[j]);
         }
     }
-done:
-    clx_free(points);
-    return status;
+}
+
+/// Gives a part what all ranks added.
+static void set_part(const weight_sums *sums, int64_t at, part *p)
+{
+    for (int k = 0; k < N_POWER; ++k) {
+        p->power[k] = clx_fixed_value(&sums->scale, &sums->power[at][k], k + 1);
+    }
 }
 
 static clast_status fill_parts(count *n)
 {
     clast_status status = CLAST_OK;
     const clx_sample *m = n->sample;
-    const int32_t d = n->cloud->dimension;
-    double held[3];
-    for (int64_t i = 0; i < m->n; ++i) {
-        const int64_t number = clx_sample_number(m, i);
-        if (number < 0) {
-            continue;
-        }
-        const int32_t c = n->cells->of_point[number];
-        const double w = n->cloud->weight != NULL ? n->cloud->weight[number] : 1.0;
-        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0", (long long)number + 1,
-                  w);
-        const int32_t k = halved(n->cells, c);
-        if (k >= 0) {
-            add_weight(&n->half[k << d | half_of(n->cells, c, clx_sample_point(m, i, held), d)], w);
-        }
-        if (n->cloud->weight != NULL) {
-            add_weight(&n->cell[c], w);
-        }
+    const bool is_weighted = n->cloud->weight != NULL;
+    weight_sums sums = {.n = n->cells->n + n->n_half};
+    CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&sums.power, sums.n, sizeof *sums.power), NULL));
+    sums.scale = clx_sample_scale(m, n->cloud->weight);
+    for (int64_t i = 0; i < m->n && (is_weighted || n->n_half > 0); ++i) {
+        add_point(n, i, &sums);
     }
-    CLX_TRY(add_ranks(n));
+    const int64_t n_word = (int64_t)(sizeof *sums.power / sizeof(clx_fixed_sum)) * 2;
+    clx_comm_sum(m->comm, sums.power[0][0].word, sums.n * n_word);
+    for (int64_t h = 0; h < n->n_half; ++h) {
+        set_part(&sums, n->cells->n + h, &n->half[h]);
+    }
     for (int32_t c = 0; c < n->cells->n; ++c) {
         n->cell[c].volume = n->scale * n->cells->volume[c];
-        for (int k = 0; k < N_POWER && n->cloud->weight == NULL; ++k) {
+        for (int k = 0; k < N_POWER; ++k) {
             n->cell[c].power[k] = (double)n->cells->count[c];
+        }
+        if (is_weighted) {
+            set_part(&sums, c, &n->cell[c]);
         }
         n->cells->weight[c] = n->cell[c].power[0];
     }
 done:
+    clx_free(sums.power);
     return status;
 }
 
@@ -441,7 +448,7 @@ static bool carry_over(const clx_shown *cached, const clx_ladder *ladder, clx_re
 {
     const clx_counted *last = &cached->counted;
     const double factor =
-        cached->may_carry && last->is_known ? clx_ladder_change(&last->ladder, ladder) : 0.0;
+        cached->may_carry && last->is_known ? clx_resolution_change(&last->ladder, ladder) : 0.0;
     if (!(factor <= most_carried && factor * most_carried >= 1.0)) {
         return false;
     }

@@ -17,6 +17,7 @@
 #include "base/parallel.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
+#include "math/fixed_sum.h"
 #include "math/morton.h"
 #include "math/sort.h"
 
@@ -28,9 +29,6 @@ enum { N_SHIFT = 5, DEEPEST = 18, POINTS_A_BLOCK = 16384, AHEAD = 16 };
 
 /// A rung needs so many pairs beside those of repeated points: less say nothing.
 static const double least_pairs = 4.0;
-
-/// A change of a rung is looked at where it has so many.
-static const double enough_pairs = 500.0;
 
 /// Cells that the border cuts to less than this part are taken as so large: a pair in a corner's
 /// sliver would weigh 125 times as much as others, and the sum stays a lower bound.
@@ -48,6 +46,12 @@ typedef struct {
     double u[3], own;
 } sampled;
 
+/// Points, and sums of their weights to the powers 1, 2, 4, in integers: they know no order.
+typedef struct {
+    int64_t n;
+    clx_fixed_sum power[3];
+} totals;
+
 typedef struct {
     const clx_sample *sample;
     const clast_comm *comm;
@@ -56,9 +60,10 @@ typedef struct {
     double width[DEEPEST + 2]; ///< of a cell by its depth
     double least[DEEPEST + 2]; ///< volume that it is given at least
     double shift[3];
-    clx_ranked point;   ///< codes in the order of the grid
-    double *own;        ///< [n] weights in that order, or NULL (1)
-    int64_t *shared;    ///< [DEEPEST + 2][n_rank] points of the cell that holds point.first[k]
+    clx_ranked point; ///< codes in the order of the grid; items: bits of the points' weights
+    clx_fixed_scale scale;
+    totals *before;     ///< [n + 1] of the points before each in that order, or NULL (weights 1)
+    totals *shared;     ///< [DEEPEST + 2][n_rank] of the cell that holds point.first[k]
     int64_t n_all;      ///< real points on all ranks
     sampled *some;      ///< [n_some] along the curve of grid 0
     clx_keyed *in_grid; ///< [n_some] their codes in the grid, ascending; items: places in `some`
@@ -81,6 +86,7 @@ typedef struct {
 typedef struct {
     int64_t begin, end; ///< points here
     int64_t n;          ///< points on all ranks
+    const totals *all;  ///< of all ranks, where a border between them cuts the cell; or NULL
     int depth;          ///< halvings of the doubled cube
     uint64_t low;       ///< its first code
     int64_t at[3];      ///< its number along each axis
@@ -115,19 +121,30 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
     return volume > least ? volume : least;
 }
 
+/// Of the points [begin, end) of this rank.
+static totals totals_between(const ladder_walk *w, int64_t begin, int64_t end)
+{
+    totals sum = {.n = end - begin};
+    for (int k = 0; k < 3 && w->before != NULL; ++k) {
+        for (int word = 0; word < 2; ++word) {
+            sum.power[k].word[word] =
+                w->before[end].power[k].word[word] - w->before[begin].power[k].word[word];
+        }
+    }
+    return sum;
+}
+
 /// Adds a cell to its rung r.
 static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
 {
     CLAST_ASSERT(cell->begin <= cell->end && r >= 0);
     const double n = (double)cell->n;
     double power[3] = {n, n, n}; // sums of w, w^2, w^4
-    if (w->own != NULL) {
-        memset(power, 0, sizeof power);
-        for (int64_t i = cell->begin; i < cell->end; ++i) {
-            const double own = w->own[i];
-            power[0] += own;
-            power[1] += own * own;
-            power[2] += own * own * own * own;
+    if (w->before != NULL) {
+        const totals here = totals_between(w, cell->begin, cell->end);
+        const totals *all = cell->all != NULL ? cell->all : &here;
+        for (int k = 0; k < 3; ++k) {
+            power[k] = clx_fixed_value(&w->scale, &all->power[k], 1 << k);
         }
     }
     const double volume = cell_volume(w, cell);
@@ -190,24 +207,6 @@ static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
     }
 }
 
-/// Where the cell's part that begins here ends; its points agree in the bits above `shift`.
-static int64_t part_end(const ladder_walk *w, int64_t begin, int64_t end, int shift)
-{
-    CLAST_ASSERT(begin < end && shift >= 0 && shift < 64);
-    const uint64_t *code = w->point.key;
-    const uint64_t part = code[begin] >> shift;
-    int64_t last = begin; // in the part
-    int64_t step = 1;
-    while (last + step < end && code[last + step] >> shift == part) {
-        last += step;
-        step *= 2;
-    }
-    for (step /= 2; step > 0; step /= 2) {
-        last += last + step < end && code[last + step] >> shift == part ? step : 0;
-    }
-    return last + 1;
-}
-
 /// Rank whose stretch is the last that begins inside the cell; 0: none does.
 static int32_t last_border(const ladder_walk *w, const ladder_cell *cell)
 {
@@ -223,11 +222,13 @@ static int32_t last_border(const ladder_walk *w, const ladder_cell *cell)
 static void set_owner(const ladder_walk *w, ladder_cell *cell)
 {
     cell->n = cell->end - cell->begin;
+    cell->all = NULL;
     cell->is_counted = true;
     if (cell->begin == 0 || cell->end == w->point.n) { // others are within the stretch
         const int32_t k = last_border(w, cell);
         if (k > 0) {
-            cell->n = w->shared[(int64_t)cell->depth * w->comm->n_rank + k];
+            cell->all = &w->shared[(int64_t)cell->depth * w->comm->n_rank + k];
+            cell->n = cell->all->n;
             cell->is_counted = k == w->comm->rank;
         }
     }
@@ -244,7 +245,7 @@ static bool next_part(const ladder_walk *w, const ladder_cell *cell, int64_t *be
     }
     *part = *cell;
     part->begin = *begin;
-    part->end = part_end(w, *begin, cell->end, shift);
+    part->end = clx_ranked_run(&w->point, *begin, cell->end, shift);
     part->depth = cell->depth + 1;
     part->low = w->point.key[*begin] >> shift << shift;
     for (int32_t j = 0; j < d; ++j) {
@@ -302,9 +303,9 @@ static uint64_t code_of(const ladder_walk *w, const double *u)
 
 typedef struct {
     const ladder_walk *w;
-    clx_keyed *keyed; ///< where points have weights
     uint64_t *code;
-    int shift; ///< bits that are left out
+    uint64_t *weight; ///< bits, where points have weights
+    int shift;        ///< bits of codes that are left out
 } code_context;
 
 static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -314,47 +315,58 @@ static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context
     double held[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const bool is_real = clx_sample_number(s, i) >= 0;
-        const uint64_t code =
-            is_real ? code_of(c->w, clx_sample_point(s, i, held)) >> c->shift : UINT64_MAX;
-        if (c->keyed != NULL) {
-            c->keyed[i] = (clx_keyed){code, (uint64_t)i};
-        } else {
-            c->code[i] = code;
+        const int64_t number = clx_sample_number(s, i);
+        c->code[i] =
+            number >= 0 ? code_of(c->w, clx_sample_point(s, i, held)) >> c->shift : UINT64_MAX;
+        if (c->weight != NULL && number >= 0) {
+            memcpy(&c->weight[i], &c->w->weight[number], sizeof c->weight[i]);
         }
     }
 }
 
-/// Codes and weights of points in order, of a single rank: ghosts are behind.
-static clast_status order_weighted(ladder_walk *w, clx_keyed *keyed, uint64_t *code)
-{
-    clast_status status = CLAST_OK;
-    const clx_sample *s = w->sample;
-    CLX_TRY(clx_sort_keyed(keyed, s->n));
-    clx_free(w->own);
-    w->own = NULL;
-    CLX_TRY(clx_alloc(&w->own, s->n, sizeof *w->own));
-    for (int64_t i = 0; i < s->n; ++i) {
-        code[i] = keyed[i].key;
-        const int64_t number = clx_sample_number(s, (int64_t)keyed[i].item);
-        w->own[i] = number >= 0 ? w->weight[number] : 0.0;
-    }
-done:
-    return status;
-}
-
 /// Ghosts have no code: out with them.
-static int64_t leave_out_ghosts(const clx_sample *s, uint64_t *code)
+static int64_t leave_out_ghosts(const code_context *c, int64_t n_all)
 {
     int64_t n = 0;
-    for (int64_t i = 0; i < s->n; ++i) {
-        code[n] = code[i];
-        n += code[i] != UINT64_MAX ? 1 : 0;
+    for (int64_t i = 0; i < n_all; ++i) {
+        c->code[n] = c->code[i];
+        if (c->weight != NULL) {
+            c->weight[n] = c->weight[i];
+        }
+        n += c->code[i] != UINT64_MAX ? 1 : 0;
     }
     return n;
 }
 
-/// Numbers of points, on all ranks, of the cells that borders between ranks cut.
+/// Totals of the points before each, whose weights came with the codes.
+static clast_status add_weights(ladder_walk *w)
+{
+    clast_status status = CLAST_OK;
+    clx_ranked *p = &w->point;
+    clx_free(w->before);
+    w->before = NULL;
+    if (w->weight == NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&w->before, p->n + 1, sizeof *w->before), NULL));
+    for (int64_t i = 0; i < p->n; ++i) {
+        double own = 0.0;
+        clx_fixed_sum power[4];
+        totals *next = &w->before[i + 1];
+        memcpy(&own, &p->item[i], sizeof own);
+        clx_fixed_powers(&w->scale, own, 4, power);
+        *next = w->before[i];
+        for (int k = 0; k < 3; ++k) {
+            clx_fixed_add(&next->power[k], &power[(1 << k) - 1]);
+        }
+    }
+    clx_free(p->item);
+    p->item = NULL;
+done:
+    return status;
+}
+
+/// Totals, on all ranks, of the cells that borders between ranks cut.
 static clast_status count_shared(ladder_walk *w)
 {
     clast_status status = CLAST_OK;
@@ -369,10 +381,10 @@ static clast_status count_shared(ladder_walk *w)
             const uint64_t low = w->point.first[k] >> shift << shift;
             const uint64_t end = low + (UINT64_C(1) << shift);
             w->shared[(int64_t)depth * n_rank + k] =
-                clx_ranked_from(&w->point, end) - clx_ranked_from(&w->point, low);
+                totals_between(w, clx_ranked_from(&w->point, low), clx_ranked_from(&w->point, end));
         }
     }
-    clx_comm_sum(w->comm, w->shared, size);
+    clx_comm_sum(w->comm, &w->shared[0].n, size * (int64_t)(sizeof *w->shared / sizeof(int64_t)));
 done:
     return status;
 }
@@ -395,28 +407,23 @@ static ladder_cell cell_of_all(const ladder_walk *w)
 }
 
 /// Points of grid m, whose shift is set, in order: all bits of the first, which is looked at to the
-/// deepest cells, of the others those of the deepest rung. With weights all bits, for their order.
+/// deepest cells, of the others those of the deepest rung.
 static clast_status order_points(ladder_walk *w, int m)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    const bool is_deep = m == 0 || w->weight != NULL;
-    code_context c = {w, NULL, NULL, is_deep ? 0 : bits_below(w, w->ladder->first + w->ladder->n)};
+    code_context c = {w, NULL, NULL, m == 0 ? 0 : bits_below(w, w->ladder->first + w->ladder->n)};
     const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
     clx_ranked_free(&w->point);
     status = clx_alloc(&c.code, s->n, sizeof *c.code);
     if (status == CLAST_OK && w->weight != NULL) {
-        status = clx_alloc(&c.keyed, s->n, sizeof *c.keyed);
+        status = clx_alloc(&c.weight, s->n, sizeof *c.weight);
     }
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     clx_parallel_for(s->n, POINTS_A_BLOCK, take_codes, &c);
-    if (w->weight != NULL) {
-        CLX_TRY(order_weighted(w, c.keyed, c.code));
-    }
-    clx_free(c.keyed);
-    c.keyed = NULL;
-    const int64_t n = leave_out_ghosts(s, c.code);
-    CLX_TRY(clx_ranked_sort(w->comm, &c.code, n, limit >> c.shift, &w->point));
+    const int64_t n = leave_out_ghosts(&c, s->n);
+    CLX_TRY(clx_ranked_sort_items(w->comm, &c.code, &c.weight, n, limit >> c.shift, &w->point));
+    CLX_TRY(add_weights(w));
     for (int64_t i = 0; c.shift > 0 && i < w->point.n; ++i) {
         w->point.key[i] <<= c.shift;
     }
@@ -425,8 +432,8 @@ static clast_status order_points(ladder_walk *w, int m)
     }
     CLX_TRY(count_shared(w));
 done:
-    clx_free(c.keyed);
     clx_free(c.code);
+    clx_free(c.weight);
     return status;
 }
 
@@ -741,6 +748,7 @@ static clast_status count(ladder_walk *w)
     const bool is_whole =
         w->comm->n_rank == 1 && w->weight == NULL && w->sample->n_real < MOST_WHOLE;
     set_shift(w, 0);
+    w->scale = clx_sample_scale(w->sample, w->weight);
     CLX_TRY(is_whole ? order_whole(w) : order_points(w, 0));
     ladder_cell all = cell_of_all(w);
     w->n_all = w->point.n_all;
@@ -760,7 +768,6 @@ done:
 clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
                               const double *weight, clx_ladder *ladder)
 {
-    CLAST_ASSERT(weight == NULL || comm->n_rank == 1);
     clast_status status = CLAST_OK;
     ladder_walk *w = NULL;
     *ladder = (clx_ladder){.d = sample->domain->dimension};
@@ -774,7 +781,7 @@ clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
 done:
     if (w != NULL) {
         clx_ranked_free(&w->point);
-        clx_free(w->own);
+        clx_free(w->before);
         clx_free(w->shared);
         clx_free(w->some);
         clx_free(w->in_grid);
@@ -783,17 +790,4 @@ done:
     }
     clx_free(w);
     return status;
-}
-
-double clx_ladder_change(const clx_ladder *before, const clx_ladder *now)
-{
-    double found = (double)NAN;
-    for (int32_t r = 0; r < now->n; ++r) {
-        const int32_t own = now->first + r - before->first;
-        if (own >= 0 && own < before->n && now->n_pair[r] >= enough_pairs &&
-            before->n_pair[own] >= enough_pairs) {
-            found = now->pairs[r] / before->pairs[own];
-        }
-    }
-    return found;
 }

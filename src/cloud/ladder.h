@@ -18,13 +18,7 @@ typedef struct clx_ladder {
     double covariance[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< of `pairs`, for Poisson points
 } clx_ladder;
 
-/// How many times the pairs per volume are that they were, by the finest cells that have 500 pairs
-/// in both; NAN where none have.
-double clx_ladder_change(const clx_ladder *before, const clx_ladder *now);
-
-/// @param sample  this rank's points    @param weight  of all points of the cloud, or NULL (1);
-/// with several ranks NULL
+/// @param sample  this rank's points    @param weight  of all points of the cloud here, or NULL (1)
 /// @note O(n log n), 5 sorts; bytes do not depend on threads, ranks, nor the order of points
-/// without weights
 clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
                               const double *weight, clx_ladder *ladder);

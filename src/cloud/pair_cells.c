@@ -21,31 +21,38 @@ void clx_pair_cells_free(clx_pair_cells *c)
     *c = (clx_pair_cells){0};
 }
 
-static void measure_grid(const double *x, double radius, clx_pair_cells *c)
+clx_pair_cells clx_pair_grid(int32_t d, const double *low, double extent, double radius)
 {
-    double extent = 0.0;
-    for (int32_t j = 0; j < c->d; ++j) {
-        double high = -INFINITY;
-        c->low[j] = INFINITY;
-        for (int64_t i = 0; i < c->n; ++i) {
-            c->low[j] = fmin(c->low[j], x[i * c->d + j]);
-            high = fmax(high, x[i * c->d + j]);
-        }
-        extent = fmax(extent, c->n > 0 ? high - c->low[j] : 0.0);
-    }
-    c->side = fmax(0.5 * radius, extent / MOST_DIM);
+    clx_pair_cells c = {.d = d};
+    c.side = fmax(0.5 * radius, extent / MOST_DIM);
     for (int32_t j = 0; j < 3; ++j) {
-        c->dim[j] = j < c->d ? (int64_t)(extent / c->side) + 2 + 2 * (int64_t)CLX_PAIR_RANGE : 1;
+        c.low[j] = j < d ? low[j] : 0.0;
+        c.dim[j] = j < d ? (int64_t)(extent / c.side) + 2 + 2 * (int64_t)CLX_PAIR_RANGE : 1;
     }
+    return c;
 }
 
-static int64_t key_of(const clx_pair_cells *c, const double *x)
+uint64_t clx_pair_keys(const clx_pair_cells *grid)
+{
+    return (uint64_t)(grid->dim[0] * grid->dim[1] * grid->dim[2]);
+}
+
+uint64_t clx_pair_reach(const clx_pair_cells *grid)
+{
+    int64_t reach = 0;
+    for (int32_t j = grid->d - 1; j >= 0; --j) {
+        reach = reach * grid->dim[j] + CLX_PAIR_RANGE;
+    }
+    return (uint64_t)reach;
+}
+
+uint64_t clx_pair_key(const clx_pair_cells *grid, const double *x)
 {
     int64_t key = 0;
-    for (int32_t j = c->d - 1; j >= 0; --j) {
-        key = key * c->dim[j] + (int64_t)((x[j] - c->low[j]) / c->side) + CLX_PAIR_RANGE;
+    for (int32_t j = grid->d - 1; j >= 0; --j) {
+        key = key * grid->dim[j] + (int64_t)((x[j] - grid->low[j]) / grid->side) + CLX_PAIR_RANGE;
     }
-    return key;
+    return (uint64_t)key;
 }
 
 static void fill_cells(const double *x, const clx_keyed *entry, clx_pair_cells *c)
@@ -62,16 +69,17 @@ static void fill_cells(const double *x, const clx_keyed *entry, clx_pair_cells *
     c->begin[c->n_cell] = c->n;
 }
 
-clast_status clx_pair_cells_make(const double *x, int64_t n, int32_t d, double radius,
+clast_status clx_pair_cells_make(const clx_pair_cells *grid, const double *x, int64_t n,
                                  clx_pair_cells *cells)
 {
     clast_status status = CLAST_OK;
-    clx_pair_cells made = {.d = d, .n = n};
+    clx_pair_cells made = *grid;
     clx_keyed *entry = NULL;
-    measure_grid(x, radius, &made);
+    const int32_t d = grid->d;
+    made.n = n;
     CLX_TRY(clx_alloc(&entry, n, sizeof *entry));
     for (int64_t i = 0; i < n; ++i) {
-        entry[i] = (clx_keyed){(uint64_t)key_of(&made, x + i * d), (uint64_t)i};
+        entry[i] = (clx_keyed){clx_pair_key(grid, x + i * d), (uint64_t)i};
     }
     CLX_TRY(clx_sort_keyed(entry, n));
     for (int32_t j = 0; j < d; ++j) {
@@ -86,14 +94,4 @@ done:
     clx_free(entry);
     clx_pair_cells_free(&made);
     return status;
-}
-
-double clx_pair_cells_work(const clx_pair_cells *c)
-{
-    double sum = 0.0;
-    for (int64_t k = 0; k < c->n_cell; ++k) {
-        const double count = (double)(c->begin[k + 1] - c->begin[k]);
-        sum += count * count;
-    }
-    return sum;
 }

@@ -5,7 +5,10 @@
 
 #include <clast/pairs.h>
 
-enum { CLX_PAIR_RANGE = 2 }; ///< cells to either side that hold neighbours
+enum {
+    CLX_PAIR_RANGE = 2,   ///< cells to either side that hold neighbours
+    CLX_PAIR_BLOCKS = 256 ///< blocks of cells that are summed by themselves, at the most
+};
 
 /// Points by cell, cells in the order of their keys; along axis 0 neighbours are contiguous.
 typedef struct clx_pair_cells {
@@ -29,17 +32,28 @@ typedef struct clx_pair_sum {
                                    ///< shell k and in this one
 } clx_pair_sum;
 
+/// The grid alone, cells without points, over points from low [d] on that reach `extent` further
+/// along their longest axis.
+clx_pair_cells clx_pair_grid(int32_t d, const double *low, double extent, double radius);
+
+/// Key of the cell of a point x [d], below clx_pair_keys.
+uint64_t clx_pair_key(const clx_pair_cells *grid, const double *x);
+uint64_t clx_pair_keys(const clx_pair_cells *grid);
+
+/// Keys of neighbours are no further apart.
+uint64_t clx_pair_reach(const clx_pair_cells *grid);
+
 /// @param x  [n][d]
-clast_status clx_pair_cells_make(const double *x, int64_t n, int32_t d, double radius,
+clast_status clx_pair_cells_make(const clx_pair_cells *grid, const double *x, int64_t n,
                                  clx_pair_cells *cells);
 void clx_pair_cells_free(clx_pair_cells *cells);
 
-/// Sum over cells of the squared number of points: pairs to be looked at, but for a factor.
-double clx_pair_cells_work(const clx_pair_cells *cells);
-
 /// Sums over all pairs closer than radius[n_shell - 1], at most twice the cells' side; shell k
-/// holds distances radius[k - 1] <= r < radius[k].
+/// holds distances radius[k - 1] <= r < radius[k]. First points of the cells in the blocks
+/// first[b] <= key < first[b + 1]; their neighbours must be there.
 ///
-/// @param sum  [n_shell], zeros    @param n_repeated  ordered pairs at the distance 0
+/// @param first  [n_block + 1]    @param sum  [n_block][n_shell], zeros
+/// @param n_repeated  [n_block] ordered pairs at the distance 0
 clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domain, int32_t n_shell,
-                                const double *radius, clx_pair_sum *sum, int64_t *n_repeated);
+                                const double *radius, int32_t n_block, const uint64_t *first,
+                                clx_pair_sum *sum, int64_t *n_repeated);

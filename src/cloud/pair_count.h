@@ -4,10 +4,7 @@
 
 #include <clast/pairs.h>
 
-enum { CLX_PAIRS_MOST = 200000 }; ///< points of several ranks
-
-/// Pairs of all ranks' points; called by all ranks. Several ranks count them each for itself, of
-/// CLX_PAIRS_MOST points at the most.
+/// Pairs of all ranks' points; called by all ranks.
 ///
 /// @param ladder  NULL: it is counted
 clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,

@@ -21,7 +21,6 @@ enum {
     RANGE = CLX_PAIR_RANGE,
     WIDTH = 2 * CLX_PAIR_RANGE + 1, ///< cells of a row
     MOST_ROW = WIDTH * WIDTH,       ///< rows of cells around one
-    MOST_BLOCK = 256,               ///< blocks of cells that are summed by themselves
     CHUNK = 256,                    ///< points whose distance to the border is measured together
     BESIDE = 512,                   ///< points around a cell that are put side by side
     MOST_TABLE = 2048               ///< 64 for each factor of two in r^2: 32 of them
@@ -35,7 +34,7 @@ typedef struct {
     double outer[CLX_PAIR_OUTER];   ///< the last of them, descending
     uint64_t first;                 ///< leading bits of the first entry of the table
     uint8_t shell[MOST_TABLE];      ///< of the least r^2 with these leading bits
-    int64_t block;                  ///< cells in a block, by their number alone
+    const uint64_t *key;            ///< [n_block + 1] where the blocks begin
     clx_pair_sum *sum;              ///< [n_block][n_shell]
     int64_t *repeated;              ///< [n_block]
 } job;
@@ -138,6 +137,12 @@ static int64_t find_cell(const clx_pair_cells *c, int64_t from, int64_t key)
         }
     }
     return low;
+}
+
+/// First of all cells whose key is at least `key`.
+static int64_t first_cell(const clx_pair_cells *c, uint64_t key)
+{
+    return find_cell(c, 0, (int64_t)key);
 }
 
 /// Where the row beside the cell of this key has its points.
@@ -348,18 +353,21 @@ static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
     const clx_pair_cells *c = w->cells;
     walk p;
     (void)worker;
-    memset(&p, 0, sizeof p);
-    p.job = w;
-    p.n_row = make_rows(c, p.rows);
-    p.lanes.d = c->d;
-    memcpy(p.lanes.outer, w->outer, sizeof p.lanes.outer);
-    for (int64_t cell = begin; cell < end; ++cell) {
-        enter_cell(&p, cell);
-        for (p.i = c->begin[cell]; p.i < c->begin[cell + 1]; ++p.i) {
-            add_point(&p, cell, w->sum + begin / w->block * w->n_shell);
+    for (int64_t b = begin; b < end; ++b) {
+        memset(&p, 0, sizeof p);
+        p.job = w;
+        p.n_row = make_rows(c, p.rows);
+        p.lanes.d = c->d;
+        memcpy(p.lanes.outer, w->outer, sizeof p.lanes.outer);
+        const int64_t last = first_cell(c, w->key[b + 1]);
+        for (int64_t cell = first_cell(c, w->key[b]); cell < last; ++cell) {
+            enter_cell(&p, cell);
+            for (p.i = c->begin[cell]; p.i < c->begin[cell + 1]; ++p.i) {
+                add_point(&p, cell, w->sum + b * w->n_shell);
+            }
         }
+        w->repeated[b] = p.repeated;
     }
-    w->repeated[begin / w->block] = p.repeated;
 }
 
 static void measure_safe(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -377,37 +385,24 @@ static void measure_safe(int64_t begin, int64_t end, int32_t worker, void *conte
 }
 
 clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domain, int32_t n_shell,
-                                const double *radius, clx_pair_sum *sum, int64_t *n_repeated)
+                                const double *radius, int32_t n_block, const uint64_t *first,
+                                clx_pair_sum *sum, int64_t *n_repeated)
 {
     clast_status status = CLAST_OK;
-    job w = {.cells = cells, .domain = domain, .n_shell = n_shell};
-    w.block = (cells->n_cell + MOST_BLOCK - 1) / MOST_BLOCK;
-    const int64_t n_block = w.block > 0 ? (cells->n_cell + w.block - 1) / w.block : 0;
+    job w = {.cells = cells,
+             .domain = domain,
+             .n_shell = n_shell,
+             .key = first,
+             .sum = sum,
+             .repeated = n_repeated};
     for (int32_t k = 0; k < n_shell; ++k) {
         w.square[k] = radius[k] * radius[k];
     }
     fill_outer(&w);
     fill_table(&w);
-    CLX_TRY(clx_alloc(&w.sum, n_block * n_shell, sizeof *w.sum));
-    CLX_TRY(clx_alloc(&w.repeated, n_block, sizeof *w.repeated));
     CLX_TRY(clx_alloc(&cells->safe2, cells->n + CLX_PAIR_PAD, sizeof *cells->safe2));
     clx_parallel_for(cells->n, CHUNK, measure_safe, &w);
-    clx_parallel_for(cells->n_cell, w.block, sum_block, &w);
-    for (int64_t b = 0; b < n_block; ++b) {
-        *n_repeated += w.repeated[b];
-        for (int32_t k = 0; k < n_shell; ++k) {
-            const clx_pair_sum *part = &w.sum[b * n_shell + k];
-            sum[k].pairs += part->pairs;
-            sum[k].squares += part->squares;
-            sum[k].weight += part->weight;
-            sum[k].weight2 += part->weight2;
-            for (int32_t l = 0; l <= k; ++l) {
-                sum[k].joint[l] += part->joint[l];
-            }
-        }
-    }
+    clx_parallel_for(n_block, 1, sum_block, &w);
 done:
-    clx_free(w.sum);
-    clx_free(w.repeated);
     return status;
 }

@@ -5,10 +5,9 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "cloud/contract.h"
-#include "cloud/pair_cells.h"
 #include "cloud/pair_count.h"
+#include "cloud/pair_deal.h"
 #include "cloud/pair_integral.h"
-#include "cloud/part.h"
 #include "cloud/surface.h"
 #include <clast/decompose.h>
 #include <clast/machine.h>
@@ -44,25 +43,27 @@ void clast_pairs_free(clast_pairs *pairs)
 }
 
 typedef struct {
+    const clast_comm *comm;
     const clast_domain *domain;
     const clast_cloud *cloud;
-    double *x;    ///< [n][d] points inside
-    double *u;    ///< [cloud->n][d] their images in the unit cube, then those of points inside
-    bool *inside; ///< [cloud->n]
-    int64_t n;
+    bool *inside;      ///< [cloud->n]
+    int64_t *number;   ///< [n] points inside
+    int64_t n, n_all;  ///< of them, here and on all ranks
+    int64_t n_outside; ///< on all ranks
     double radius[CLAST_MAX_SHELL];
     double share[CLAST_MAX_SHELL], error[CLAST_MAX_SHELL];
     clx_pair_sum sum[CLAST_MAX_SHELL];
-    clx_pair_cells cells;
+    clx_pair_cells grid, cells;
+    clx_pair_deal deal;
 } job;
 
 static void find_inside(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const job *w = context;
+    double u[3];
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const int32_t d = w->cloud->dimension;
-        w->inside[i] = clast_domain_map(w->domain, w->cloud->x + i * d, w->u + i * d);
+        w->inside[i] = clast_domain_map(w->domain, w->cloud->x + i * w->cloud->dimension, u);
     }
 }
 
@@ -70,28 +71,83 @@ static clast_status select_points(const clast_pairs_config *config, job *w)
 {
     clast_status status = CLAST_OK;
     const clast_cloud *cloud = w->cloud;
-    const int32_t d = cloud->dimension;
-    CLX_TRY(clx_alloc(&w->inside, cloud->n, sizeof *w->inside));
-    CLX_TRY(clx_alloc(&w->x, cloud->n * d, sizeof *w->x));
-    CLX_TRY(clx_alloc(&w->u, cloud->n * d, sizeof *w->u));
+    status = clx_alloc(&w->inside, cloud->n, sizeof *w->inside);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&w->number, cloud->n, sizeof *w->number);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     clx_parallel_for(cloud->n, BLOCK, find_inside, w);
     for (int64_t i = 0; i < cloud->n; ++i) {
-        if (w->inside[i]) {
-            memmove(w->u + w->n * d, w->u + i * d, (size_t)d * sizeof *w->u);
-            memcpy(w->x + w->n * d, cloud->x + i * d, (size_t)d * sizeof *w->x);
-            if (w->domain->is_placed) { // the edge correction knows it in its own axes
-                clx_domain_to_local(w->domain, cloud->x + i * d, w->x + w->n * d);
-            }
-            ++w->n;
-        }
+        w->number[w->n] = i;
+        w->n += w->inside[i] ? 1 : 0;
     }
-    CLX_CHECK(w->n == cloud->n || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
+    const int64_t n = clx_comm_total(w->comm, cloud->n);
+    w->n_all = clx_comm_total(w->comm, w->n);
+    w->n_outside = n - w->n_all;
+    CLX_CHECK(w->n_outside == 0 || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
               "%lld of %lld points lie outside the domain; give the true domain, or leave them out "
               "with --outside drop",
-              (long long)(cloud->n - w->n), (long long)cloud->n);
-    CLX_CHECK(w->n >= 2, CLAST_E_LIMIT, "%lld points in the domain have no pair", (long long)w->n);
+              (long long)w->n_outside, (long long)n);
+    CLX_CHECK(w->n_all >= 2, CLAST_E_LIMIT, "%lld points in the domain have no pair",
+              (long long)w->n_all);
 done:
     return status;
+}
+
+/// The place of a point along the axes in which the edge correction knows a domain.
+static void find_place(const job *w, const double *x, double place[3])
+{
+    if (w->domain->is_placed) {
+        clx_domain_to_local(w->domain, x, place);
+    } else {
+        memcpy(place, x, (size_t)w->domain->dimension * sizeof *x);
+    }
+}
+
+/// Low corner of all points, and how far they reach along their longest axis.
+static double measure_points(const job *w, double low[3])
+{
+    const int32_t d = w->domain->dimension;
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double extent = 0.0;
+    low[0] = low[1] = low[2] = INFINITY;
+    for (int64_t i = 0; i < w->n; ++i) {
+        double place[3];
+        find_place(w, w->cloud->x + w->number[i] * d, place);
+        for (int32_t j = 0; j < d; ++j) {
+            low[j] = fmin(low[j], place[j]);
+            high[j] = fmax(high[j], place[j]);
+        }
+    }
+    for (int32_t j = 0; j < d; ++j) {
+        low[j] = clx_comm_least(w->comm, low[j]);
+        high[j] = -clx_comm_least(w->comm, -high[j]);
+        extent = fmax(extent, high[j] - low[j]);
+    }
+    return extent;
+}
+
+typedef struct {
+    const job *job;
+    uint64_t *key;    ///< [n], or NULL
+    clx_keyed *entry; ///< [n] else
+} key_context;
+
+static void find_keys(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const key_context *c = context;
+    const job *w = c->job;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        double place[3];
+        find_place(w, w->cloud->x + w->number[i] * w->domain->dimension, place);
+        const uint64_t key = clx_pair_key(&w->grid, place);
+        if (c->key != NULL) {
+            c->key[i] = key;
+        } else {
+            c->entry[i] = (clx_keyed){key, (uint64_t)w->number[i]};
+        }
+    }
 }
 
 /// Half of the domain's least width, where it is known: mirror images further out lie outside.
@@ -111,6 +167,46 @@ static double half_width(const clast_domain *d)
     return half;
 }
 
+/// The grid for a greatest distance, and the work in its cells.
+static clast_status count_cells(const double low[3], double extent, double radius, job *w)
+{
+    clast_status status = CLAST_OK;
+    key_context c = {.job = w};
+    w->grid = clx_pair_grid(w->domain->dimension, low, extent, radius);
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&c.key, w->n, sizeof *c.key), NULL));
+    clx_parallel_for(w->n, BLOCK, find_keys, &c);
+    CLX_TRY(clx_pair_deal_make(w->comm, &w->grid, &c.key, w->n, &w->deal));
+done:
+    clx_free(c.key);
+    return status;
+}
+
+/// Points in the cells of this rank, and in those around them.
+static clast_status fill_cells(job *w)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = w->domain->dimension;
+    key_context c = {.job = w};
+    double *x = NULL;
+    int64_t n = 0;
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&c.entry, w->n, sizeof *c.entry), NULL));
+    clx_parallel_for(w->n, BLOCK, find_keys, &c);
+    const clx_pair_points points = {w->cloud->x, c.entry, w->n};
+    CLX_TRY(clx_pair_deal_points(w->comm, &w->grid, &w->deal, &points, &x, &n));
+    clx_free(c.entry);
+    c.entry = NULL;
+    for (int64_t i = 0; i < n && w->domain->is_placed; ++i) {
+        double place[3];
+        find_place(w, x + i * d, place);
+        memcpy(x + i * d, place, (size_t)d * sizeof *x);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, clx_pair_cells_make(&w->grid, x, n, &w->cells), NULL));
+done:
+    clx_free(c.entry);
+    clx_free(x);
+    return status;
+}
+
 /// Cells for the greatest distance; a default one shrinks until the cloud's densest parts are
 /// affordable.
 static clast_status make_cells(const clast_pairs_config *config, job *w)
@@ -119,27 +215,71 @@ static clast_status make_cells(const clast_pairs_config *config, job *w)
     const int32_t d = w->domain->dimension;
     const double ball[3] = {2.0, CLAST_PI, 4.0 / 3.0 * CLAST_PI};
     const double volume = clast_domain_volume(w->domain);
+    double low[3];
     double radius = config->radius;
     if (radius == 0.0) {
-        radius = pow(NEIGHBOURS * volume / ((double)w->n * ball[d - 1]), 1.0 / d);
+        radius = pow(NEIGHBOURS * volume / ((double)w->n_all * ball[d - 1]), 1.0 / d);
         radius = fmin(radius, fmin(most_share * pow(volume, 1.0 / d), half_width(w->domain)));
     }
-    CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
-    const double most = fmax(most_work * (double)w->n, free_work);
+    const double extent = measure_points(w, low);
+    CLX_TRY(count_cells(low, extent, radius, w));
+    const double most = fmax(most_work * (double)w->n_all, free_work);
     for (int round = 0; config->radius == 0.0 && round < 40; ++round) {
-        const double work = clx_pair_cells_work(&w->cells) * pow(4.0, d);
+        const double work = w->deal.work * pow(4.0, d);
         if (work <= most) {
             break;
         }
         radius *= fmin(0.8, fmax(0.25, pow(most / work, 1.0 / d)));
-        clx_pair_cells_free(&w->cells);
-        CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
+        CLX_TRY(count_cells(low, extent, radius, w));
     }
     for (int32_t k = 0; k < config->n_shell; ++k) {
         w->radius[k] = radius * exp2((k + 1 - config->n_shell) / octave_shells);
     }
     w->radius[config->n_shell - 1] = radius;
+    CLX_TRY(fill_cells(w));
 done:
+    return status;
+}
+
+static void add_sum(int32_t shell, const clx_pair_sum *part, clx_pair_sum *sum)
+{
+    sum->pairs += part->pairs;
+    sum->squares += part->squares;
+    sum->weight += part->weight;
+    sum->weight2 += part->weight2;
+    for (int32_t l = 0; l <= shell; ++l) {
+        sum->joint[l] += part->joint[l];
+    }
+}
+
+/// Sums of all ranks' blocks, added in their order.
+static clast_status sum_pairs(int32_t n_shell, job *w, int64_t *n_repeated)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_block = w->deal.end - w->deal.begin;
+    clx_pair_sum *sum = NULL;
+    int64_t repeated[CLX_PAIR_BLOCKS] = {0};
+    clx_gathered all = {0};
+    const int64_t size = n_shell * (int64_t)sizeof *sum;
+    status = clx_alloc(&sum, (int64_t)n_block * n_shell, sizeof *sum);
+    if (status == CLAST_OK) {
+        status = clx_pair_cells_sum(&w->cells, w->domain, n_shell, w->radius, n_block,
+                                    w->deal.first + w->deal.begin, sum, repeated);
+    }
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
+    CLX_TRY(clx_comm_share(w->comm, sum, n_block * size, &all));
+    for (int64_t b = 0; b < w->deal.n_block; ++b) {
+        for (int32_t k = 0; k < n_shell; ++k) {
+            add_sum(k, (const clx_pair_sum *)(const void *)(all.bytes + b * size) + k, &w->sum[k]);
+        }
+    }
+    for (int32_t b = 0; b < n_block; ++b) {
+        *n_repeated += repeated[b];
+    }
+    *n_repeated = clx_comm_total(w->comm, *n_repeated) / 2; // ordered pairs
+done:
+    clx_gathered_free(&all);
+    clx_free(sum);
     return status;
 }
 
@@ -182,7 +322,7 @@ static clast_status add_columns(clast_table *table, double **column)
 /// g of shell k with its interval.
 static void set_g(const job *w, int32_t k, double **column)
 {
-    const double n = (double)w->n;
+    const double n = (double)w->n_all;
     const double share = w->share[k] - (k > 0 ? w->share[k - 1] : 0.0);
     const double error = hypot(w->error[k], k > 0 ? w->error[k - 1] : 0.0);
     const double expected = 0.5 * n * (n - 1.0) * share;
@@ -205,7 +345,7 @@ static void set_g(const job *w, int32_t k, double **column)
 /// Covariance of the edge-corrected numbers of pairs of two shells, n given: a U-statistic's.
 static double covariance(const job *w, int32_t k, int32_t l)
 {
-    const double n = (double)w->n;
+    const double n = (double)w->n_all;
     const double own = k == l ? 0.5 * w->sum[k].weight2 : 0.0;
     const double joint = w->sum[k > l ? k : l].joint[k > l ? l : k];
     const double product = 0.25 * w->sum[k].weight * w->sum[l].weight;
@@ -216,7 +356,7 @@ static double covariance(const job *w, int32_t k, int32_t l)
 static void set_integrals(const job *w, int32_t n_shell, const double *matrix, double **column)
 {
     const double unit[3] = {2.0, CLAST_PI, 4.0 / 3.0 * CLAST_PI};
-    const double n = (double)w->n;
+    const double n = (double)w->n_all;
     const int32_t d = w->domain->dimension;
     double within = 0.0;
     double own = 0.0;
@@ -241,16 +381,13 @@ static void set_integrals(const job *w, int32_t n_shell, const double *matrix, d
 /// The ladder of the points inside.
 static clast_status count_ladder(const job *w, clx_ladder *ladder)
 {
-    clast_status status = CLAST_OK;
-    clx_sample sample = {.domain = w->domain, .n = w->n, .n_real = w->n, .u = w->u};
-    CLX_TRY(clx_alloc(&sample.number, w->n, sizeof *sample.number));
-    for (int64_t i = 0; i < w->n; ++i) {
-        sample.number[i] = i;
-    }
-    CLX_TRY(clx_ladder_count(clast_comm_one(), &sample, NULL, ladder));
-done:
-    clx_free(sample.number);
-    return status;
+    const clx_sample sample = {.domain = w->domain,
+                               .comm = w->comm,
+                               .n = w->n,
+                               .n_real = w->n,
+                               .x = w->cloud->x,
+                               .number = w->number};
+    return clx_ladder_count(w->comm, &sample, NULL, ladder);
 }
 
 static clast_status fill(job *w, int32_t n_shell, const clx_ladder *ladder, clast_pairs *result)
@@ -278,7 +415,7 @@ static clast_status fill(job *w, int32_t n_shell, const clx_ladder *ladder, clas
     set_integrals(w, n_shell, matrix, column);
     const clx_pair_shells shells = {.d = w->domain->dimension,
                                     .n_shell = n_shell,
-                                    .n = (double)w->n,
+                                    .n = (double)w->n_all,
                                     .volume = result->volume,
                                     .ladder = ladder,
                                     .radius = w->radius,
@@ -317,69 +454,39 @@ done:
     return status;
 }
 
-/// All ranks' points in the order of their places: sums over pairs then have one order.
-static clast_status take_all(const clast_comm *comm, const clast_cloud *cloud, clast_cloud *all)
-{
-    clast_status status = CLAST_OK;
-    const clx_part part = clx_part_of(comm, cloud->x, cloud->n, cloud->dimension);
-    CLX_CHECK(comm->n_rank == 1 || part.n_all <= CLX_PAIRS_MOST, CLAST_E_LIMIT,
-              "pairs by distance of %lld points are not counted over ranks (of %d at the most): "
-              "--estimator cells, or one process",
-              (long long)part.n_all, CLX_PAIRS_MOST);
-    CLX_TRY(clx_part_share(&part, &all->x));
-    all->n = part.n_all;
-    all->dimension = part.d;
-done:
-    return status;
-}
-
-static clast_status count_all(const clast_domain *domain, const clast_cloud *cloud,
-                              const clast_pairs_config *config, const clx_ladder *ladder,
-                              clast_pairs *pairs)
-{
-    clast_status status = CLAST_OK;
-    clast_pairs made = {0};
-    clx_ladder own = {0};
-    job w = {.domain = domain, .cloud = cloud};
-    CLX_TRY(select_points(config, &w));
-    CLX_TRY(make_cells(config, &w));
-    CLX_TRY(clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error));
-    CLX_TRY(
-        clx_pair_cells_sum(&w.cells, domain, config->n_shell, w.radius, w.sum, &made.n_repeated));
-    made.n_repeated /= 2;
-    made.n = w.n;
-    made.n_outside = cloud->n - w.n;
-    made.dimension = domain->dimension;
-    made.n_shell = config->n_shell;
-    made.volume = clast_domain_volume(domain);
-    made.radius = w.radius[config->n_shell - 1];
-    if (ladder == NULL) {
-        CLX_TRY(count_ladder(&w, &own));
-    }
-    CLX_TRY(fill(&w, config->n_shell, ladder != NULL ? ladder : &own, &made));
-    *pairs = made;
-    made = (clast_pairs){0};
-done:
-    clx_free(w.x);
-    clx_free(w.u);
-    clx_free(w.inside);
-    clx_pair_cells_free(&w.cells);
-    clast_pairs_free(&made);
-    return status;
-}
-
 clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
                              const clast_cloud *cloud, const clast_pairs_config *config,
                              const clx_ladder *ladder, clast_pairs *pairs)
 {
     clast_status status = CLAST_OK;
-    clast_cloud all = {0};
+    clast_pairs made = {0};
+    clx_ladder own = {0};
+    job w = {.comm = comm, .domain = domain, .cloud = cloud};
     CLX_NEED(pairs);
     CLX_TRY(clast_comm_agree(comm, check(domain, cloud, config), NULL));
-    CLX_TRY(take_all(comm, cloud, &all));
-    CLX_TRY(clast_comm_agree(comm, count_all(domain, &all, config, ladder, pairs), NULL));
+    CLX_TRY(select_points(config, &w));
+    CLX_TRY(make_cells(config, &w));
+    CLX_TRY(clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error));
+    CLX_TRY(sum_pairs(config->n_shell, &w, &made.n_repeated));
+    made.n = w.n_all;
+    made.n_outside = w.n_outside;
+    made.dimension = domain->dimension;
+    made.n_shell = config->n_shell;
+    made.volume = clast_domain_volume(domain);
+    made.radius = w.radius[config->n_shell - 1];
+    clx_pair_cells_free(&w.cells);
+    if (ladder == NULL) {
+        CLX_TRY(count_ladder(&w, &own));
+    }
+    status = fill(&w, config->n_shell, ladder != NULL ? ladder : &own, &made);
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
+    *pairs = made;
+    made = (clast_pairs){0};
 done:
-    clast_cloud_free(&all);
+    clx_free(w.inside);
+    clx_free(w.number);
+    clx_pair_cells_free(&w.cells);
+    clast_pairs_free(&made);
     return status;
 }
 

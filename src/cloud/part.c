@@ -82,8 +82,7 @@ static uint64_t ordered_key(double value)
     return (bits >> 63) != 0 ? ~bits : bits | (UINT64_C(1) << 63);
 }
 
-/// Points [n][d] by their first coordinate, those with one in common by the others.
-static clast_status sort_places(const double *u, int64_t n, int32_t d, double *sorted)
+clast_status clx_sort_places(const double *u, int64_t n, int32_t d, double *sorted)
 {
     static int (*const order[3])(const void *, const void *) = {by_place1, by_place2, by_place3};
     clast_status status = CLAST_OK;
@@ -127,7 +126,7 @@ clast_status clx_part_share(const clx_part *part, double **u)
     CLAST_ASSERT(all.n == part->n_all * size);
     status = clx_alloc(&made, part->n_all * part->d, sizeof *made);
     if (status == CLAST_OK) {
-        status = sort_places((const void *)all.bytes, part->n_all, part->d, made);
+        status = clx_sort_places((const void *)all.bytes, part->n_all, part->d, made);
     }
     CLX_TRY(clast_comm_agree(part->comm, status, NULL));
     *u = made;
@@ -224,12 +223,48 @@ static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_
     }
 }
 
+/// Sorts this rank's keys, with their items where there are any.
+static clast_status sort_here(clx_ranked *r)
+{
+    clast_status status = CLAST_OK;
+    clx_keyed *entry = NULL;
+    if (r->item == NULL) {
+        return clx_sort_keys(r->key, r->n);
+    }
+    CLX_TRY(clx_alloc(&entry, r->n, sizeof *entry));
+    for (int64_t i = 0; i < r->n; ++i) {
+        entry[i] = (clx_keyed){r->key[i], r->item[i]};
+    }
+    CLX_TRY(clx_sort_keyed(entry, r->n));
+    for (int64_t i = 0; i < r->n; ++i) {
+        r->key[i] = entry[i].key;
+        r->item[i] = entry[i].item;
+    }
+done:
+    clx_free(entry);
+    return status;
+}
+
+/// Replaces an array by what comes from all ranks, n_out bytes of it to each.
+static clast_status swap_array(const clast_comm *comm, const int64_t *n_out, uint64_t **array,
+                               int64_t *n)
+{
+    clast_status status = CLAST_OK;
+    clx_gathered in = {0};
+    CLX_TRY(clx_comm_exchange(comm, *array, n_out, &in));
+    clx_free(*array);
+    *array = (void *)in.bytes; // from clx_alloc: aligned for any type
+    *n = in.n / (int64_t)sizeof **array;
+done:
+    return status;
+}
+
 /// Keys to the ranks that own their stretch.
 static clast_status hand_over(const clast_comm *comm, clx_ranked *r)
 {
     clast_status status = CLAST_OK;
     int64_t *n_out = NULL;
-    clx_gathered in = {0};
+    int64_t n = 0;
     const int64_t size = (int64_t)sizeof *r->key;
     CLX_TRY(clast_comm_agree(comm, clx_alloc(&n_out, comm->n_rank, sizeof *n_out), NULL));
     int64_t at = 0;
@@ -239,46 +274,81 @@ static clast_status hand_over(const clast_comm *comm, clx_ranked *r)
         n_out[k] = (next - at) * size;
         at = next;
     }
-    CLX_TRY(clx_comm_exchange(comm, r->key, n_out, &in));
-    clx_free(r->key);
-    r->n = in.n / size;
-    r->key = (void *)in.bytes; // from clx_alloc: aligned for any type
-    in = (clx_gathered){0};
-    CLX_TRY(clast_comm_agree(comm, clx_sort_keys(r->key, r->n), NULL));
+    CLX_TRY(swap_array(comm, n_out, &r->key, &n));
+    if (r->item != NULL) {
+        CLX_TRY(swap_array(comm, n_out, &r->item, &n));
+    }
+    r->n = n;
+    CLX_TRY(clast_comm_agree(comm, sort_here(r), NULL));
 done:
-    clx_gathered_free(&in);
     clx_free(n_out);
+    return status;
+}
+
+/// Sorts what `made` has over the ranks, by stretches of their own or those that it has.
+static clast_status sort_over(const clast_comm *comm, uint64_t limit, const clx_ranked *leader,
+                              clx_ranked *made)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_rank = comm->n_rank;
+    int64_t *count = NULL;
+    status = clx_alloc(&made->first, (int64_t)n_rank + 1, sizeof *made->first);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&count, (int64_t)n_rank * VALUES, sizeof *count);
+    }
+    if (status == CLAST_OK) {
+        status = sort_here(made);
+    }
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
+    made->n_all = clx_comm_total(comm, made->n);
+    if (leader != NULL) {
+        memcpy(made->first, leader->first, ((size_t)n_rank + 1) * sizeof *made->first);
+    } else if (n_rank > 1 && made->n_all > 0) {
+        select_splitters(comm, made, count);
+    }
+    if (n_rank > 1 && made->n_all > 0) {
+        CLX_TRY(hand_over(comm, made));
+    }
+    made->first[n_rank] = limit;
+    CLX_TRY(clx_comm_before(comm, made->n, &made->before, &made->n_all));
+done:
+    clx_free(count);
+    return status;
+}
+
+clast_status clx_ranked_sort_items(const clast_comm *comm, uint64_t **key, uint64_t **item,
+                                   int64_t n, uint64_t limit, clx_ranked *ranked)
+{
+    clx_ranked made = {.key = *key, .item = *item, .n = n};
+    *key = NULL;
+    *item = NULL;
+    const clast_status status = sort_over(comm, limit, NULL, &made);
+    if (status == CLAST_OK) {
+        *ranked = made;
+    } else {
+        clx_ranked_free(&made);
+    }
     return status;
 }
 
 clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
                              clx_ranked *ranked)
 {
-    clast_status status = CLAST_OK;
-    const int32_t n_rank = comm->n_rank;
-    int64_t *count = NULL;
+    uint64_t *none = NULL;
+    return clx_ranked_sort_items(comm, key, &none, n, limit, ranked);
+}
+
+clast_status clx_ranked_follow(const clast_comm *comm, uint64_t **key, int64_t n,
+                               const clx_ranked *leader, clx_ranked *ranked)
+{
     clx_ranked made = {.key = *key, .n = n};
     *key = NULL;
-    status = clx_alloc(&made.first, (int64_t)n_rank + 1, sizeof *made.first);
+    const clast_status status = sort_over(comm, leader->first[comm->n_rank], leader, &made);
     if (status == CLAST_OK) {
-        status = clx_alloc(&count, (int64_t)n_rank * VALUES, sizeof *count);
+        *ranked = made;
+    } else {
+        clx_ranked_free(&made);
     }
-    if (status == CLAST_OK) {
-        status = clx_sort_keys(made.key, n);
-    }
-    CLX_TRY(clast_comm_agree(comm, status, NULL));
-    made.n_all = clx_comm_total(comm, n);
-    if (n_rank > 1 && made.n_all > 0) {
-        select_splitters(comm, &made, count);
-        CLX_TRY(hand_over(comm, &made));
-    }
-    made.first[n_rank] = limit;
-    CLX_TRY(clx_comm_before(comm, made.n, &made.before, &made.n_all));
-    *ranked = made;
-    made = (clx_ranked){0};
-done:
-    clx_ranked_free(&made);
-    clx_free(count);
     return status;
 }
 
@@ -301,9 +371,27 @@ int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key)
     return first_from(ranked->key, ranked->n, key);
 }
 
+int64_t clx_ranked_run(const clx_ranked *ranked, int64_t begin, int64_t end, int shift)
+{
+    CLAST_ASSERT(begin < end && end <= ranked->n && shift >= 0 && shift < 64);
+    const uint64_t *key = ranked->key;
+    const uint64_t run = key[begin] >> shift;
+    int64_t last = begin; // in the run
+    int64_t step = 1;
+    while (last + step < end && key[last + step] >> shift == run) {
+        last += step;
+        step *= 2;
+    }
+    for (step /= 2; step > 0; step /= 2) {
+        last += last + step < end && key[last + step] >> shift == run ? step : 0;
+    }
+    return last + 1;
+}
+
 void clx_ranked_free(clx_ranked *ranked)
 {
     clx_free(ranked->key);
+    clx_free(ranked->item);
     clx_free(ranked->first);
     *ranked = (clx_ranked){0};
 }

@@ -38,6 +38,9 @@ clx_part clx_part_whole(const double *u, int64_t n, int32_t d);
 /// The points of this rank beside those of the others.
 clx_part clx_part_of(const clast_comm *comm, const double *u, int64_t n, int32_t d);
 
+/// Points [n][d] by their first coordinate, those with one in common by the others.
+clast_status clx_sort_places(const double *u, int64_t n, int32_t d, double *sorted);
+
 /// All ranks' points on every rank, sorted by coordinates: for so few that it costs nothing.
 clast_status clx_part_share(const clx_part *part, double **u);
 
@@ -53,6 +56,7 @@ enum { CLX_PART_MOST_SUMS = 16 };
 /// All ranks' keys in ascending order, a stretch of them on each rank.
 typedef struct clx_ranked {
     uint64_t *key;   ///< [n] ascending
+    uint64_t *item;  ///< [n] what came with each key, equal keys in any order; or NULL
     int64_t n;       ///< here
     int64_t before;  ///< on the ranks before
     int64_t n_all;   ///< on all of them
@@ -67,9 +71,20 @@ typedef struct clx_ranked {
 clast_status clx_ranked_sort(const clast_comm *comm, uint64_t **key, int64_t n, uint64_t limit,
                              clx_ranked *ranked);
 
+/// The same of keys with an item each, which is taken over too.
+clast_status clx_ranked_sort_items(const clast_comm *comm, uint64_t **key, uint64_t **item,
+                                   int64_t n, uint64_t limit, clx_ranked *ranked);
+
+/// The same of keys that go to the ranks that have these stretches already.
+clast_status clx_ranked_follow(const clast_comm *comm, uint64_t **key, int64_t n,
+                               const clx_ranked *leader, clx_ranked *ranked);
+
 /// The same of keys that are in order already and all here.
 clast_status clx_ranked_of_sorted(uint64_t **key, int64_t n, uint64_t limit, clx_ranked *ranked);
 
 /// First of this rank's keys that is at least `key`: its place.
 int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key);
+
+/// Where the run of keys ends that begins here and agrees in the bits above `shift`.
+int64_t clx_ranked_run(const clx_ranked *ranked, int64_t begin, int64_t end, int shift);
 void clx_ranked_free(clx_ranked *ranked);

@@ -212,3 +212,16 @@ clx_resolution clx_resolution_of(const clx_ladder *l)
     }
     return made;
 }
+
+double clx_resolution_change(const clx_ladder *before, const clx_ladder *now)
+{
+    double found = (double)NAN;
+    for (int32_t r = 0; r < now->n; ++r) {
+        const int32_t own = now->first + r - before->first;
+        if (own >= 0 && own < before->n && now->n_pair[r] >= least_pairs &&
+            before->n_pair[own] >= least_pairs) {
+            found = now->pairs[r] / before->pairs[own];
+        }
+    }
+    return found;
+}

@@ -24,3 +24,7 @@ clx_resolution clx_resolution_of(const clx_ladder *ladder);
 ///
 /// @param value  as clx_resolution's
 bool clx_resolution_allows(const clx_ladder *ladder, double value);
+
+/// How many times the pairs per volume are that they were, by the finest cells that have 500 pairs
+/// in both; NAN where none have.
+double clx_resolution_change(const clx_ladder *before, const clx_ladder *now);

@@ -5,7 +5,9 @@
 #include "base/comm.h"
 #include "base/parallel.h"
 #include "cloud/part.h"
+#include "cloud/place_hash.h"
 #include "cloud/surface.h"
+#include "math/fixed_sum.h"
 #include "math/rng.h"
 #include <clast/machine.h>
 #include <math.h>
@@ -44,6 +46,21 @@ clx_part clx_sample_part(const clx_sample *sample, int64_t n)
     return part;
 }
 
+clx_fixed_scale clx_sample_scale(const clx_sample *sample, const double *weight)
+{
+    double most = 0.0;
+    int64_t n = 0;
+    for (int64_t i = 0; i < sample->n; ++i) {
+        const int64_t number = clx_sample_number(sample, i);
+        if (number >= 0) {
+            most = fmax(most, weight != NULL ? weight[number] : 1.0);
+            ++n;
+        }
+    }
+    n = clx_comm_total(sample->comm, n);
+    return clx_fixed_scale_of(-clx_comm_least(sample->comm, -most), n);
+}
+
 /// `before`: points of the ranks before this one, for messages.
 static clast_status check_points(const clast_cloud *cloud, int64_t before)
 {
@@ -76,6 +93,7 @@ typedef struct {
     const clast_cloud *cloud;
     clx_sample *sample;
     uint64_t seed;
+    int64_t first_ghost;
 } map_context;
 
 /// Images in place, where they are kept; number becomes -1 outside.
@@ -120,7 +138,7 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
     int64_t total = 0;
     CLX_TRY(clx_comm_before(s->comm, cloud->n, &before, &total));
     status = check_points(cloud, before);
-    if (status == CLAST_OK && s->comm->n_rank == 1) {
+    if (status == CLAST_OK && (s->comm->n_rank == 1 || s->domain->kind == CLAST_DOMAIN_MESH)) {
         status = clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u);
     }
     s->x = cloud->x;
@@ -144,7 +162,7 @@ done:
 static void swap_points(clx_sample *s, int32_t d, int64_t a, int64_t b)
 {
     CLAST_ASSERT(a >= 0 && a < s->n && b >= 0 && b < s->n);
-    for (int32_t j = 0; j < d; ++j) {
+    for (int32_t j = 0; j < d && s->u != NULL; ++j) {
         const double held = s->u[a * d + j];
         s->u[a * d + j] = s->u[b * d + j];
         s->u[b * d + j] = held;
@@ -154,21 +172,48 @@ static void swap_points(clx_sample *s, int32_t d, int64_t a, int64_t b)
     s->number[b] = held;
 }
 
-/// Tests point i with chance w_i / w_max; the others go behind.
-static void thin(const clast_cloud *cloud, uint64_t seed, clx_sample *s)
+/// What a point's chance is drawn for: its place and weight.
+static uint64_t draw_of(const clast_cloud *cloud, int64_t i)
 {
+    uint64_t bits = 0;
+    memcpy(&bits, &cloud->weight[i], sizeof bits);
+    return clx_mix(clx_place_hash(cloud->x + i * cloud->dimension, cloud->dimension) ^ bits);
+}
+
+/// Numbers that were spared, as all points are in the domain.
+static clast_status number_points(clx_sample *s)
+{
+    clast_status status = CLAST_OK;
+    if (s->number == NULL) {
+        CLX_TRY(clx_alloc(&s->number, s->n, sizeof *s->number));
+        for (int64_t i = 0; i < s->n; ++i) {
+            s->number[i] = i;
+        }
+    }
+done:
+    return status;
+}
+
+/// Tests a point with chance w / w_max; the others go behind.
+static clast_status thin(const clast_cloud *cloud, uint64_t seed, clx_sample *s)
+{
+    clast_status status = CLAST_OK;
     double most = 0.0;
     int64_t kept = 0;
+    CLX_TRY(clast_comm_agree(s->comm, number_points(s), NULL));
     for (int64_t i = 0; i < s->n; ++i) {
         most = fmax(most, cloud->weight[s->number[i]]);
     }
+    most = -clx_comm_least(s->comm, -most);
     for (int64_t i = 0; i < s->n; ++i) {
-        clx_rng rng = clx_rng_at(seed, CLX_STREAM_THINNING, (uint64_t)s->number[i]);
+        clx_rng rng = clx_rng_at(seed, CLX_STREAM_THINNING, draw_of(cloud, s->number[i]));
         if (clx_rng_uniform(&rng) * most <= cloud->weight[s->number[i]]) {
             swap_points(s, cloud->dimension, i, kept++);
         }
     }
     s->n_test = kept;
+done:
+    return status;
 }
 
 /// Ghosts uniform in what the box has outside the surface.
@@ -178,7 +223,7 @@ static void draw_ghosts(int64_t begin, int64_t end, int32_t worker, void *contex
     clx_sample *s = c->sample;
     (void)worker;
     for (int64_t g = begin; g < end; ++g) {
-        clx_rng rng = clx_rng_at(c->seed, CLX_STREAM_EXTERIOR, (uint64_t)g);
+        clx_rng rng = clx_rng_at(c->seed, CLX_STREAM_EXTERIOR, (uint64_t)(c->first_ghost + g));
         double *u = s->u + 3 * (s->n_test + g);
         double x[3];
         do {
@@ -191,27 +236,41 @@ static void draw_ghosts(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
+/// Opens a gap for ghosts behind the points that are tested.
+static clast_status make_room(int64_t n_ghost, clx_sample *s)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_rest = s->n - s->n_test;
+    CLX_TRY(clx_realloc(&s->u, 3 * (s->n + n_ghost), sizeof *s->u));
+    CLX_TRY(clx_realloc(&s->number, s->n + n_ghost, sizeof *s->number));
+    if (n_rest > 0) {
+        memmove(s->u + 3 * (s->n_test + n_ghost), s->u + 3 * s->n_test,
+                (size_t)(3 * n_rest) * sizeof *s->u);
+        memmove(s->number + s->n_test + n_ghost, s->number + s->n_test,
+                (size_t)n_rest * sizeof *s->number);
+    }
+done:
+    return status;
+}
+
 static clast_status extend(uint64_t seed, clx_sample *s)
 {
     clast_status status = CLAST_OK;
-    map_context context = {.sample = s, .seed = seed};
     double box = 1.0;
     for (int k = 0; k < 3; ++k) {
         box *= s->domain->high[k] - s->domain->low[k];
     }
-    const double wanted = round((double)s->n_test * (box / s->domain->surface->volume - 1.0));
+    const int64_t n_test = clx_comm_total(s->comm, s->n_test);
+    const double wanted = round((double)n_test * (box / s->domain->surface->volume - 1.0));
     CLX_CHECK(wanted < 0x1p31, CLAST_E_LIMIT,
               "the domain fills %.3g of its bounding box: %.3g ghosts would fill the rest (limit "
               "2^31)",
               s->domain->surface->volume / box, wanted);
-    const int64_t n_ghost = wanted > 0.0 ? (int64_t)wanted : 0;
-    const int64_t n_rest = s->n - s->n_test;
-    CLX_TRY(clx_realloc(&s->u, 3 * (s->n + n_ghost), sizeof *s->u));
-    CLX_TRY(clx_realloc(&s->number, s->n + n_ghost, sizeof *s->number));
-    memmove(s->u + 3 * (s->n_test + n_ghost), s->u + 3 * s->n_test,
-            (size_t)(3 * n_rest) * sizeof *s->u);
-    memmove(s->number + s->n_test + n_ghost, s->number + s->n_test,
-            (size_t)n_rest * sizeof *s->number);
+    const int64_t n_all = wanted > 0.0 ? (int64_t)wanted : 0;
+    const int64_t first = n_all * s->comm->rank / s->comm->n_rank;
+    const int64_t n_ghost = n_all * (s->comm->rank + 1) / s->comm->n_rank - first;
+    map_context context = {.sample = s, .seed = seed, .first_ghost = first};
+    CLX_TRY(clast_comm_agree(s->comm, make_room(n_ghost, s), NULL));
     clx_parallel_for(n_ghost, BLOCK, draw_ghosts, &context);
     s->n_test += n_ghost;
     s->n += n_ghost;
@@ -239,11 +298,15 @@ done:
 clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose_config *config,
                                  clx_sample *sample)
 {
+    clast_status status = CLAST_OK;
     if (cloud->weight != NULL) {
-        thin(cloud, config->seed, sample);
+        CLX_TRY(thin(cloud, config->seed, sample));
     }
-    const bool is_mesh = sample->domain != NULL && sample->domain->kind == CLAST_DOMAIN_MESH;
-    return is_mesh ? extend(config->seed, sample) : CLAST_OK;
+    if (sample->domain->kind == CLAST_DOMAIN_MESH) {
+        CLX_TRY(extend(config->seed, sample));
+    }
+done:
+    return status;
 }
 
 clast_status clx_sample_make(const clast_comm *comm, const clast_cloud *cloud,

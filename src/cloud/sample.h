@@ -4,11 +4,12 @@
 #include <clast/decompose.h>
 
 typedef struct clx_part clx_part;
+typedef struct clx_fixed_scale clx_fixed_scale;
 
 /// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
 /// (thinned out for their weights). One rank keeps their images in the unit cube. Of several ranks
-/// none does: they are made of the cloud's positions each time they are asked for, in a third of
-/// the memory.
+/// none does, but in a mesh, where an image costs an inside test: they are made of the cloud's
+/// positions each time they are asked for, in a third of the memory.
 typedef struct clx_sample {
     const clast_domain *domain; ///< borrowed
     const clast_comm *comm;     ///< ranks that have a part of the points each; borrowed
@@ -31,9 +32,16 @@ const double *clx_sample_point(const clx_sample *sample, int64_t i, double held[
 /// The first n points, beside those of the other ranks; borrows the sample.
 clx_part clx_sample_part(const clx_sample *sample, int64_t n);
 
-/// Maps a cloud's points, the part of this rank; called by all ranks. On one rank with a mesh
-/// domain round(n (V_box / V - 1)) uniform ghosts fill the rest of the box, and of weighted points
-/// i is tested with chance w_i / w_max, so that those tested are a sample of the real particles.
+/// What sums of all ranks' weights are counted in; called by all ranks.
+///
+/// @param weight  of all points of the cloud here, or NULL (1)
+clx_fixed_scale clx_sample_scale(const clx_sample *sample, const double *weight);
+
+/// Maps a cloud's points, the part of this rank; called by all ranks. With a mesh domain
+/// round(n (V_box / V - 1)) uniform ghosts fill the rest of the box, a stretch of their numbers on
+/// each rank; of weighted points one is tested with chance w / w_max, so that those tested are a
+/// sample of the real particles. Place and weight decide, on any rank and in any row: points that
+/// have both in common are tested together or not at all.
 ///
 /// @return CLAST_E_FORMAT for coordinates that are not finite, weights that are not > 0, points
 /// outside with CLAST_OUTSIDE_ERROR

@@ -21,11 +21,16 @@
 // block (1.5e6 samples), so those are tested; as cells they are given with 5.
 enum { TESTED_LEAST = 1, GIVEN_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
 
-/// Points in the blocks of a cell that a border between ranks cuts.
+/// Points in the blocks of a cell, and those of them that are not tested.
+typedef struct {
+    int64_t all[MAX_BLOCK], untested[MAX_BLOCK];
+} block_counts;
+
+/// Of a cell that a border between ranks cuts.
 typedef struct {
     uint64_t key;
     int depth, levels;
-    int64_t count[MAX_BLOCK];
+    block_counts count;
 } shared_cell;
 
 typedef struct {
@@ -33,8 +38,9 @@ typedef struct {
     const clx_part *part; ///< of the points
     int32_t d;
     const clx_uniformity_tree_config *config;
-    clx_keyed *point;  ///< [n] by Morton code, on the only rank
-    clx_ranked ranked; ///< the codes of several ranks, instead
+    clx_keyed *point;    ///< [n] by Morton code, on the only rank
+    clx_ranked ranked;   ///< the codes of several ranks, instead
+    clx_ranked untested; ///< codes of points that are not tested, in the same stretches; or {0}
     clx_uniformity_tree_cells *cells;
     int32_t *of_point;
     int64_t *begin;     ///< of each cell in point; made at the end
@@ -136,14 +142,13 @@ static bool is_own(const growth *g, const node *cell)
 
 /// Points of all ranks in the blocks of a cell that is cut: known from the survey, or added up now,
 /// when all ranks ask.
-static clast_status count_shared(growth *g, const node *cell, int levels, int64_t *count)
+static clast_status count_shared(growth *g, const node *cell, int levels, block_counts *count)
 {
     clast_status status = CLAST_OK;
-    const int n_block = 1 << (g->d * levels);
     for (int64_t k = 0; k < g->n_shared; ++k) {
         const shared_cell *known = &g->shared[k];
         if (known->key == cell->key && known->depth == cell->depth && known->levels == levels) {
-            memcpy(count, known->count, (size_t)n_block * sizeof *count);
+            *count = known->count;
             return CLAST_OK;
         }
     }
@@ -151,40 +156,43 @@ static clast_status count_shared(growth *g, const node *cell, int levels, int64_
     CLX_TRY(clast_comm_agree(
         g->part->comm,
         clx_grow(&g->shared, &g->shared_capacity, g->n_shared + 1, sizeof *g->shared), NULL));
-    clx_comm_sum(g->part->comm, count, n_block);
-    shared_cell *made = &g->shared[g->n_shared++];
-    *made = (shared_cell){.key = cell->key, .depth = cell->depth, .levels = levels};
-    memcpy(made->count, count, (size_t)n_block * sizeof *count);
+    clx_comm_sum(g->part->comm, count->all, (int64_t)2 * MAX_BLOCK);
+    g->shared[g->n_shared++] = (shared_cell){cell->key, cell->depth, levels, *count};
 done:
     return status;
 }
 
 /// Points of each block of the cell, `levels` halvings down, on all ranks; start as find_blocks.
 static clast_status count_points(growth *g, const node *cell, int levels, int64_t *start,
-                                 int64_t *count)
+                                 block_counts *count)
 {
     const int n_block = 1 << (g->d * levels);
+    const int shift = bits_below(g, cell->depth + levels);
+    memset(count, 0, sizeof *count);
     find_blocks(g, cell, levels, start);
     for (int b = 0; b < n_block; ++b) {
-        count[b] = start[b + 1] - start[b];
+        count->all[b] = start[b + 1] - start[b];
+    }
+    for (int b = 0; b < n_block && g->untested.n > 0; ++b) {
+        const uint64_t low = cell->key + ((uint64_t)b << shift);
+        count->untested[b] = clx_ranked_from(&g->untested, low + (UINT64_C(1) << shift)) -
+                             clx_ranked_from(&g->untested, low);
     }
     return is_shared(g, cell) ? count_shared(g, cell, levels, count) : CLAST_OK;
 }
 
 /// Tested points of each block of the cell, `levels` halvings down, and their number.
-static clast_status count_tested(growth *g, const node *cell, int levels, int64_t *count,
+static clast_status count_tested(growth *g, const node *cell, int levels, int64_t *tested,
                                  int64_t *n)
 {
     clast_status status = CLAST_OK;
     int64_t start[MAX_BLOCK + 1];
-    const int n_block = 1 << (g->d * levels);
-    CLX_TRY(count_points(g, cell, levels, start, count));
+    block_counts count;
+    CLX_TRY(count_points(g, cell, levels, start, &count));
     *n = 0;
-    for (int b = 0; b < n_block; ++b) {
-        for (int64_t i = start[b]; i < start[b + 1] && g->points->n_test < g->part->n; ++i) {
-            count[b] -= g->point[i].item < (uint64_t)g->points->n_test ? 0 : 1;
-        }
-        *n += count[b];
+    for (int b = 0; b < 1 << (g->d * levels); ++b) {
+        tested[b] = count.all[b] - count.untested[b];
+        *n += tested[b];
     }
 done:
     return status;
@@ -348,15 +356,15 @@ static clast_status each_block(growth *g, const node *cell, int levels,
 {
     clast_status status = CLAST_OK;
     int64_t start[MAX_BLOCK + 1];
-    int64_t count[MAX_BLOCK];
+    block_counts count;
     const int n_block = 1 << (g->d * levels);
     const int shift = bits_below(g, cell->depth + levels);
-    CLX_TRY(count_points(g, cell, levels, start, count));
+    CLX_TRY(count_points(g, cell, levels, start, &count));
     for (int b = 0; b < n_block; ++b) {
         const node block = {.key = cell->key + ((uint64_t)b << shift),
                             .begin = start[b],
                             .end = start[b + 1],
-                            .n = count[b],
+                            .n = count.all[b],
                             .depth = cell->depth + levels,
                             .group = g->n_group + (b >> g->d), // blocks come half by half
                             .is_of_uneven = cell->is_of_uneven,
@@ -413,13 +421,51 @@ static void number_points(int64_t begin, int64_t end, int32_t worker, void *cont
     }
 }
 
+typedef struct {
+    const growth *g;
+    int64_t first;
+    uint64_t *code; ///< of points from `first` on
+} code_context;
+
+static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const code_context *c = context;
+    double held[3];
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double *u = clx_part_point(c->g->part, c->first + i, held);
+        c->code[i] = clx_morton_of(u, c->g->d);
+    }
+}
+
+/// Codes of the points that are not tested, in the stretches of `leader`.
+static clast_status order_untested(growth *g, const clx_ranked *leader)
+{
+    clast_status status = CLAST_OK;
+    const clast_comm *comm = g->part->comm;
+    code_context c = {g, g->points->n_test, NULL};
+    const int64_t n = g->part->n - g->points->n_test;
+    if (clx_comm_total(comm, n) == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&c.code, n, sizeof *c.code), NULL));
+    clx_parallel_for(n, POINTS_A_BLOCK, take_codes, &c);
+    CLX_TRY(clx_ranked_follow(comm, &c.code, n, leader, &g->untested));
+done:
+    clx_free(c.code);
+    return status;
+}
+
 /// Points of the only rank in the order of their codes.
 static clast_status order_points(growth *g)
 {
     clast_status status = CLAST_OK;
+    uint64_t whole[2] = {0, UINT64_C(1) << bits_below(g, 0)};
+    const clx_ranked all = {.first = whole};
     CLX_TRY(clx_alloc(&g->point, g->part->n, sizeof *g->point));
     clx_parallel_for(g->part->n, POINTS_A_BLOCK, take_keys, g);
     CLX_TRY(clx_sort_keyed(g->point, g->part->n));
+    CLX_TRY(order_untested(g, &all));
 done:
     return status;
 }
@@ -439,29 +485,15 @@ done:
     return status;
 }
 
-typedef struct {
-    const growth *g;
-    uint64_t *code;
-} code_context;
-
-static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
-{
-    const code_context *c = context;
-    double held[3];
-    (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        c->code[i] = clx_morton_of(clx_part_point(c->g->part, i, held), c->g->d);
-    }
-}
-
 static clast_status order_codes(growth *g)
 {
     clast_status status = CLAST_OK;
-    code_context c = {g, NULL};
+    code_context c = {g, 0, NULL};
     const clx_part *p = g->part;
     CLX_TRY(clast_comm_agree(p->comm, clx_alloc(&c.code, p->n, sizeof *c.code), NULL));
     clx_parallel_for(p->n, POINTS_A_BLOCK, take_codes, &c);
     CLX_TRY(clx_ranked_sort(p->comm, &c.code, p->n, UINT64_C(1) << bits_below(g, 0), &g->ranked));
+    CLX_TRY(order_untested(g, &g->ranked));
 done:
     clx_free(c.code);
     return status;
@@ -525,7 +557,7 @@ static void locate_points(int64_t begin, int64_t end, int32_t worker, void *cont
 static clast_status grow_over_ranks(growth *g)
 {
     clast_status status = CLAST_OK;
-    CLAST_ASSERT(g->points->n_test == g->part->n && g->points->variable == NULL);
+    CLAST_ASSERT(g->points->variable == NULL);
     CLX_TRY(order_codes(g));
     const node root = {.end = g->ranked.n, .n = g->ranked.n_all};
     g->is_survey = true;
@@ -570,6 +602,7 @@ done:
     }
     clx_free(g.point);
     clx_ranked_free(&g.ranked);
+    clx_ranked_free(&g.untested);
     clx_free(g.begin);
     clx_free(g.shared);
     return status;

@@ -25,6 +25,20 @@ def rows(points):
     return "".join("%r,%r,%r\n" % tuple(p) for p in points)
 
 
+def rows4(points):
+    return "".join("%r,%r,%r,%r\n" % tuple(p) for p in points)
+
+
+def octahedron():
+    """The text of an OBJ file: corners in the middles of the unit cube's faces."""
+    corners = [[(k % 2 if j == k // 2 else 0.5) for j in range(3)] for k in range(6)]
+    faces = []
+    for x, y, z in ((k & 1, k >> 1 & 1, k >> 2) for k in range(8)):
+        face = [1 + x, 3 + y, 5 + z]
+        faces.append(face if (x + y + z) % 2 else face[::-1])
+    return "".join("v %r %r %r\n" % tuple(c) for c in corners) + "".join("f %d %d %d\n" % tuple(f) for f in faces)
+
+
 def found(out):
     """The summary without the time that it took."""
     made = json.loads(out)
@@ -66,6 +80,31 @@ class Cloud(Case):
             self.both(n, path, *BOX, *arguments)
         self.both(3, path, *BOX, "--test-only", code=1)
         self.both(2, path, "--domain", "sphere:0.5,0.5,0.5,0.6", "--outside", "drop")
+
+    def test_parcels_are_the_same_bytes(self):
+        draw = random.Random(10)
+        weighted = [(*p, draw.lognormvariate(0, 1.5)) for p in cloud(2500, 9)]
+        columns = ("--weight-column", "w", *BOX)
+        summaries = set()
+        for n, points in ((1, weighted), (2, weighted[::-1]), (3, sorted(weighted)), (4, draw.sample(weighted, len(weighted)))):
+            summaries.add(self.both(n, self.write(f"parcels{n}.csv", "x,y,z,w\n" + rows4(points)), *columns))
+        self.assertEqual(len(summaries), 1)
+        path = self.folder / "parcels1.csv"
+        self.both(3, path, *columns, "--mesh", "boxes", "--beta-dt", "1e-6")
+        self.both(4, self.write("two.csv", "x,y,z,w\n" + rows4(weighted[:2])), *columns)  # ranks without a parcel
+
+    def test_a_closed_surface_is_the_same_bytes(self):
+        surface = self.write("octahedron.obj", octahedron())
+        path = self.write("around.csv", "x,y,z\n" + rows(cloud(2500, 11)))
+        more = ("--domain", f"mesh:{surface}", "--outside", "drop")
+        self.both(2, path, *more)
+        self.both(3, path, *more, "--mesh", "boxes")
+        self.both(4, path, *more, "--pairs")
+
+    def test_pairs_of_many_points_are_the_same_bytes(self):
+        draw = random.Random(12)
+        path = self.write("many pairs.csv", "x,y,z\n" + rows([[draw.random() ** 2, draw.random(), draw.random()] for _ in range(210000)]))
+        self.both(3, path, *BOX, "--pairs")
 
     def test_many_points_take_the_ways_of_many(self):
         points = cloud(60000, 4)  # binned sums, a grid of splines, chosen neighbours
@@ -140,7 +179,8 @@ class Cloud(Case):
                 (good, ("--columns", "x,y,w"), 3, "no column of numbers named 'w'"),
                 (pathlib.Path("data/scarlet/stl/27sk21_shape_fine.stl"), (), 3, "27sk21"),
                 (good, ("--mesh", "boxes", "--ghost-samples", "3"), 2, "--ghost-samples"),
-                (good, ("--weight-column", "x"), 2, "weights"),
+                (good, ("--weight-column", "x", "--pairs"), 2, "weights"),
+                (bad("light.csv", 3005, "0,0.2,0.3"), ("--weight-column", "x"), 3, "the weight of point 3004 is 0"),
                 (good, ("--variable-column", "x"), 2, "variable"),
                 (good, ("--crossfit",), 2, "cross-fitting"),
                 (good, ("--sizes", "3", "-o", self.folder / "s"), 2, "without mpirun")):

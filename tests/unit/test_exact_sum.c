@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "math/exact_sum.h"
+#include "math/fixed_sum.h"
 #include "math/rng.h"
 #include <float.h>
 #include <math.h>
@@ -84,12 +85,42 @@ static void any_order_on_any_ranks_is_the_same_sum(void **state)
     }
 }
 
+/* Powers of weights over twelve decades: in any order the same two words, whose value is the exact
+   sum's to rounding. */
+static void fixed_sums_know_no_order(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    static clx_fixed_sum forth[4];
+    static clx_fixed_sum back[4];
+    clx_exact_sum exact[4] = {{{0}, 0}};
+    const clx_fixed_scale scale = clx_fixed_scale_of(1e6, N);
+    for (int i = 0; i < N; ++i) {
+        clx_fixed_sum power[4];
+        const double w = pow(10.0, 6.0 - 12.0 * i / N);
+        clx_fixed_powers(&scale, w, 4, power);
+        for (int k = 0; k < 4; ++k) {
+            clx_fixed_add(&forth[k], &power[k]);
+            clx_exact_add(&exact[k], pow(w, k + 1));
+        }
+        clx_fixed_powers(&scale, pow(10.0, 6.0 - 12.0 * (N - 1 - i) / N), 4, power);
+        for (int k = 0; k < 4; ++k) {
+            clx_fixed_add(&back[k], &power[k]);
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        assert_true(forth[k].word[0] == back[k].word[0] && forth[k].word[1] == back[k].word[1]);
+        CHECK_REL(clx_fixed_value(&scale, &forth[k], k + 1), clx_exact_value(&exact[k]), 1e-15);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_is_lost),
         cmocka_unit_test(the_value_is_rounded_once),
         cmocka_unit_test(any_order_on_any_ranks_is_the_same_sum),
+        cmocka_unit_test(fixed_sums_know_no_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
