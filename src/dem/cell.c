@@ -155,9 +155,14 @@ static void wrap_grain(clast_dem *dem, int32_t i)
     const double *x = dem->grain[i].position;
     double by[3] = {0.0, 0.0, 0.0};
     double velocity[3] = {0.0, 0.0, 0.0};
-    const double z = -floor(x[2] * cell->inverse[2]);
-    const double n[2] = {-floor((x[0] + z * cell->shift) * cell->inverse[0] + 0.5),
-                         -floor(x[1] * cell->inverse[1] + 0.5)};
+    const double at[3] = {x[0] * cell->inverse[0] + 0.5, x[1] * cell->inverse[1] + 0.5,
+                          x[2] * cell->inverse[2]};
+    if (at[2] >= 0.0 && at[2] < 1.0 && at[0] >= 0.0 && at[0] < 1.0 && at[1] >= 0.0 &&
+        at[1] < 1.0) { // most: no floor is asked for
+        return;
+    }
+    const double z = -floor(at[2]);
+    const double n[2] = {-floor((x[0] + z * cell->shift) * cell->inverse[0] + 0.5), -floor(at[1])};
     if (z == 0.0 && n[0] == 0.0 && n[1] == 0.0) {
         return;
     }

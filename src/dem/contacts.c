@@ -148,7 +148,8 @@ static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_de
     out->torque_a[3] = -on_a.torque[3];
 }
 
-static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
+/// Lane k's contact as scalar code has it.
+static clx_dem_touch touch_of_lane(const clx_batch *p, int k)
 {
     CLAST_ASSERT(k >= 0 && k < p->n);
     clx_dem_touch t = {.distance = p->meet.gap[k]};
@@ -157,7 +158,7 @@ static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
         t.arm_a[c] = p->meet.point[c][k];
         t.arm_b[c] = p->arm_b[c][k];
     }
-    force_of_pair(dem, p->pair[k], &t, p->to[k]);
+    return t;
 }
 
 /// Forces by the laws that have no code for lanes.
@@ -168,7 +169,8 @@ static void force_of_each(clast_dem *dem, const clx_batch *p)
             end_contact(dem, p, k);
         } else {
             p->pair[k]->touches = 1;
-            force_of_lane(dem, p, k);
+            const clx_dem_touch t = touch_of_lane(p, k);
+            force_of_pair(dem, p->pair[k], &t, p->to[k]);
         }
     }
 }
@@ -191,6 +193,7 @@ typedef struct {
     clx_packed_pair *packed;       ///< the same pairs, packed, or NULL
     int64_t n_left;                ///< pairs from there to the end of the inner list
     clx_pair_force *force;         ///< of each pair
+    clx_dem_touch *touch;          ///< where each active pair touches, or NULL: not asked for
     double travel[PIECE];          ///< path of each pair's two grains
     int n[CLX_N_BATCH];            ///< active pairs
     uint16_t at[CLX_N_BATCH][ROW]; ///< their indices, the last of a kind repeated
@@ -344,6 +347,11 @@ static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
+            if (s->touch != NULL) {
+                for (int k = 0; k < batch.n; ++k) {
+                    s->touch[s->at[kind][from + k]] = touch_of_lane(&batch, k);
+                }
+            }
             if (has_law) {
                 clx_batch_force(dem, &batch, kind == CLX_BATCH_ANY);
             } else {
@@ -361,6 +369,7 @@ static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force,
     s->packed = dem->inner.is_packed ? dem->inner.packed + at : NULL;
     s->n_left = dem->inner.n - at;
     s->force = force;
+    s->touch = NULL;
 }
 
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
@@ -389,6 +398,23 @@ static void find_block(int64_t begin, int64_t end, int32_t worker, void *context
     begin_piece(dem, begin, dem->inner.force + begin, &s);
     memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of skipped pairs
     (void)find_piece(dem, (int)(end - begin), &s, active);
+}
+
+void clx_contacts_again(const clast_dem *dem, int32_t n, clx_packed_pair *packed,
+                        clx_pair_force *force, clx_dem_touch *touch)
+{
+    static_assert((int)CLX_MOST_AGAIN <= (int)PIECE, "one piece");
+    CLAST_ASSERT(n >= 1 && n <= CLX_MOST_AGAIN && dem->item == NULL && !dem->law.has_history);
+    clast_dem copy = *dem; // whose inner list is these pairs
+    clx_active_pair active[PIECE];
+    piece s;
+    memset(packed + n, 0, CLX_PREFETCH_PAIRS * sizeof *packed);
+    copy.inner.n = n;
+    copy.inner.packed = packed;
+    copy.inner.is_packed = true;
+    begin_piece(&copy, 0, force, &s);
+    s.touch = touch;
+    (void)find_piece(&copy, n, &s, active);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.

@@ -219,11 +219,10 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 // 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
 // contacts share their stiffness, walls have triangles or are watched, contacts are verified, or
 // their energy is booked.
-clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
+clast_status clx_dem_step_packed(clast_dem *dem, int64_t n_step)
 {
-    CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
-    if (dem->ranks != NULL) {
+    if (dem->ranks != NULL && dem->n_grain > 0) { // without grains only walls move, on all alike
         return clx_ranks_step(dem, n_step);
     }
     for (int64_t k = 0; k < n_step; ++k) {
@@ -255,6 +254,13 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         }
     }
 done:
+    return status;
+}
+
+clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
+{
+    CLX_ARGUMENTS(dem);
+    const clast_status status = clx_dem_step_packed(dem, n_step);
     clx_inner_unpack(dem);
     return status;
 }

@@ -200,6 +200,10 @@ void clx_contacts(clast_dem *dem);
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
                            clx_active_pair *active);
 
+/// clast_dem_step, but that the pairs of the list may be left behind their copies
+/// (inner.is_packed).
+clast_status clx_dem_step_packed(clast_dem *dem, int64_t n_step);
+
 /// Compares the contacts that clx_contacts has just found with ones found without warm start.
 void clx_verify(clast_dem *dem);
 

@@ -1,7 +1,8 @@
 // What a bed carries: stress, fabric, coordination and forces of contacts, at a moment.
 //
-// Contacts are worked out afresh, block by block, and summed in the order of the list: the same
-// bytes whatever the threads. [docs/theory/load.md]
+// Contacts are worked out afresh where the grains are now, whole grains by the SIMD lanes of a
+// step, block by block, and summed in the order of the list: the same bytes whatever the threads.
+// [docs/theory/load.md]
 #include "dem/load.h"
 
 #include "base/alloc.h"
@@ -21,9 +22,12 @@ typedef struct {
     double stiffness;
 } contact;
 
+/// Pairs that touched in the last step, where they are up to date, and their contacts.
 typedef struct {
     const clast_dem *dem;
-    contact *row;
+    const clx_dem_pair **pair; ///< [n]
+    contact *row;              ///< [n]
+    int64_t n;
 } work;
 
 /// From copies, so that its history stays.
@@ -61,8 +65,78 @@ static void measure_block(int64_t begin, int64_t end, int32_t worker, void *cont
     const work *w = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        measure_pair(w->dem, &w->dem->list.pair[k], &w->row[k]);
+        measure_pair(w->dem, w->pair[k], &w->row[k]);
     }
+}
+
+/// A contact that lanes found again.
+static void take_contact(const clast_dem *dem, const clx_dem_pair *pair,
+                         const clx_pair_force *force, const clx_dem_touch *t, contact *out)
+{
+    clx_meeting m;
+    *out = (contact){
+        .a = pair->touches != 0 ? pair->a : -1, .b = pair->b >= 0 ? pair->b : -1, .is_first = true};
+    if (out->a < 0) {
+        return;
+    }
+    clx_meet_pair(dem, pair, NULL, t, &m);
+    out->stiffness = clx_law_stiffness(&dem->law, &m);
+    v3_copy(out->force, force->force);
+    v3_copy(out->normal, t->normal);
+    v3_copy(out->branch, t->arm_a);
+    if (pair->b >= 0) {
+        v3_sub(out->branch, t->arm_a, t->arm_b);
+    }
+}
+
+/// The same bits by the lanes of a step, from copies of pairs and warm starts.
+static void measure_lanes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const work *w = context;
+    const clast_dem *dem = w->dem;
+    clx_packed_pair packed[CLX_MOST_AGAIN + CLX_PREFETCH_PAIRS];
+    clx_pair_force force[CLX_MOST_AGAIN];
+    clx_dem_touch touch[CLX_MOST_AGAIN];
+    (void)worker;
+    for (int64_t k = begin; k < end; ++k) {
+        const clx_dem_pair *pair = w->pair[k];
+        clx_packed_pair *to = &packed[k - begin];
+        if (dem->inner.is_packed) {
+            *to = *(const clx_packed_pair *)(const void *)pair;
+            continue;
+        }
+        to->pair = *pair;
+        if (pair->slot != 0) {
+            to->warm_start = dem->list.warm_start[pair->slot].record;
+        }
+    }
+    clx_contacts_again(dem, (int32_t)(end - begin), packed, force, touch);
+    for (int64_t k = begin; k < end; ++k) {
+        take_contact(dem, &packed[k - begin].pair, &force[k - begin], &touch[k - begin],
+                     &w->row[k]);
+    }
+}
+
+bool clx_dem_stress_is_fast(const clast_dem *dem)
+{
+    return dem->item == NULL && dem->container == NULL && !dem->law.has_history;
+}
+
+/// Pairs that touched in the last step, in the order of the list: the inner list has them all.
+static clast_status list_touching(work *w)
+{
+    clast_status status = CLAST_OK;
+    const clast_dem *dem = w->dem;
+    const bool is_packed = dem->inner.is_packed;
+    const int64_t n = is_packed ? dem->inner.n : dem->list.n_pair;
+    CLX_TRY(clx_alloc(&w->pair, n, sizeof(*w->pair)));
+    for (int64_t k = 0; k < n; ++k) {
+        const clx_dem_pair *pair = is_packed ? &dem->inner.packed[k].pair : &dem->list.pair[k];
+        w->pair[w->n] = pair;
+        w->n += pair->touches;
+    }
+done:
+    return status;
 }
 
 /// All contacts, in the order of the list.
@@ -70,16 +144,24 @@ static clast_status find(const clast_dem *dem, contact **row, int64_t *n)
 {
     clast_status status = CLAST_OK;
     work w = {.dem = dem};
-    CLX_TRY(clx_alloc(&w.row, dem->list.n_pair, sizeof *w.row));
-    clx_dem_for(dem, dem->list.n_pair, BLOCK, measure_block, &w);
+    CLX_TRY(list_touching(&w));
+    CLX_TRY(clx_alloc(&w.row, w.n, sizeof *w.row));
+    if (clx_dem_stress_is_fast(dem)) {
+        clx_dem_for(dem, w.n, CLX_MOST_AGAIN, measure_lanes, &w);
+    } else {
+        clx_dem_for(dem, w.n, BLOCK, measure_block, &w);
+    }
     *n = 0;
-    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+    for (int64_t k = 0; k < w.n; ++k) {
         if (w.row[k].a >= 0) {
             w.row[(*n)++] = w.row[k];
         }
     }
     *row = w.row;
+    w.row = NULL;
 done:
+    clx_free(w.pair);
+    clx_free(w.row);
     return status;
 }
 
@@ -247,7 +329,9 @@ static void measure_volume(const clast_dem *dem, clast_dem_load *load)
     load->shear_modulus /= load->volume;
 }
 
-static clast_status measure_load(const clast_dem *dem, bool is_whole, clast_dem_load *load)
+/// Without counts and orders, and what is unbalanced, unless they are asked for.
+static clast_status measure_load(const clast_dem *dem, bool is_whole, bool is_balanced,
+                                 clast_dem_load *load)
 {
     clast_status status = CLAST_OK;
     contact *row = NULL;
@@ -256,7 +340,9 @@ static clast_status measure_load(const clast_dem *dem, bool is_whole, clast_dem_
     CLX_TRY(find(dem, &row, &n));
     sum_contacts(n, row, &made);
     sum_motion(dem, &made);
-    CLX_TRY(measure_balance(dem, n, row, &made));
+    if (is_balanced) {
+        CLX_TRY(measure_balance(dem, n, row, &made));
+    }
     if (is_whole) {
         CLX_TRY(count_rattlers(dem, n, row, &made));
         CLX_TRY(measure_forces(n, row, &made));
@@ -279,13 +365,13 @@ done:
     return status;
 }
 
-clast_status clx_dem_stress(const clast_dem *dem, clast_dem_load *load)
+clast_status clx_dem_stress(const clast_dem *dem, bool is_balanced, clast_dem_load *load)
 {
-    return measure_load(dem, false, load);
+    return measure_load(dem, false, is_balanced, load);
 }
 
 clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load)
 {
     CLX_ARGUMENTS(dem, load);
-    return measure_load(dem, true, load);
+    return measure_load(dem, true, true, load);
 }

@@ -19,7 +19,7 @@ static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
         clx_verify(dem);
     }
     if (dem->walls.is_watched) {
-        clx_walls_add_forces(dem);
+        CLX_TRY(clx_walls_add_forces(dem));
     }
     if (dem->energy != NULL) {
         clx_energy_forces(dem);

@@ -33,8 +33,6 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLX_CHECK(dem->cell == NULL && dem->energy == NULL, CLAST_E_CONFIG,
               "a cell that repeats in three directions and the energy book are of one process: run "
               "it on one rank");
-    CLX_CHECK(!dem->walls.is_watched, CLAST_E_CONFIG,
-              "walls that move, open or are watched are of one process: run it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
@@ -90,6 +88,8 @@ static void share_setting(clast_dem *whole)
     local->step = whole->step;
     local->container = whole->container;
     local->walls = whole->walls;
+    local->walls.least = clx_walls_margin(whole);
+    memcpy(local->wall, whole->wall, sizeof local->wall);
     local->body = whole->body;
     local->n_body = whole->n_body;
     local->has_items = whole->has_items;
@@ -302,7 +302,9 @@ static clast_status step(clast_dem *whole)
         CLX_TRY(refresh(whole));
     }
     CLX_TRY(share_slabs(whole));
+    clx_walls_begin_step(local);
     status = work(local, &is_fine);
+    clx_walls_end_step(local);
     whole->step = ++local->step;
     whole->n_started = whole->n_grain;
     r->is_current = false;
@@ -316,20 +318,32 @@ static clast_status step(clast_dem *whole)
     if (least == LOST) {
         CLX_TRY(explain(whole));
     }
+    CLX_TRY(clx_ranks_add_walls(whole));
 done:
     return status;
+}
+
+/// What the rank's own simulation did with the walls, which are the whole's.
+static void return_walls(clast_dem *whole)
+{
+    whole->walls = whole->ranks->local->walls;
+    memcpy(whole->wall, whole->ranks->local->wall, sizeof whole->wall);
+}
+
+void clx_ranks_restart(clx_ranks *r)
+{
+    r->has_begun = false;
+    r->n_synced = 0;
 }
 
 clast_status clx_ranks_step(clast_dem *whole, int64_t n_step)
 {
     clast_status status = CLAST_OK;
-    if (whole->n_grain == 0) {
-        whole->step += n_step;
-        return CLAST_OK;
-    }
     CLX_TRY(synchronise(whole));
     for (int64_t k = 0; k < n_step; ++k) {
-        CLX_TRY(step(whole));
+        status = step(whole);
+        return_walls(whole);
+        CLX_TRY(status);
     }
 done:
     clx_inner_unpack(whole->ranks->local);

@@ -105,6 +105,12 @@ clast_status clx_dem_gather_all(clast_dem *dem);
 /// clast_dem_measure of them, the same on every rank. Called by all.
 clast_status clx_dem_gather_measures(clast_dem *dem, clast_dem_measures *measures);
 
+/// clast_dem_load_measure, the same on every rank. Called by all.
+clast_status clx_dem_gather_load(clast_dem *dem, clast_dem_load *load);
+
+/// Whether a grain's centre is beyond a plane, sign (x - at) < 0, without gathering. Called by all.
+bool clx_dem_any_beyond(const clast_dem *dem, int axis, double sign, double at);
+
 /// Whether a step ended well on every rank (clast_comm_agree).
 clast_status clx_dem_agree(const clast_dem *dem, clast_status status);
 
@@ -132,6 +138,12 @@ clast_status clx_ranks_refresh(clast_dem *whole);
 /// Which grains the ranks read of each other in a step; then what they are now.
 clast_status clx_ranks_connect(clast_dem *whole);
 void clx_ranks_exchange(clast_dem *whole);
+
+/// What grains of all ranks did to the walls in a step.
+clast_status clx_ranks_add_walls(clast_dem *whole);
+
+/// The whole, gathered and changed, is distributed anew at the next step.
+void clx_ranks_restart(clx_ranks *ranks);
 
 /// A partition by cost into `next`, from positions of the whole that are up to date.
 clast_status clx_ranks_partition(clast_dem *whole);

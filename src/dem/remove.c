@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "dem/dem.h"
 #include "dem/energy.h"
+#include "dem/ranks.h"
 #include <string.h>
 
 /// Which grains and items go, and the new number of each of the others.
@@ -121,8 +122,7 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
     clast_status status = CLAST_OK;
     removal r = {.goes = goes};
     clx_energy_held before = {0};
-    CLX_CHECK(dem->ranks == NULL, CLAST_E_CONFIG,
-              "grains that leave are of one process: run it on one rank");
+    CLX_TRY(clx_dem_gather_all(dem)); // rank 0 has all pairs then
     CLX_TRY(clx_alloc(&r.item, dem->n_item, sizeof *r.item));
     if (dem->energy != NULL) {
         before = clx_energy_held_now(dem);
@@ -133,6 +133,9 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
     take_items(dem, &r);
     take_grains(dem, &r);
     dem->inner.is_due = true;
+    if (dem->ranks != NULL) {
+        clx_ranks_restart(dem->ranks);
+    }
     if (dem->energy != NULL) { // springs that held something go with their grains
         const clx_energy_held now = clx_energy_held_now(dem);
         double *sum = dem->energy->sum;

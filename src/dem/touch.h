@@ -4,7 +4,7 @@
 #include "dem/dem.h"
 
 /// A contact as seen from a: arms are from the grains' centres to the contact point.
-typedef struct clx_dem_touch {
+typedef struct {
     double distance;  ///< signed; < 0: overlap. When > 0 it may be a lower bound
     double normal[3]; ///< from a to b; only for an overlap
     double arm_a[3], arm_b[3];
@@ -130,3 +130,10 @@ bool clx_pair_holds(const clast_dem *dem, const clx_dem_pair *pair, clx_dem_touc
 /// Whether a contact is the first of its two bodies: clumps may touch in several spheres, and count
 /// as one.
 bool clx_is_first_contact(const clast_dem *dem, const clx_dem_pair *pair);
+
+/// Contacts of n copies of pairs of whole grains that touched in the last step, where the grains
+/// are now: forces, and where each touches; `touches` of the copy tells whether it still does. The
+/// simulation, whose law has no history, stays as it is. `packed` [n + CLX_PREFETCH_PAIRS].
+enum { CLX_MOST_AGAIN = 256 };
+void clx_contacts_again(const clast_dem *dem, int32_t n, clx_packed_pair *packed,
+                        clx_pair_force *force, clx_dem_touch *touch);

@@ -40,6 +40,14 @@ typedef struct clx_wall_body {
     double reach;               ///< of the mesh from its pivot [m]
 } clx_wall_body;
 
+/// What one contact does to a wall in a step, on its way to other ranks.
+typedef struct clx_wall_push {
+    int32_t number; ///< of the grain
+    int32_t wall;
+    int64_t order;              ///< among the rank's own, which has all contacts of the grain
+    double force[3], torque[3]; ///< about the pivot
+} clx_wall_push;
+
 typedef struct clx_walls {
     int32_t n;
     clx_wall_body *body; ///< [n] walls of the domain first
@@ -50,6 +58,9 @@ typedef struct clx_walls {
     double margin;       ///< path that this search covers
     double step;         ///< path of the last step
     double until;        ///< path that the inner list covers
+    double least;        ///< of a rank's own simulation: clx_walls_margin of the whole
+    clx_wall_push *push; ///< [n_push] of such a simulation: of the last step
+    int64_t n_push, push_capacity;
 } clx_walls;
 
 /// Whether the contact law has to know velocities of walls.
@@ -73,8 +84,11 @@ void clx_walls_free(clx_walls *walls);
 
 /// A step: velocities; forces, when contacts have found theirs; then one step on.
 void clx_walls_begin_step(clast_dem *dem);
-void clx_walls_add_forces(clast_dem *dem);
+clast_status clx_walls_add_forces(clast_dem *dem);
 void clx_walls_end_step(clast_dem *dem);
+
+/// The forces of a step over ranks, whose contacts come in the order of one rank.
+void clx_walls_add_pushes(clast_dem *dem, int64_t n, const clx_wall_push *push);
 
 /// Path that a new inner list covers.
 void clx_walls_look_ahead(clast_dem *dem);
@@ -88,5 +102,12 @@ bool clx_walls_cross(const clast_dem *dem, int32_t i, int32_t k);
 /// Path that walls may have until all items search them anew [m].
 double clx_walls_margin(const clast_dem *dem);
 
-/// Springs of the wall's contacts along a unit direction, sum k (n d)^2 [N/m].
-double clx_wall_stiffness(const clast_dem *dem, int32_t wall, const double along[3]);
+struct clx_dem_pair;
+
+/// Spring of a pair's contact with a wall along a unit direction, k (n d)^2 [N/m]; 0: it has none.
+double clx_wall_spring(const clast_dem *dem, const struct clx_dem_pair *pair, int32_t wall,
+                       const double along[3]);
+
+/// The sum of all. Called by all ranks.
+clast_status clx_wall_stiffness(const clast_dem *dem, int32_t wall, const double along[3],
+                                double *sum);

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "dem/container.h"
 #include "dem/pair_force.h"
+#include "dem/ranks.h"
 #include <math.h>
 #include <string.h>
 
@@ -27,6 +28,7 @@ void clx_walls_free(clx_walls *walls)
         clx_wall_mesh_destroy(walls->body[i].mesh);
     }
     clx_free(walls->body);
+    clx_free(walls->push);
     *walls = (clx_walls){0};
 }
 
@@ -219,33 +221,26 @@ void clx_walls_look_ahead(clast_dem *dem)
     all->until = all->path + fmax(LOOK_AHEAD * all->step, LEAST * all->margin);
 }
 
-void clx_walls_add_forces(clast_dem *dem)
+static void clear_forces(clx_walls *all)
+{
+    for (int32_t i = 0; i < all->n; ++i) {
+        v3_set(all->body[i].force, 0.0, 0.0, 0.0);
+        v3_set(all->body[i].torque, 0.0, 0.0, 0.0);
+    }
+}
+
+static void add_push(clx_walls *all, const clx_wall_push *push)
+{
+    CLAST_ASSERT(push->wall >= 0 && push->wall < all->n);
+    clx_wall_body *w = &all->body[push->wall];
+    v3_add(w->force, w->force, push->force);
+    v3_add(w->torque, w->torque, push->torque);
+}
+
+/// Impulse, moment and work of a step whose forces are summed.
+static void add_impulses(clast_dem *dem)
 {
     const double dt = dem->config.time_step;
-    const clx_inner_list *inner = &dem->inner;
-    for (int32_t i = 0; i < dem->walls.n; ++i) {
-        v3_set(dem->walls.body[i].force, 0.0, 0.0, 0.0);
-        v3_set(dem->walls.body[i].torque, 0.0, 0.0, 0.0);
-    }
-    for (int32_t i = 0; i < dem->n_item; ++i) {
-        const double *x = dem->grain[clx_item_grain(dem, i)].position;
-        for (int32_t k = inner->begin[i]; k < inner->begin[i + 1]; ++k) {
-            const clx_dem_pair *pair = clx_inner_pair(dem, k);
-            if (pair->b >= 0) {
-                break; // walls come first
-            }
-            if (pair->touches != 0) {
-                clx_wall_body *w = &dem->walls.body[clx_wall_of(dem, pair->b) - dem->walls.body];
-                double arm[3];
-                double torque[3];
-                v3_sub(arm, x, w->pivot);
-                v3_cross(torque, arm, inner->force[k].force);
-                v3_add(torque, torque, inner->force[k].torque_a);
-                v3_add(w->force, w->force, inner->force[k].force);
-                v3_add(w->torque, w->torque, torque);
-            }
-        }
-    }
     for (int32_t i = 0; i < dem->walls.n; ++i) {
         clx_wall_body *w = &dem->walls.body[i];
         v3_axpy(w->impulse, w->impulse, dt, w->force);
@@ -254,27 +249,91 @@ void clx_walls_add_forces(clast_dem *dem)
     }
 }
 
-double clx_wall_stiffness(const clast_dem *dem, int32_t wall, const double along[3])
+/// Adds a contact's force; one of a rank waits for the sum over ranks.
+static clast_status take_push(clast_dem *dem, const clx_wall_push *push)
 {
-    double sum = 0.0;
-    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
-        const clx_dem_pair *pair = &dem->list.pair[k];
-        const clx_contact_history *own = clx_pair_history(dem, pair);
-        clx_contact_history history = own != NULL ? *own : (clx_contact_history){0};
-        clx_dem_touch t;
-        clx_meeting m;
-        if (pair->b >= 0 || pair->touches == 0 ||
-            clx_wall_of(dem, pair->b) != &dem->walls.body[wall] || !clx_pair_holds(dem, pair, &t)) {
-            continue;
-        }
-        clx_meet_pair(dem, pair, &history, &t, &m);
-        const double share = dem->config.clump_contacts == CLAST_DEM_SHARED
-                                 ? 1.0 / clx_sub_contacts(dem, pair)
-                                 : 1.0;
-        const double n = v3_dot(t.normal, along);
-        sum += share * clx_law_stiffness(&dem->law, &m) * n * n;
+    clast_status status = CLAST_OK;
+    clx_walls *all = &dem->walls;
+    if (dem->is_ghost == NULL) {
+        add_push(all, push);
+        return CLAST_OK;
     }
-    return sum;
+    CLX_TRY(clx_grow(&all->push, &all->push_capacity, all->n_push + 1, sizeof *all->push));
+    all->push[all->n_push] = *push;
+    all->push[all->n_push].order = all->n_push;
+    ++all->n_push;
+done:
+    return status;
+}
+
+clast_status clx_walls_add_forces(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    const clx_inner_list *inner = &dem->inner;
+    clear_forces(&dem->walls);
+    dem->walls.n_push = 0;
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        const int32_t g = clx_item_grain(dem, i);
+        const double *x = dem->grain[g].position;
+        for (int32_t k = inner->begin[i]; k < inner->begin[i + 1]; ++k) {
+            const clx_dem_pair *pair = clx_inner_pair(dem, k);
+            if (pair->b >= 0) {
+                break; // walls come first
+            }
+            if (pair->touches != 0 && !clx_are_ghosts(dem, i, i)) {
+                const clx_wall_body *w = clx_wall_of(dem, pair->b);
+                clx_wall_push push = {.number = clx_grain_number(dem, g),
+                                      .wall = (int32_t)(w - dem->walls.body)};
+                double arm[3];
+                v3_sub(arm, x, w->pivot);
+                v3_cross(push.torque, arm, inner->force[k].force);
+                v3_add(push.torque, push.torque, inner->force[k].torque_a);
+                v3_copy(push.force, inner->force[k].force);
+                CLX_TRY(take_push(dem, &push));
+            }
+        }
+    }
+    if (dem->is_ghost == NULL) {
+        add_impulses(dem);
+    }
+done:
+    return status;
+}
+
+void clx_walls_add_pushes(clast_dem *dem, int64_t n, const clx_wall_push *push)
+{
+    clear_forces(&dem->walls);
+    for (int64_t k = 0; k < n; ++k) {
+        add_push(&dem->walls, &push[k]);
+    }
+    add_impulses(dem);
+}
+
+double clx_wall_spring(const clast_dem *dem, const clx_dem_pair *pair, int32_t wall,
+                       const double along[3])
+{
+    const clx_contact_history *own = clx_pair_history(dem, pair);
+    clx_contact_history history = own != NULL ? *own : (clx_contact_history){0};
+    clx_dem_touch t;
+    clx_meeting m;
+    if (pair->b >= 0 || pair->touches == 0 || clx_wall_of(dem, pair->b) != &dem->walls.body[wall] ||
+        !clx_pair_holds(dem, pair, &t)) {
+        return 0.0;
+    }
+    clx_meet_pair(dem, pair, &history, &t, &m);
+    const double share =
+        dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / clx_sub_contacts(dem, pair) : 1.0;
+    const double n = v3_dot(t.normal, along);
+    return share * clx_law_stiffness(&dem->law, &m) * n * n;
+}
+
+/// Lists are due, on all ranks.
+static void search_anew(clast_dem *dem)
+{
+    dem->list.is_due = dem->n_grain > 0;
+    if (dem->ranks != NULL) {
+        dem->ranks->local->list.is_due = dem->list.is_due;
+    }
 }
 
 clast_status clast_dem_watch_walls(clast_dem *dem)
@@ -380,7 +439,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     w->reach = w->mesh != NULL ? reach_of(w->mesh, motion->pivot) : 0.0;
     dem->walls.can_move = true;
     dem->walls.is_watched = true;
-    dem->list.is_due = dem->n_grain > 0;
+    search_anew(dem);
     clx_wall_place(dem, wall);
 done:
     clx_free(time);
@@ -405,7 +464,7 @@ clast_status clast_dem_drive_wall(clast_dem *dem, int32_t wall, bool runs, const
     dem->walls.is_watched = true;
     if (!dem->walls.can_move && (runs || v3_norm2(velocity) > 0.0)) {
         dem->walls.can_move = true;
-        dem->list.is_due = dem->n_grain > 0;
+        search_anew(dem);
     }
 done:
     return status;
@@ -419,7 +478,7 @@ clast_status clast_dem_open_wall(clast_dem *dem, int32_t wall)
               dem->walls.n);
     dem->walls.body[wall].is_open = true;
     dem->walls.searched = -(double)INFINITY; // all items search their walls anew
-    dem->list.is_due = dem->n_grain > 0;
+    search_anew(dem);
 done:
     return status;
 }
@@ -444,6 +503,9 @@ void clast_dem_read_wall(const clast_dem *dem, int32_t wall, clast_dem_wall *out
 double clx_walls_margin(const clast_dem *dem)
 {
     double least = INFINITY;
+    if (dem->is_ghost != NULL) {
+        return dem->walls.least;
+    }
     for (int32_t i = 0; i < dem->n_item && dem->walls.can_move; ++i) {
         least = fmin(least, clx_item_radius(dem, i));
     }

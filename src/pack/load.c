@@ -159,11 +159,16 @@ static bool has_come(const clx_stage *s, const clast_dem_load *load)
     return false;
 }
 
+/// Since the stage began [s].
+static double stage_time(const clast_pack *p)
+{
+    return (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
+}
+
 static bool is_over(const clast_pack *p, const clx_stage *s, const clast_dem_load *load,
                     const clast_dem_cell *cell)
 {
-    const double time =
-        (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
+    const double time = stage_time(p);
     switch (s->end) {
     case CLX_END_TIME:
         return time >= s->until * (1.0 - 1e-12);
@@ -180,8 +185,7 @@ static bool is_over(const clast_pack *p, const clx_stage *s, const clast_dem_loa
 static clast_status check_time(const clast_pack *p, const clx_stage *s, const clast_dem_load *load)
 {
     clast_status status = CLAST_OK;
-    const double time =
-        (double)(clast_dem_n_step(p->dem) - p->load.begun) * p->config.dem.time_step;
+    const double time = stage_time(p);
     const double *c = load->stress;
     const double *k = load->kinetic_stress;
     CLX_CHECK(
@@ -239,10 +243,15 @@ clast_status clx_pack_load_look(clast_pack *p)
     if ((clast_dem_n_step(p->dem) - p->phase_step) % CLX_SERVO_STEPS != 0) {
         return CLAST_OK;
     }
-    CLX_TRY(clx_dem_stress(p->dem, &load));
-    clast_dem_read_cell(p->dem, &cell);
+    if (!clx_dem_stress_is_fast(p->dem)) {
+        clx_inner_unpack(p->dem);
+    }
     CLX_TRY(clx_stage_read(&p->config, p->load.stage, &s));
+    const bool is_balanced = s.end == CLX_END_REST || stage_time(p) >= p->config.max_load_time;
+    CLX_TRY(clx_dem_stress(p->dem, is_balanced, &load));
+    clast_dem_read_cell(p->dem, &cell);
     if (is_over(p, &s, &load, &cell)) {
+        clx_inner_unpack(p->dem);
         CLX_TRY(clx_pack_load_row(p));
         if (p->load.stage + 1 == p->config.stages.n) {
             p->converged = true;

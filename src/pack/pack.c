@@ -359,6 +359,7 @@ static clast_status series_row_due(clast_pack *p)
     if (!is_due) {
         return CLAST_OK;
     }
+    clx_inner_unpack(p->dem);
     clast_status status = clx_pack_series_row(p);
     if (status == CLAST_OK) {
         status = clx_pack_load_row(p);
@@ -448,7 +449,7 @@ clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
         n = n < n_step ? n : n_step;
         n = n < left ? n : left;
         const double before = clx_clock();
-        CLX_TRY(clast_dem_step(pack->dem, n));
+        CLX_TRY(clx_dem_step_packed(pack->dem, n));
         pack->step_s += clx_clock() - before;
         pack->grain_steps += (double)n * clast_dem_n_grain(pack->dem);
         pack->clocked_steps += (double)n * clast_dem_n_grain(pack->dem);
@@ -459,6 +460,7 @@ clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
         CLX_TRY(series_row_due(pack));
     }
 done:
+    clx_inner_unpack(pack->dem);
     pack->wall_s += clx_clock() - begun;
     return status;
 }

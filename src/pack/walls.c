@@ -12,7 +12,7 @@
 #include "base/alloc.h"
 #include "dem/container.h"
 #include "dem/dem.h"
-#include "dem/load.h"
+#include "dem/ranks.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -286,20 +286,26 @@ static bool has_other(const clx_wall_stage *s, int32_t k, bool runs)
 }
 
 /// The servo: speed of a pressed wall until the next look.
-static double press(clast_pack *p, const clast_pack_wall *wall, int32_t number, double off)
+static clast_status press(clast_pack *p, const clast_pack_wall *wall, int32_t number, double off,
+                          double *speed)
 {
+    clast_status status = CLAST_OK;
     const double most = p->config.load_rate * p->tall;
-    const double stiff =
-        clx_wall_stiffness(p->dem, number, wall->press) * CLX_SERVO_TIME * p->config.dem.time_step;
+    double springs = 0.0;
+    CLX_TRY(clx_wall_stiffness(p->dem, number, wall->press, &springs));
+    const double stiff = springs * CLX_SERVO_TIME * p->config.dem.time_step;
     const bool is_near = fabs(off) < most * stiff;
     const double wanted = is_near ? off / stiff : copysign(most, off);
     const double steady = p->wall[number].steady + SLOWLY * wanted;
     p->wall[number].steady = is_near ? fmin(fmax(steady, -most), most) : 0.0;
-    return fmin(fmax(wanted + p->wall[number].steady, -most), most);
+    *speed = fmin(fmax(wanted + p->wall[number].steady, -most), most);
+done:
+    return status;
 }
 
 static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k, look *out)
 {
+    clast_status status = CLAST_OK;
     const clx_wall_drive *d = &s->drive[k];
     const clast_pack_wall *wall = &p->input.wall[d->wall];
     const int32_t number = number_of(p, d->wall);
@@ -314,7 +320,7 @@ static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k,
     out->pressure = has_direction ? force / area : out->pressure;
     if (d->kind == CLX_WALL_PRESSED) {
         const double aim = d->is_force ? d->aim : d->aim * area;
-        speed = press(p, wall, number, aim - force);
+        CLX_TRY(press(p, wall, number, aim - force, &speed));
         out->is_reached =
             out->is_reached && fabs(aim - force) <= p->config.load_tolerance * fabs(aim);
     }
@@ -323,8 +329,10 @@ static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k,
         out->has_come ||
         (has_direction && (backs ? force <= s->until * area : force >= s->until * area));
     v3_scale(velocity, speed, wall->press);
-    return clast_dem_drive_wall(p->dem, number, d->kind == CLX_WALL_RUNS || has_other(s, k, true),
-                                velocity);
+    CLX_TRY(clast_dem_drive_wall(p->dem, number, d->kind == CLX_WALL_RUNS || has_other(s, k, true),
+                                 velocity));
+done:
+    return status;
 }
 
 static clast_status drive(clast_pack *p, const clx_wall_stage *s, look *out)
@@ -372,7 +380,7 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
     *over = false;
     if (s->end == CLX_UNTIL_REST && l->is_reached && time > 0.0) {
         clast_dem_load load;
-        CLX_TRY(clast_dem_load_measure(p->dem, &load));
+        CLX_TRY(clx_dem_gather_load(p->dem, &load));
         *over = load.n_force > 0 && load.unbalanced < p->config.load_rest;
     } else if (s->end == CLX_UNTIL_TIME) {
         *over = time >= s->until * (1.0 - 1e-12);
@@ -428,9 +436,18 @@ clast_status clx_pack_outlets(clast_pack *p)
     const int32_t n = clast_dem_n_grain(p->dem);
     uint8_t *goes = NULL;
     int32_t n_gone = 0;
+    bool is_any = false;
     if (p->n_outlet == 0 || clast_dem_n_step(p->dem) % CLX_SERVO_STEPS != 0) {
         return CLAST_OK;
     }
+    for (int32_t k = 0; k < p->n_outlet && !is_any; ++k) {
+        const clx_pack_outlet *o = &p->outlet[k];
+        is_any = clx_dem_any_beyond(p->dem, o->axis, o->sign, o->at);
+    }
+    if (!is_any) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     CLX_TRY(clx_alloc(&goes, n, sizeof *goes));
     for (int32_t i = 0; i < n; ++i) {
         const clx_grain *g = &p->dem->grain[i];

@@ -144,6 +144,60 @@ class Beds(Case):
     def test_spheres_that_hinder_each_other(self):
         self.same((3,), "--mass", "4g", "--height", "40mm", "--max-steps", 2500, "--hindrance", "--fluid-viscosity", "1mPa*s")
 
+    def write_plate(self, name, half, hole=0.0):
+        """A square in mm in the plane z = 0, with a square hole in its middle."""
+        outer = [(-half, -half), (half, -half), (half, half), (-half, half)]
+        inner = [(x * hole / half, y * hole / half) for x, y in outer]
+        triangles = [(outer[0], outer[1], outer[2]), (outer[0], outer[2], outer[3])] if hole == 0 else [
+            corners for i in range(4) for corners in ((outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4]),
+                                                      (outer[i], inner[(i + 1) % 4], inner[i]))]
+        path = self.folder / name
+        path.write_text("solid s\n" + "".join(
+            "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} 0\n" for x, y in corners) + "endloop\nendfacet\n"
+            for corners in triangles) + "endsolid s\n")
+        return path
+
+    def same_files(self, counts, *arguments):
+        """A run's files, walls.csv among them, on one rank and on these, with two threads on the last."""
+        alone = self.folder / "alone"
+        made = clast(*arguments, "-o", alone, "--json")
+        self.assertEqual(made.code, 0, made.err)
+        for n in counts:
+            many = self.folder / f"ranks{n}"
+            code, _, err = ranks(n, *arguments, "-o", many, *(("-j", 2) if n == counts[-1] else ()))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(self.files(many), self.files(alone), f"{n} ranks")
+        return made.json, alone
+
+    def test_a_lid_presses_a_bed(self):
+        made, run = self.same_files(
+            (2, 3), *SMALL, "--domain", "box", "--mass", "6g", "--height", "40mm", "--damping", "1e-6", "--lid", "--wall", "lid",
+            "--wall", "floor vibrate 0,0,0.1mm 5ms", "--stages", "lid=10kPa until rest", "--stages", "lid=5kPa floor until time 5ms",
+            "--load-rate", "20/s", "--load-rest", "0.1", "--series-time", "1ms")
+        self.assertEqual(made["phase"], "done")
+        self.assertIn("lid_force_z_N", (run / "walls.csv").read_text().splitlines()[0])
+
+    def test_grains_leave_by_an_orifice(self):
+        plate, gate = self.write_plate("plate.stl", 13, 8), self.write_plate("gate.stl", 8.5)
+        made, _ = self.same_files(
+            (2, 3), *SMALL, *HULLS, "--domain", "box", "--mass", "4g", "--height", "45mm", "--floor=no", "--damping", "1e-6",
+            "--wall", f"plate {plate} mm", "--wall", f"gate {gate} mm vibrate 0,0,0.1mm 5ms", "--outlet", "z<-15mm", "--stages", "gate until time 1ms",
+            "--stages", "open gate until time 20ms", "--series-time", "2ms")
+        self.assertGreater(made["n_left"], 5)
+        self.assertGreater(made["n_grain"], 5)
+
+    def test_a_floor_turns_and_a_run_is_passed_on(self):
+        run = (*SMALL, "--shapes", "ellipsoid:1,0.7,0.5", "--mass", "4g", "--height", "40mm", "--wall",
+               "floor vibrate 0,0,0.2mm 5ms axis 0,0,1 rotate 300rpm", "--outlet", "z>38mm", "--series-time", "1ms")
+        whole, parts = self.folder / "whole", self.folder / "parts"
+        self.assertEqual(clast(*run, "--max-steps", 1500, "-o", whole).code, 0)
+        code, _, err = ranks(3, *run, "--max-steps", 500, "-o", parts)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
+        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 1500, "-q")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(self.files(parts), self.files(whole))
+
     def test_what_is_of_one_rank(self):
         code, _, err = ranks(2, *SMALL, "--mass", "1g", "--height", "40mm", "--energy")
         self.assertEqual((code, len(own_lines(err))), (2, 1), err)

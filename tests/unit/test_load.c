@@ -375,6 +375,61 @@ static void sheared_bed_misses_no_contact(void **state)
     clast_dem_destroy(dem);
 }
 
+/* The servo's stress, which lanes find, is that of the contacts that scalar code finds, bit by bit.
+ */
+static void stress_is_that_of_the_contacts(void **state)
+{
+    (void)state;
+    enum { N = 64 };
+    static const scene_body_kind kinds[] = {SCENE_BALL, SCENE_OCTAHEDRON, SCENE_CUBE, SCENE_EGG};
+    static const char *const name[2][3] = {{"force_x_N", "force_y_N", "force_z_N"},
+                                           {"branch_x_m", "branch_y_m", "branch_z_m"}};
+    static const int entry[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
+        clast_dem_config c = in_cell(0.048, 0.048, 0.048);
+        clast_dem_grain grain[N];
+        clast_shape shape = {0};
+        c.friction = 0.5;
+        CHECK_OK(scene_body(kinds[k], &shape));
+        for (int i = 0; i < N; ++i) {
+            clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, (uint64_t)i);
+            grain[i] =
+                at(0.012 * (i % 4) - 0.018, 0.012 * (i / 4 % 4) - 0.018, 0.012 * (i / 16 + 0.5));
+            grain[i].scale = cbrt(2.5e-7 / shape.volume);
+            clx_rng_orientation(&rng, grain[i].orientation);
+        }
+        clast_dem *dem = scene_bodies(&c, &shape, N, grain);
+        const double press[3] = {-0.2, -0.2, -0.2};
+        CHECK_OK(clast_dem_set_cell_rate(dem, press, 0.02));
+        CHECK_OK(clast_dem_step(dem, (int64_t)(0.018 / 0.2 / c.time_step)));
+        clast_dem_load load;
+        clast_table t = {0};
+        double sum[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        CHECK_OK(clast_dem_load_measure(dem, &load));
+        CHECK_OK(clast_dem_contact_table(dem, &t));
+        for (int64_t i = 0; i < t.n_row; ++i) {
+            double f[3];
+            double l[3];
+            for (int a = 0; a < 3; ++a) {
+                f[a] = clast_table_numbers(&t, name[0][a])[i];
+                l[a] = clast_table_numbers(&t, name[1][a])[i];
+            }
+            for (int e = 0; e < 6; ++e) {
+                const int a = entry[e][0];
+                const int b = entry[e][1];
+                sum[e] += 0.5 * (f[a] * l[b] + f[b] * l[a]);
+            }
+        }
+        assert_true(t.n_row > N / 2 && load.n_contact == t.n_row);
+        for (int e = 0; e < 6; ++e) {
+            assert_true(load.stress[e] == sum[e] / load.volume);
+        }
+        clast_table_free(&t);
+        clast_dem_destroy(dem);
+        clast_shape_free(&shape);
+    }
+}
+
 /* What a cell cannot be is said. */
 static void cells_refuse_what_they_cannot(void **state)
 {
@@ -594,6 +649,7 @@ int main(void)
         cmocka_unit_test(book_closes_on_every_scene),
         cmocka_unit_test(lattices_have_their_stiffness),
         cmocka_unit_test(sheared_bed_misses_no_contact),
+        cmocka_unit_test(stress_is_that_of_the_contacts),
         cmocka_unit_test(cells_refuse_what_they_cannot),
         cmocka_unit_test(sheared_cell_is_pressed_along_x),
         cmocka_unit_test(servo_holds_its_pressure),
