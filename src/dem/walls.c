@@ -272,7 +272,7 @@ double clx_wall_stiffness(const clast_dem *dem, int32_t wall, const double along
                                  ? 1.0 / clx_sub_contacts(dem, pair)
                                  : 1.0;
         const double n = v3_dot(t.normal, along);
-        sum += share * clx_law_stiffness(&dem->law, &m) * n * n;
+        sum += share * clx_law_stiffness(clx_pair_law(dem, pair), &m) * n * n;
     }
     return sum;
 }
