@@ -50,8 +50,9 @@ const clast_field clast_pack_fields[] = {
     NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
     {FIELD(F64_LIST, density), 0, 0, 1e6, "kg/m^3",
      "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); "
-     "0: those of the aggregate's own parts, as its state.h5 has them",
-     "2650", .common = true, .group = "density and mass"},
+     "0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's "
+     "own",
+     "", .common = true, .group = "density and mass"},
     CHOICE(density_of, 0, "shape|chance|class|list",
            "density lists one for each shape, or several to draw from whatever a grain's shape, or "
            "one for each class of the sieve curve; list: column density of list:FILE or "
