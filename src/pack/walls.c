@@ -385,8 +385,8 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
     CLX_CHECK(*over || s->end == CLX_UNTIL_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
               "stage %d, '%s', has not come to its end in %g s (max_load_time): pressure of its "
               "wall %.4g Pa, farthest way of a wall %.4g m, %.4g kg of grains inside",
-              p->load.stage + 1, p->config.stages.item[p->load.stage], time, l->pressure, l->way,
-              p->mass - p->mass_left);
+              p->load.stage + 1, p->config.stages.item[p->load.stage], time, l->pressure + 0.0,
+              l->way, p->mass - p->mass_left);
 done:
     return status;
 }
