@@ -155,7 +155,7 @@ typedef struct clast_dem_energy {
     double rotation;           ///< held: kinetic
     double normal_springs;     ///< held; at the middle of the step, as velocities are
     double tangential_springs; ///< held
-    double attraction;         ///< held: work against it, so 0 or below
+    double attraction;         ///< held by pulls of contacts, so 0 or below
     double made;        ///< put in: of grains as they were when the book began, or were added
     double gravity;     ///< put in by weight less buoyancy
     double shaking;     ///< put in
@@ -204,6 +204,17 @@ typedef struct clast_dem_wall {
     double work;                  ///< of the wall on grains [J]
     int64_t n_step;               ///< in which its own motion ran
 } clast_dem_wall;
+
+/// How two materials touch: what of the configuration may differ from pair to pair. Begin with
+/// clast_dem_contact_of.
+typedef struct clast_dem_contact {
+    double friction;
+    double rolling_friction;
+    double restitution;
+    double collision_time; ///< of the linear law [s]
+    double young[2];       ///< of Hertz's law, of the first material and the second [Pa]
+    double poisson[2];     ///< the same
+} clast_dem_contact;
 
 /// The periodic cell as it is now; zeros in other domains.
 typedef struct clast_dem_cell {
@@ -285,6 +296,27 @@ CLAST_API clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *go
 ///
 /// @return CLAST_E_GEOMETRY for a shape without volume, or a mesh that is open or not convex
 CLAST_API clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id);
+
+/// The contact of a configuration, between grains or at walls.
+CLAST_API clast_dem_contact clast_dem_contact_of(const clast_dem_config *config, bool at_wall);
+
+/// From now on contacts go by the materials of both sides, 0 .. n - 1, of which shapes and walls
+/// are 0 unless set; once, before the first grain.
+///
+/// Hertz's law: 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b, 1/G* = sum of 2 (2 - nu)(1 + nu)/E.
+/// [docs/theory/dem.md "Materials"]
+///
+/// @param contact  [n][n] of material a (row) with b; read where a <= b
+/// @return CLAST_E_CONFIG, naming the two, where the law cannot have a number or the time step does
+/// not resolve the contact
+CLAST_API clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n,
+                                              const clast_dem_contact *contact);
+
+/// Material of a shape, before its first grain; of a wall (numbered as clast_dem_wall says).
+///
+/// @return CLAST_E_USAGE for a shape, wall or material that is not there
+CLAST_API clast_status clast_dem_set_material(clast_dem *dem, int32_t shape, int32_t material);
+CLAST_API clast_status clast_dem_set_wall_material(clast_dem *dem, int32_t wall, int32_t material);
 
 /// Adds grains; all or none.
 ///

@@ -59,9 +59,12 @@ typedef struct clast_pack_config {
     bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
     bool form_law;   ///< stretch every grain to a form drawn from a law
     double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
-    clast_f64_list density;        ///< [kg/m3]; 0: the shape's own (clast_material)
-    int32_t density_of;            ///< clast_pack_density_of
+    clast_f64_list density; ///< [kg/m3]; 0: the shape's own (clast_material); none: 2650, or those
+                            ///< that a start brings
+    int32_t density_of;     ///< clast_pack_density_of
     clast_f64_list density_weight; ///< chances of densities that are drawn
+    clast_text_list material;      ///< of the grains of each shape, by name
+    clast_text_list contacts;      ///< what differs by both sides, as text (docs/theory/dem.md)
     double mass;                   ///< wanted [kg]
     uint64_t seed;
     char *start;           ///< packing to begin with, in place of grains that are made; "": none

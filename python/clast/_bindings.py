@@ -220,6 +220,10 @@ class clast_dem_wall(Structure):
     """A wall as it is now, and what grains do to it; in the order in which walls are numbered: floor, lid, left (low x), right, front (low y), back, or the cylinder, those that the domain has; then surfaces in the order in which they were added."""
 
 
+class clast_dem_contact(Structure):
+    """How two materials touch: what of the configuration may differ from pair to pair."""
+
+
 class clast_dem_cell(Structure):
     """The periodic cell as it is now; zeros in other domains."""
 
@@ -1300,6 +1304,14 @@ clast_dem_wall._fields_ = [
     ('work', c_double),
     ('n_step', c_int64),
 ]
+clast_dem_contact._fields_ = [
+    ('friction', c_double),
+    ('rolling_friction', c_double),
+    ('restitution', c_double),
+    ('collision_time', c_double),
+    ('young', (c_double * 2)),
+    ('poisson', (c_double * 2)),
+]
 clast_dem_cell._fields_ = [
     ('side', (c_double * 3)),
     ('rate', (c_double * 3)),
@@ -1826,6 +1838,8 @@ clast_pack_config._fields_ = [
     ('density', clast_f64_list),
     ('density_of', c_int32),
     ('density_weight', clast_f64_list),
+    ('material', clast_text_list),
+    ('contacts', clast_text_list),
     ('mass', c_double),
     ('seed', c_uint64),
     ('start', c_char_p),
@@ -2816,6 +2830,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_energy': (176, {'translation': (0, 8), 'rotation': (8, 8), 'normal_springs': (16, 8), 'tangential_springs': (24, 8), 'attraction': (32, 8), 'made': (40, 8), 'gravity': (48, 8), 'shaking': (56, 8), 'cell': (64, 8), 'walls': (72, 8), 'damping': (80, 16), 'friction': (96, 16), 'rolling': (112, 16), 'fluid': (128, 8), 'calming': (136, 8), 'left': (144, 8), 'scheme': (152, 8), 'put_in': (160, 8), 'rest': (168, 8)}),
     'clast_dem_wall_motion': (144, {'velocity': (0, 24), 'amplitude': (24, 24), 'period': (48, 8), 'axis': (56, 24), 'pivot': (80, 24), 'rate': (104, 8), 'swing': (112, 8), 'n': (120, 4), 'time': (128, 8), 'place': (136, 8)}),
     'clast_dem_wall': (200, {'is_open': (0, 1), 'offset': (8, 24), 'angle': (32, 8), 'velocity': (40, 24), 'omega': (64, 24), 'force': (88, 24), 'torque': (112, 24), 'impulse': (136, 24), 'moment': (160, 24), 'work': (184, 8), 'n_step': (192, 8)}),
+    'clast_dem_contact': (64, {'friction': (0, 8), 'rolling_friction': (8, 8), 'restitution': (16, 8), 'collision_time': (24, 8), 'young': (32, 16), 'poisson': (48, 16)}),
     'clast_dem_cell': (96, {'side': (0, 24), 'rate': (24, 24), 'shift': (48, 8), 'shear_rate': (56, 8), 'strain': (64, 24), 'shear_strain': (88, 8)}),
     'clast_dem_load': (272, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'shear_modulus': (136, 8), 'fabric': (144, 48), 'n_contact': (192, 8), 'n_force': (200, 8), 'coordination': (208, 8), 'n_rattler': (216, 4), 'coordination_held': (224, 8), 'unbalanced': (232, 8), 'force_mean': (240, 8), 'force_below': (248, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
@@ -2866,7 +2881,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
-    'clast_pack_config': (736, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'start': (376, 8), 'start_unit': (384, 8), 'start_columns': (392, 8), 'start_diameter': (400, 8), 'container': (408, 8), 'container_unit': (416, 8), 'generator': (424, 4), 'spacing': (432, 8), 'fill_low': (440, 8), 'fill_high': (448, 8), 'first_low': (456, 8), 'first_high': (464, 8), 'initial_speed': (472, 8), 'random_turn': (480, 1), 'shake_amplitude': (488, 8), 'shake_period': (496, 8), 'shaking_time': (504, 8), 'shake_from_start': (512, 1), 'damping': (520, 8), 'rule': (528, 4), 'height_change': (536, 8), 'check_time': (544, 8), 'still_speed': (552, 8), 'max_steps': (560, 8), 'max_damping_time': (568, 8), 'wall': (576, 16), 'outlet': (592, 16), 'wall_forces': (608, 1), 'stages': (616, 16), 'load_rate': (632, 8), 'load_tolerance': (640, 8), 'load_rest': (648, 8), 'max_load_time': (656, 8), 'energy': (664, 1), 'layer': (672, 8), 'cut': (680, 8), 'trim': (688, 8), 'series_time': (696, 8), 'frame_time': (704, 8), 'checkpoint_time': (712, 8), 'resume': (720, 8), 'force': (728, 1)}),
+    'clast_pack_config': (768, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'material': (360, 16), 'contacts': (376, 16), 'mass': (392, 8), 'seed': (400, 8), 'start': (408, 8), 'start_unit': (416, 8), 'start_columns': (424, 8), 'start_diameter': (432, 8), 'container': (440, 8), 'container_unit': (448, 8), 'generator': (456, 4), 'spacing': (464, 8), 'fill_low': (472, 8), 'fill_high': (480, 8), 'first_low': (488, 8), 'first_high': (496, 8), 'initial_speed': (504, 8), 'random_turn': (512, 1), 'shake_amplitude': (520, 8), 'shake_period': (528, 8), 'shaking_time': (536, 8), 'shake_from_start': (544, 1), 'damping': (552, 8), 'rule': (560, 4), 'height_change': (568, 8), 'check_time': (576, 8), 'still_speed': (584, 8), 'max_steps': (592, 8), 'max_damping_time': (600, 8), 'wall': (608, 16), 'outlet': (624, 16), 'wall_forces': (640, 1), 'stages': (648, 16), 'load_rate': (664, 8), 'load_tolerance': (672, 8), 'load_rest': (680, 8), 'max_load_time': (688, 8), 'energy': (696, 1), 'layer': (704, 8), 'cut': (712, 8), 'trim': (720, 8), 'series_time': (728, 8), 'frame_time': (736, 8), 'checkpoint_time': (744, 8), 'resume': (752, 8), 'force': (760, 1)}),
     'clast_pack_wall': (240, {'name': (0, 32), 'number': (32, 4), 'mesh': (40, 24), 'motion': (64, 144), 'press': (208, 24), 'area': (232, 8)}),
     'clast_pack_input': (72, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8), 'n_wall': (56, 4), 'wall': (64, 8)}),
     'clast_pack_ranks': (72, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'messages': (32, 8), 'step_bytes': (40, 8), 'list_bytes': (48, 8), 'imbalance': (56, 8), 'is_zoltan': (64, 1)}),
@@ -3518,6 +3533,10 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_read_wall': (None, [c_void_p, c_int32, POINTER(clast_dem_wall)], '.'),
     'clast_dem_remove_grains': (c_int, [c_void_p, POINTER(c_uint8)], 'Takes grains out; those after them move up in number.'),
     'clast_dem_add_shape': (c_int, [c_void_p, POINTER(clast_shape), POINTER(c_int32)], 'Adds a copy of a shape; its number goes to *id.'),
+    'clast_dem_contact_of': (clast_dem_contact, [POINTER(clast_dem_config), c_bool], 'The contact of a configuration, between grains or at walls.'),
+    'clast_dem_set_contacts': (c_int, [c_void_p, c_int32, POINTER(clast_dem_contact)], 'From now on contacts go by the materials of both sides, 0 .'),
+    'clast_dem_set_material': (c_int, [c_void_p, c_int32, c_int32], 'Material of a shape, before its first grain; of a wall (numbered as clast_dem_wall says).'),
+    'clast_dem_set_wall_material': (c_int, [c_void_p, c_int32, c_int32], '.'),
     'clast_dem_add_grains': (c_int, [c_void_p, c_int32, POINTER(clast_dem_grain)], 'Adds grains; all or none.'),
     'clast_dem_set_drive': (None, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
     'clast_dem_step': (c_int, [c_void_p, c_int64], 'Goes on by n_step time steps.'),
@@ -4130,11 +4149,13 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'flatness_deviation': ('number', 0.175, '-', 0.0, 10.0, None, 'its standard deviation'),
         'elongation_mean': ('number', 0.682, '-', 0.001, 1.0, None, 'mean elongation I/L of form_law'),
         'elongation_deviation': ('number', 0.139, '-', 0.0, 10.0, None, 'its standard deviation'),
-        'density': ('numbers', '2650', 'kg/m^3', 0.0, 1000000.0, None, "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them"),
+        'density': ('numbers', '', 'kg/m^3', 0.0, 1000000.0, None, "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's own"),
         'density_of': ('choice', 'shape', '-', None, None, 'shape|chance|class|list', "density lists one for each shape, or several to draw from whatever a grain's shape, or one for each class of the sieve curve; list: column density of list:FILE or masses:FILE, in place of density"),
         'density_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each density (by number of grains) with density_of: chance; none: all equal'),
         'mass': ('number', 1.0, 'kg', 1e-15, 1000000000000000.0, None, 'mass of the packing (m_tot)'),
         'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of sizes, forms, turns, velocities'),
+        'material': ('texts', '', '-', None, None, None, "name of the grains' material, one for all shapes or one for each, for contacts"),
+        'contacts': ('texts', '', '-', None, None, None, "what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5e6,2e11Pa (law hertz; one number, or one of either side)"),
         'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
         'start_unit': ('text', '', '-', None, None, None, 'length unit of the start, where it does not say'),
         'start_columns': ('text', '', '-', None, None, None, 'columns of its spheres in their order: id,x,y,z,d'),
@@ -4555,7 +4576,7 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
     'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
     'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
-    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'material', 'contacts', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
     'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
     'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),

@@ -1004,6 +1004,8 @@ def pack(
         density_weight: Quantities | None = None,
         mass: Quantity | None = None,
         seed: int | None = None,
+        material: Texts | None = None,
+        contacts: Texts | None = None,
         start: Text | None = None,
         start_unit: Text | None = None,
         start_columns: Text | None = None,
@@ -1099,11 +1101,13 @@ def pack(
         flatness_deviation: its standard deviation (0 to 10; default 0.175)
         elongation_mean: mean elongation I/L of form_law (0.001 to 1; default 0.682)
         elongation_deviation: its standard deviation (0 to 10; default 0.139)
-        density: density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them (kg/m^3; 0 to 1e+06; default 2650)
+        density: density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's own (kg/m^3; 0 to 1e+06; no default)
         density_of: density lists one for each shape, or several to draw from whatever a grain's shape, or one for each class of the sieve curve; list: column density of list:FILE or masses:FILE, in place of density (shape, chance, class, list; default shape)
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
+        material: name of the grains' material, one for all shapes or one for each, for contacts (no default)
+        contacts: what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5e6,2e11Pa (law hertz; one number, or one of either side) (no default)
         start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
         start_unit: length unit of the start, where it does not say (no default)
         start_columns: columns of its spheres in their order: id,x,y,z,d (no default)

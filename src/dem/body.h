@@ -28,6 +28,7 @@ typedef struct clx_dem_body {
     bool is_round;     ///< sphere: its turn does not matter
     int32_t n_part;
     clx_dem_part *part; ///< [n_part] of a rigid grain
+    int32_t material;
 } clx_dem_body;
 
 /// What contacts read of a grain: 192 bytes, in groups of four doubles, one vector load each.

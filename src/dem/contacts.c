@@ -340,7 +340,7 @@ static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     CLAST_ASSERT(n >= 1 && n <= PIECE);
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0 &&
-                         !clx_walls_move(dem); // those have velocities
+                         dem->laws.n == 0 && !clx_walls_move(dem); // those have velocities
     const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {

@@ -57,6 +57,7 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->slabs.solid);
     clx_free(dem->cell);
     clx_energy_destroy(dem->energy);
+    clx_free(dem->laws.law);
     clx_free(dem);
 }
 
@@ -129,8 +130,10 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
               "%g m inside; take less than half of it",
               (long long)number, dem->config.rounding, core != NULL ? g->scale * core->inner : 0.0);
     const double volume = g->scale * g->scale * g->scale * shape->volume;
-    CLX_TRY(clx_dem_check_step(&dem->law, dem->config.time_step, g->density * volume,
-                               cbrt(3.0 * volume / (4.0 * CLAST_PI))));
+    for (int32_t k = 0; k < clx_n_law(dem); ++k) {
+        CLX_TRY(clx_dem_check_step(clx_law_at(dem, g->shape, k), dem->config.time_step,
+                                   g->density * volume, cbrt(3.0 * volume / (4.0 * CLAST_PI))));
+    }
     CLX_TRY(clx_fluid_check(dem, g, number));
 done:
     return status;
@@ -174,8 +177,12 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     const clast_drag drag = clx_fluid_form(dem, &body->shape, m->density);
     m->drag[0] = drag.stokes;
     m->drag[1] = drag.newton;
-    dem->stride = fmax(dem->stride, clx_law_speed(&dem->law, g->mass, g->round_radius, g->radius) *
-                                        dem->config.time_step / g->radius);
+    double speed = INFINITY; // that the softest of its contacts stops
+    for (int32_t k = 0; k < clx_n_law(dem); ++k) {
+        const clx_law *law = clx_law_at(dem, g->shape, k);
+        speed = fmin(speed, clx_law_speed(law, g->mass, g->round_radius, g->radius));
+    }
+    dem->stride = fmax(dem->stride, speed * dem->config.time_step / g->radius);
     dem->travel[i] = 0.0;
 }
 

@@ -35,6 +35,7 @@ struct clast_dem {
     clast_dem_config config;
     clast_dem_drive drive;
     clx_law law;
+    clx_laws laws; ///< where materials touch by their own
     int64_t step;
     double stride; ///< share of its radius that a grain may move in a step: clx_law_speed, greatest
     int32_t n_wall;
@@ -126,6 +127,19 @@ static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
                                   : dem->grain[clx_item_grain(dem, i)].turn[0];
 }
 
+/// The law of a pair's materials.
+static inline const clx_law *clx_pair_law(const clast_dem *dem, const clx_dem_pair *pair)
+{
+    if (dem->laws.n == 0) {
+        return &dem->law;
+    }
+    const int32_t a = dem->body[dem->grain[clx_item_grain(dem, pair->a)].shape].material;
+    const int32_t b = pair->b >= 0
+                          ? dem->body[dem->grain[clx_item_grain(dem, pair->b)].shape].material
+                          : clx_wall_of(dem, pair->b)->material;
+    return &dem->laws.law[a * dem->laws.n + b];
+}
+
 /// The warm start of a pair, or NULL.
 static inline clx_warm_start *clx_pair_warm_start(const clast_dem *dem, const clx_dem_pair *pair)
 {
@@ -159,6 +173,25 @@ clast_status clx_dem_check(const clast_dem_config *config);
 
 /// Refuses a time step that does not resolve the contact of a grain like this.
 clast_status clx_dem_check_step(const clx_law *law, double time_step, double mass, double radius);
+
+/// Refuses numbers of a contact that its law cannot have.
+clast_status clx_dem_check_contact(const clast_dem_config *config,
+                                   const clast_dem_contact *contact);
+
+/// Number of the laws that grains of a shape touch others by; the k-th of them.
+static inline int32_t clx_n_law(const clast_dem *dem)
+{
+    return dem->laws.n > 0 ? dem->laws.n : 1;
+}
+
+static inline const clx_law *clx_law_at(const clast_dem *dem, int32_t shape, int32_t k)
+{
+    return dem->laws.n > 0 ? &dem->laws.law[dem->body[shape].material * dem->laws.n + k]
+                           : &dem->law;
+}
+
+/// Whether any two grains have friction.
+bool clx_grains_rub(const clast_dem *dem);
 
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);

@@ -113,13 +113,14 @@ static void meet(const clast_dem *dem, const clx_dem_pair *pair, const clx_dem_t
         const clx_grain *a = &dem->grain[clx_item_grain(dem, pair->a)];
         const clx_grain *b =
             pair->b >= 0 ? &dem->grain[clx_item_grain(dem, pair->b)] : &clx_immovable;
-        clx_hold_pair(&dem->law, a, b, t, m, load);
+        clx_hold_pair(clx_pair_law(dem, pair), a, b, t, m, load);
     }
 }
 
 /// What the springs of a contact hold at the middle of the step.
 static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_held *held)
 {
+    const clx_law *law = clx_pair_law(dem, pair);
     clx_dem_touch t;
     clx_meeting m;
     double ahead[3];
@@ -131,18 +132,22 @@ static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_
     const double share = share_of(dem, pair);
     const double apart = v3_dot(m.velocity, m.normal);
     const double before = m.overlap + dt * apart;
-    m.overlap = dem->law.has_neck ? 0.5 * (before + m.overlap)
-                                  : sqrt(fmax(before, 0.0) * fmax(m.overlap, 0.0));
-    const clx_springs s = clx_law_springs(&dem->law, &m);
+    const double way = 0.5 * (before + m.overlap);
+    m.overlap = dem->law.has_neck ? way : sqrt(fmax(before, 0.0) * fmax(m.overlap, 0.0));
+    const clx_springs s = clx_law_springs(law, &m);
     v3_copy(ahead, pair->slide);
     clx_law_rotate(&m, dt, ahead);
     v3_axpy(ahead, ahead, dt, m.velocity);
     v3_axpy(ahead, ahead, -v3_dot(ahead, m.normal), m.normal);
     held->normal +=
         share * (dem->law.has_neck
-                     ? clx_law_energy(&dem->law, m.overlap, 0.0, m.mass, m.radius)
+                     ? clx_law_energy(law, m.overlap, 0.0, m.mass, m.radius)
                      : (dem->law.kind == CLAST_DEM_LINEAR ? 0.5 : 0.4) * s.elastic * m.overlap);
     held->tangential += share * 0.5 * s.tangential * v3_dot(pair->slide, ahead);
+    // a pull that grows with the overlap is a spring, too; a constant one has its way
+    held->attraction -= law->cohesion == CLAST_DEM_AREA
+                            ? share * 0.5 * clx_law_pull(law, &m) * m.overlap
+                            : share * clx_law_pull(law, &m) * way;
 }
 
 clx_energy_held clx_energy_held_now(const clast_dem *dem)
@@ -176,9 +181,11 @@ clast_status clast_dem_begin_energy(clast_dem *dem)
     }
     memset(dem->energy->sum, 0, sizeof dem->energy->sum);
     const clx_energy_held now = clx_energy_held_now(dem);
-    dem->energy->sum[CLX_WORK_MADE] = now.translation + now.rotation + now.normal + now.tangential;
+    dem->energy->sum[CLX_WORK_MADE] =
+        now.translation + now.rotation + now.normal + now.tangential + now.attraction;
     dem->energy->sum[CLX_WORK_NORMAL] = -now.normal;
     dem->energy->sum[CLX_WORK_TANGENTIAL] = -now.tangential;
+    dem->energy->sum[CLX_WORK_PULL] = -now.attraction;
 done:
     return status;
 }
@@ -293,7 +300,7 @@ static moved move_of(const clast_dem *dem, const clx_dem_pair *pair, const clx_d
     v3_add(out.velocity, out.velocity, shift);
     out.apart = v3_dot(dem->config.normal_torque ? out.velocity : shift, t->normal);
     out.rolling = 0.0;
-    if (dem->law.rolling > 0.0) {
+    if (clx_pair_law(dem, pair)->rolling > 0.0) {
         double turning[3];
         double torque[3];
         v3_copy(turning, f->force);
@@ -323,6 +330,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     const double dt = dem->config.time_step;
     const int wall = pair->b < 0 ? 1 : 0;
     const double share = share_of(dem, pair);
+    const clx_law *law = clx_pair_law(dem, pair);
     clx_dem_touch t = {0};
     clx_meeting m;
     double turned[3];
@@ -332,7 +340,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     double along[3];
     clx_find_again(dem, pair, &t);
     meet(dem, pair, &t, &m);
-    const clx_springs s = clx_law_held_springs(&dem->law, &m);
+    const clx_springs s = clx_law_held_springs(law, &m);
     const moved by = move_of(dem, pair, &t, f);
     v3_copy(turned, old);
     clx_law_rotate(&m, dt, turned);
@@ -342,7 +350,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     v3_copy(before, turned);
     v3_add(turned, turned, pair->slide);
     const double spring = dt * share * s.elastic * by.apart;
-    const double pull = -dt * share * clx_law_pull(&dem->law, &m) * by.apart;
+    const double pull = -dt * share * clx_law_pull(law, &m) * by.apart;
     const double normal = dt * v3_dot(f->force, t.normal) * by.apart;
     const double across = -dt * share * s.tangential * v3_dot(pair->slide, by.velocity);
     const double sheared = by.work + by.cell - normal - by.rolling - across;
@@ -467,7 +475,7 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
                           .rotation = now.rotation,
                           .normal_springs = now.normal,
                           .tangential_springs = now.tangential,
-                          .attraction = -sum[CLX_WORK_PULL],
+                          .attraction = now.attraction,
                           .made = sum[CLX_WORK_MADE],
                           .gravity = sum[CLX_WORK_GRAVITY],
                           .shaking = sum[CLX_WORK_SHAKING],
@@ -484,7 +492,8 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
         lost += e.damping[k] + e.friction[k] + e.rolling[k];
     }
     e.scheme = sum[CLX_LOST_SLIDING] - e.friction[0] - e.friction[1] - sum[CLX_WORK_NORMAL] -
-               sum[CLX_WORK_TANGENTIAL] - now.normal - now.tangential - sum[CLX_MADE_BY_TURNING];
+               sum[CLX_WORK_TANGENTIAL] - sum[CLX_WORK_PULL] - now.normal - now.tangential -
+               now.attraction - sum[CLX_MADE_BY_TURNING];
     e.put_in = e.made + e.gravity + e.shaking + e.cell + e.walls;
     e.rest = e.put_in - (e.translation + e.rotation + e.normal_springs + e.tangential_springs +
                          e.attraction + lost + e.fluid + e.calming + e.left + e.scheme);

@@ -45,6 +45,7 @@ typedef struct clx_energy {
 typedef struct clx_energy_held {
     double translation, rotation;
     double normal, tangential;
+    double attraction; ///< 0 or below; a JKR neck's is in the normal spring
 } clx_energy_held;
 
 void clx_energy_destroy(clx_energy *energy); ///< NULL is allowed

@@ -48,7 +48,22 @@ static void make_exact(clx_law *law, double dt)
     law->root_kappa = d[0] > 0.0 ? d[1] / (TURNING * d[0]) : 0.0;
 }
 
-clx_law clx_law_make(const clast_dem_config *c)
+/// 1/E* and 1/G* are sums of both sides'; k_t / k_n of the linear law is Mindlin's 4 G* / E*.
+static void mix(const clast_dem_contact *p, clx_law *law)
+{
+    double soft = 0.0;
+    double lax = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const double nu = p->poisson[k];
+        soft += (1.0 - nu * nu) / p->young[k];
+        lax += 2.0 * (2.0 - nu) * (1.0 + nu) / p->young[k];
+    }
+    law->young = 1.0 / soft;
+    law->shear = 1.0 / lax;
+    law->kappa = 4.0 * law->shear / law->young;
+}
+
+static clx_law make_law(const clast_dem_config *c, const clast_dem_contact *pair)
 {
     const double ln = log(c->restitution);
     const double root = sqrt(ln * ln + CLAST_PI * CLAST_PI);
@@ -69,6 +84,9 @@ clx_law clx_law_make(const clast_dem_config *c)
         .restitution = c->restitution,
         .viscosity = c->fluid_viscosity,
         .cohesion_energy = c->cohesion_energy};
+    if (pair != NULL) {
+        mix(pair, &law);
+    }
     law.root_kappa = sqrt(law.kappa);
     law.time = CLAST_PI / sqrt(law.stiffness - 0.25 * law.damping * law.damping);
     law.friction[0] = c->friction;
@@ -82,6 +100,33 @@ clx_law clx_law_make(const clast_dem_config *c)
         make_exact(&law, c->time_step);
     }
     return law;
+}
+
+clx_law clx_law_make(const clast_dem_config *config)
+{
+    return make_law(config, NULL);
+}
+
+clast_dem_config clx_law_config(const clast_dem_config *config, const clast_dem_contact *contact)
+{
+    clast_dem_config own = *config;
+    own.friction = contact->friction;
+    own.wall_friction = contact->friction;
+    own.rolling_friction = contact->rolling_friction;
+    own.rolling_model = contact->rolling_friction > 0.0 ? own.rolling_model : CLAST_DEM_ROLL_TORQUE;
+    own.restitution = contact->restitution;
+    own.collision_time = contact->collision_time;
+    own.young = contact->young[0];
+    own.poisson = contact->poisson[0];
+    return own;
+}
+
+clx_law clx_law_of_contact(const clast_dem_config *config, const clast_dem_contact *contact)
+{
+    const clast_dem_config own = clx_law_config(config, contact);
+    const bool are_like =
+        contact->young[0] == contact->young[1] && contact->poisson[0] == contact->poisson[1];
+    return make_law(&own, are_like ? NULL : contact);
 }
 
 /// Integral of JKR's force over the overlap along its curve, from a = 0.

@@ -42,6 +42,12 @@ typedef struct clx_law {
     double adhesion;               ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
 } clx_law;
 
+/// Laws by the materials that touch: law[a n + b]; n 0: all contacts have the configuration's.
+typedef struct clx_laws {
+    int32_t n;
+    clx_law *law; ///< [n][n]
+} clx_laws;
+
 /// One contact as the law sees it.
 typedef struct clx_meeting {
     double overlap;     ///< > 0 [m]
@@ -67,6 +73,10 @@ typedef struct clx_contact_force {
 
 /// Constants from a configuration, which has been checked.
 clx_law clx_law_make(const clast_dem_config *config);
+
+/// The configuration with what a pair of materials has of its own; its law.
+clast_dem_config clx_law_config(const clast_dem_config *config, const clast_dem_contact *contact);
+clx_law clx_law_of_contact(const clast_dem_config *config, const clast_dem_contact *contact);
 
 /// Shortest time a contact may take: T_c, or Hertz's quarter swing at an overlap of 1 % of R*.
 ///

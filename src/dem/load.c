@@ -51,7 +51,7 @@ static void measure_pair(const clast_dem *dem, const clx_dem_pair *pair, contact
     out->a = clx_item_grain(dem, pair->a);
     out->b = pair->b >= 0 ? clx_item_grain(dem, pair->b) : -1;
     out->is_first = clx_is_first_contact(dem, pair);
-    out->stiffness = share * clx_law_stiffness(&dem->law, &m);
+    out->stiffness = share * clx_law_stiffness(clx_pair_law(dem, pair), &m);
     v3_scale(out->force, share, on_b.force);
     v3_copy(out->normal, t.normal);
     v3_copy(out->branch, t.arm_a);
@@ -119,7 +119,8 @@ static void measure_lanes(int64_t begin, int64_t end, int32_t worker, void *cont
 
 bool clx_dem_stress_is_fast(const clast_dem *dem)
 {
-    return dem->item == NULL && dem->container == NULL && !dem->law.has_history;
+    return dem->item == NULL && dem->container == NULL && dem->laws.n == 0 &&
+           !dem->law.has_history;
 }
 
 /// Pairs that touched in the last step, in the order of the list: the inner list has them all.
@@ -249,7 +250,7 @@ static clast_status count_rattlers(const clast_dem *dem, int64_t n, const contac
     int32_t *count = NULL;
     bool *is_out = NULL;
     bool goes_on = true;
-    const int32_t least = dem->law.friction[0] > 0.0 ? 2 : 4;
+    const int32_t least = clx_grains_rub(dem) ? 2 : 4;
     int64_t held = 0;
     CLX_TRY(clx_alloc(&count, dem->n_grain, sizeof *count));
     CLX_TRY(clx_alloc(&is_out, dem->n_grain, sizeof *is_out));

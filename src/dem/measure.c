@@ -96,8 +96,8 @@ static void add_pair(const clast_dem *dem, const clx_dem_pair *pair, clast_dem_m
     const double overlap = fmax(0.0, -t.distance);
     m->max_overlap = fmax(m->max_overlap, overlap);
     if (overlap > 0.0) {
-        m->elastic_energy +=
-            share * clx_law_energy(&dem->law, overlap, v3_norm(pair->slide), mass, radius);
+        m->elastic_energy += share * clx_law_energy(clx_pair_law(dem, pair), overlap,
+                                                    v3_norm(pair->slide), mass, radius);
     }
 }
 

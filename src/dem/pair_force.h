@@ -125,7 +125,7 @@ static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pai
     }
     const double ra = clx_item_curve(dem, pair->a);
     const double rb = pair->b >= 0 ? clx_item_curve(dem, pair->b) : 0.0;
-    return -clx_jkr_tear(&dem->law, pair->b >= 0 ? ra * rb / (ra + rb) : ra);
+    return -clx_jkr_tear(clx_pair_law(dem, pair), pair->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
 /// Factor on a grain's inertia by the fluid that moves along (added mass): 1 + C_m rho_f / rho.
@@ -165,7 +165,7 @@ static inline void clx_meet_pair(const clast_dem *dem, const clx_dem_pair *p,
                                  clx_contact_history *history, const clx_dem_touch *t,
                                  clx_meeting *m)
 {
-    const clx_law *law = &dem->law;
+    const clx_law *law = clx_pair_law(dem, p);
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
     const bool needs_radius = law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY ||
@@ -212,7 +212,7 @@ static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p,
                                       clx_contact_history *history, const clx_dem_touch *t,
                                       clx_force_torque *on_a, clx_force_torque *on_b)
 {
-    const clx_law *law = &dem->law;
+    const clx_law *law = clx_pair_law(dem, p);
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
     clx_meeting m;

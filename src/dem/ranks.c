@@ -52,12 +52,13 @@ void clx_ranks_destroy(clx_ranks *r)
     if (r == NULL) {
         return;
     }
-    if (r->local != NULL) { // shapes, container and slabs are the whole's
+    if (r->local != NULL) { // shapes, container, slabs and laws are the whole's
         r->local->body = NULL;
         r->local->n_body = 0;
         r->local->container = NULL;
         r->local->walls = (clx_walls){0};
         r->local->slabs = (clx_slabs){0};
+        r->local->laws = (clx_laws){0};
         clast_dem_destroy(r->local);
     }
     clx_free(r->owner);
@@ -90,6 +91,8 @@ static void share_setting(clast_dem *whole)
     local->walls = whole->walls;
     local->walls.least = clx_walls_margin(whole);
     memcpy(local->wall, whole->wall, sizeof local->wall);
+    local->law = whole->law;
+    local->laws = whole->laws;
     local->body = whole->body;
     local->n_body = whole->n_body;
     local->has_items = whole->has_items;

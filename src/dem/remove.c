@@ -140,9 +140,11 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
         const clx_energy_held now = clx_energy_held_now(dem);
         double *sum = dem->energy->sum;
         sum[CLX_LEFT] += (before.translation - now.translation) + (before.rotation - now.rotation) +
-                         (before.normal - now.normal) + (before.tangential - now.tangential);
+                         (before.normal - now.normal) + (before.tangential - now.tangential) +
+                         (before.attraction - now.attraction);
         sum[CLX_WORK_NORMAL] += before.normal - now.normal;
         sum[CLX_WORK_TANGENTIAL] += before.tangential - now.tangential;
+        sum[CLX_WORK_PULL] += before.attraction - now.attraction;
     }
 done:
     clx_free(r.item);

@@ -3,9 +3,10 @@
 
 /// Overlap that a contact's spring would throw apart, at d pi / T, faster than a run may go. 0.62
 /// of the radius with the published constants.
-static double deepest(const clast_dem *dem, const clx_grain *g, double radius)
+static double deepest(const clast_dem *dem, const clx_dem_pair *pair, const clx_grain *g,
+                      double radius)
 {
-    const double time = clx_law_time(&dem->law, g->mass, g->round_radius);
+    const double time = clx_law_time(clx_pair_law(dem, pair), g->mass, g->round_radius);
     return dem->stride * radius * time / (CLAST_PI * dem->config.time_step);
 }
 
@@ -16,7 +17,7 @@ static clast_status check_wall(const clast_dem *dem, const clx_dem_pair *pair)
     const double radius = clx_item_radius(dem, pair->a);
     clx_dem_touch t = {0};
     clx_find_again(dem, pair, &t);
-    CLX_CHECK(-t.distance <= deepest(dem, &dem->grain[g], radius), CLAST_E_GEOMETRY,
+    CLX_CHECK(-t.distance <= deepest(dem, pair, &dem->grain[g], radius), CLAST_E_GEOMETRY,
               "grain %d begins inside of a wall, by %.2g of its radius: place it within the domain",
               clx_grain_number(dem, g), -t.distance / radius);
 done:
@@ -47,7 +48,7 @@ clast_status clx_check_starts(clast_dem *dem)
         const double radius = ra < rb ? ra : rb;
         const clx_grain *g = &dem->grain[clx_item_grain(dem, ra < rb ? pair->a : pair->b)];
         CLX_CHECK(
-            -t.distance <= deepest(dem, g, radius), CLAST_E_GEOMETRY,
+            -t.distance <= deepest(dem, pair, g, radius), CLAST_E_GEOMETRY,
             "grains %d and %d begin inside of each other, by %.2g of the smaller one's radius: "
             "place them apart",
             clx_grain_number(dem, clx_item_grain(dem, pair->a)),

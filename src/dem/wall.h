@@ -38,6 +38,7 @@ typedef struct clx_wall_body {
     struct clx_wall_mesh *mesh; ///< at rest; NULL: of the domain
     int32_t first;              ///< of its triangles among all
     double reach;               ///< of the mesh from its pivot [m]
+    int32_t material;
 } clx_wall_body;
 
 /// What one contact does to a wall in a step, on its way to other ranks.

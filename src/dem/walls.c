@@ -324,7 +324,7 @@ double clx_wall_spring(const clast_dem *dem, const clx_dem_pair *pair, int32_t w
     const double share =
         dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / clx_sub_contacts(dem, pair) : 1.0;
     const double n = v3_dot(t.normal, along);
-    return share * clx_law_stiffness(&dem->law, &m) * n * n;
+    return share * clx_law_stiffness(clx_pair_law(dem, pair), &m) * n * n;
 }
 
 /// Lists are due, on all ranks.

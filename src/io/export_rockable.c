@@ -51,8 +51,55 @@ static bool is_turned(const double turn[4])
     return turn[1] != 0.0 || turn[2] != 0.0 || turn[3] != 0.0;
 }
 
+/// Whether a text is one word of Rockable's files, where # begins a comment.
+static bool is_word(const char *text)
+{
+    bool is_one = text[0] != '\0';
+    for (const char *c = text; *c != '\0'; ++c) {
+        is_one = is_one && (unsigned char)*c > ' ' && *c != 0x7f && *c != '#';
+    }
+    return is_one;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const char *const *x = a;
+    const char *const *y = b;
+    return strcmp(*x, *y);
+}
+
+/// Grains name their shapes.
+static clast_status check_names(const clast_assembly *a, const char *path)
+{
+    clast_status status = CLAST_OK;
+    const char **name = NULL;
+    CLX_TRY(clx_alloc(&name, a->n_shape, sizeof *name));
+    for (int32_t i = 0; i < a->n_shape; ++i) {
+        name[i] = a->shape[i].name;
+    }
+    if (a->n_shape > 0) {
+        qsort(name, (size_t)a->n_shape, sizeof *name, by_name);
+    }
+    for (int32_t i = 1; i < a->n_shape; ++i) {
+        CLX_CHECK(strcmp(name[i], name[i - 1]) != 0, CLAST_E_USAGE,
+                  "%s: two shapes have the name %s, by which Rockable's grains tell theirs", path,
+                  name[i]);
+    }
+done:
+    clx_free(name);
+    return status;
+}
+
 static clast_status check_shapes(const clast_assembly *a, const char *path)
 {
+    const char *slash = strrchr(path, '/');
+    if (!is_word(slash != NULL ? slash + 1 : path)) {
+        return clx_fail(
+            CLAST_E_USAGE,
+            "%s: the file of shapes beside it is named in it, and Rockable's names have "
+            "no blanks and no #: give it another name",
+            path);
+    }
     for (int32_t i = 0; i < a->n_shape; ++i) {
         const clast_shape *s = &a->shape[i];
         if (s->kind != CLAST_SHAPE_SPHERE && (s->kind != CLAST_SHAPE_MESH || s->parts.n > 0)) {
@@ -61,12 +108,13 @@ static clast_status check_shapes(const clast_assembly *a, const char *path)
                             "write .csv, .dump or .data",
                             path, s->name);
         }
-        if (strpbrk(s->name, " \t#") != NULL) {
-            return clx_fail(CLAST_E_USAGE, "%s: Rockable's names have no blanks, as '%s' does",
-                            path, s->name);
+        if (!is_word(s->name)) {
+            return clx_fail(CLAST_E_USAGE,
+                            "%s: Rockable's names have no blanks and no #, as '%s' has", path,
+                            s->name);
         }
     }
-    return CLAST_OK;
+    return check_names(a, path);
 }
 
 static void put_row(clx_file *file, const char *key, const double *x, int n)

@@ -1,6 +1,7 @@
 // Tables of other programs to grains: spheres, ellipsoids, clumps.
 #include "io/packing.h"
 
+#include "base/alloc.h"
 #include "base/status.h"
 #include "io/spheres_table.h"
 #include "math/vec3.h"
@@ -10,6 +11,7 @@
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0};
@@ -42,44 +44,110 @@ done:
     return status;
 }
 
-/// The shape of this name, which is made where it is missing.
-static clast_status need_shape(clast_assembly *a, const char *name, const double semi_axes[3],
-                               int32_t *shape)
+/// What a row's shape is: type, and semi-axes, longest first.
+typedef struct {
+    double axis[3];
+    int32_t type, row;
+    int32_t head, n; ///< first of its type among the sorted ones; there, shapes of it so far
+    int32_t number;  ///< of the shape in the assembly; -1: not yet made
+} row_shape;
+
+static int by_shape(const void *a, const void *b)
+{
+    const row_shape *x = a;
+    const row_shape *y = b;
+    if (x->type != y->type) {
+        return x->type < y->type ? -1 : 1;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (x->axis[k] != y->axis[k]) {
+            return x->axis[k] < y->axis[k] ? -1 : 1;
+        }
+    }
+    return x->row < y->row ? -1 : x->row > y->row ? 1 : 0;
+}
+
+/// A shape of a type: type-1, type-1-2, ...; sphere where the file has no types.
+static clast_status make_shape(row_shape *rows, int32_t k, bool has_type, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     clast_shape made = {0};
-    const bool is_sphere = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
-    for (int32_t i = a->n_shape; i-- > 0;) { // the last ones are met most
-        if (strcmp(a->shape[i].name, name) == 0) {
-            *shape = i;
-            return CLAST_OK;
-        }
+    char name[48] = "sphere";
+    row_shape *r = &rows[k];
+    const int32_t n = ++rows[r->head].n;
+    if (has_type) {
+        (void)snprintf(name, sizeof name, n > 1 ? "type-%d-%d" : "type-%d", r->type, n);
     }
-    CLX_TRY(is_sphere ? clast_shape_sphere(name, semi_axes[0], &made)
-                      : clast_shape_ellipsoid(name, semi_axes, &made));
-    CLX_TRY(clast_assembly_add_shape(a, &made, shape));
+    CLX_TRY(r->axis[0] == r->axis[2] ? clast_shape_sphere(name, r->axis[0], &made)
+                                     : clast_shape_ellipsoid(name, r->axis, &made));
+    CLX_TRY(clast_assembly_add_shape(a, &made, &r->number));
 done:
     clast_shape_free(&made);
+    return status;
+}
+
+/// One shape for all rows of equal type and axes, in the order in which they are met; each row's
+/// goes to `shape`. The rows are sorted.
+static clast_status make_shapes(int32_t n, row_shape *rows, bool has_type, clast_assembly *a,
+                                int32_t *shape)
+{
+    clast_status status = CLAST_OK;
+    int32_t first = 0;
+    if (n > 0) {
+        qsort(rows, (size_t)n, sizeof *rows, by_shape);
+    }
+    for (int32_t k = 0; k < n; ++k) {
+        const bool begins = k == 0 || rows[k].type != rows[k - 1].type;
+        rows[k].number = -1;
+        rows[k].n = 0;
+        rows[k].head = begins ? k : rows[k - 1].head;
+        first =
+            begins || memcmp(rows[k].axis, rows[k - 1].axis, sizeof rows[k].axis) != 0 ? k : first;
+        shape[rows[k].row] = first;
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        row_shape *r = &rows[shape[i]];
+        if (r->number < 0) {
+            CLX_TRY(make_shape(rows, shape[i], has_type, a));
+        }
+        shape[i] = r->number;
+    }
+done:
     return status;
 }
 
 static clast_status add_spheres(const clast_spheres *spheres, const double *type,
                                 const double *density, clast_assembly *a)
 {
-    static const double one[3] = {1.0, 1.0, 1.0};
     clast_status status = CLAST_OK;
+    row_shape *rows = NULL;
+    int32_t *shape = NULL;
+    CLX_TRY(clx_alloc(&rows, spheres->n, sizeof *rows));
+    CLX_TRY(clx_alloc(&shape, spheres->n, sizeof *shape));
     for (int32_t i = 0; i < spheres->n; ++i) {
-        char name[32];
-        int32_t number = 1;
-        int32_t shape = 0;
-        CLX_TRY(type_of(type, i, &number));
-        (void)snprintf(name, sizeof name, type != NULL ? "type-%d" : "sphere", number);
-        CLX_TRY(need_shape(a, name, one, &shape));
-        CLX_TRY(clast_assembly_add_grain(a, shape, spheres->centre[i], UPRIGHT, spheres->radius[i],
-                                         density != NULL ? density[i] : 1.0));
+        rows[i] = (row_shape){.axis = {1.0, 1.0, 1.0}, .row = i};
+        CLX_TRY(type_of(type, i, &rows[i].type));
+    }
+    CLX_TRY(make_shapes(spheres->n, rows, type != NULL, a, shape));
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        CLX_TRY(clast_assembly_add_grain(a, shape[i], spheres->centre[i], UPRIGHT,
+                                         spheres->radius[i], density != NULL ? density[i] : 1.0));
     }
 done:
+    clx_free(rows);
+    clx_free(shape);
     return status;
+}
+
+static void sort_down(double x[3])
+{
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i; j > 0 && x[j] > x[j - 1]; --j) {
+            const double swap = x[j];
+            x[j] = x[j - 1];
+            x[j - 1] = swap;
+        }
+    }
 }
 
 /// Rotation that takes the axes as clast sorts them, longest along x, to those of the file.
@@ -159,59 +227,40 @@ done:
     return status;
 }
 
-/// The shape of a type with these semi-axes: the type's last one, or one more.
-static clast_status need_ellipsoid(clast_assembly *a, int32_t type, const double axes[3],
-                                   int32_t *shape)
-{
-    clast_status status = CLAST_OK;
-    clast_shape made = {0};
-    char name[48];
-    int32_t n_same = 0;
-    const int begin = snprintf(name, sizeof name, "type-%d", type);
-    CLX_TRY(clast_shape_ellipsoid("sorted", axes, &made));
-    for (int32_t i = 0; i < a->n_shape; ++i) {
-        const clast_shape *one = &a->shape[i];
-        if (strncmp(one->name, name, (size_t)begin) == 0 &&
-            (one->name[begin] == '\0' || one->name[begin] == '-')) {
-            ++n_same;
-            if (v3_distance2(one->semi_axes, made.semi_axes) == 0.0) {
-                *shape = i;
-                goto done;
-            }
-        }
-    }
-    if (n_same > 0) {
-        (void)snprintf(name + begin, sizeof name - (size_t)begin, "-%d", n_same + 1);
-    }
-    CLX_TRY(need_shape(a, name, axes, shape));
-done:
-    clast_shape_free(&made);
-    return status;
-}
-
 static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a, bool *has_density)
 {
     clast_status status = CLAST_OK;
     ellipsoid_columns c = {0};
+    row_shape *rows = NULL;
+    int32_t *shape = NULL;
+    double x[3];
+    double axes[3];
+    double q[4];
+    CLX_CHECK(table->n_row <= INT32_MAX, CLAST_E_LIMIT, "%lld rows", (long long)table->n_row);
+    const int32_t n = (int32_t)table->n_row;
     CLX_TRY(find_columns(table, &c));
-    for (int64_t i = 0; i < table->n_row; ++i) {
-        double x[3];
-        double axes[3];
-        double q[4];
+    CLX_TRY(clx_alloc(&rows, n, sizeof *rows));
+    CLX_TRY(clx_alloc(&shape, n, sizeof *shape));
+    for (int32_t i = 0; i < n; ++i) {
+        rows[i].row = i;
+        CLX_TRY(type_of(c.type, i, &rows[i].type));
+        CLX_TRY(read_pose(&c, i, x, rows[i].axis, q));
+        sort_down(rows[i].axis);
+    }
+    CLX_TRY(make_shapes(n, rows, true, a, shape));
+    for (int32_t i = 0; i < n; ++i) {
         double turn[4];
         double turned[4];
-        int32_t type = 1;
-        int32_t shape = 0;
-        CLX_TRY(type_of(c.type, i, &type));
         CLX_TRY(read_pose(&c, i, x, axes, q));
-        CLX_TRY(need_ellipsoid(a, type, axes, &shape));
         sorting_turn(axes, turn);
         q_mul(turned, q, turn);
-        CLX_TRY(clast_assembly_add_grain(a, shape, x, turned, 1.0,
+        CLX_TRY(clast_assembly_add_grain(a, shape[i], x, turned, 1.0,
                                          c.density != NULL ? c.density[i] : 1.0));
     }
     *has_density = c.density != NULL;
 done:
+    clx_free(rows);
+    clx_free(shape);
     return status;
 }
 

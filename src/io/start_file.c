@@ -12,6 +12,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/// Density of grains that are given none [kg/m3], as in pack/density.c.
+static const double USUAL = 2650.0;
+
 static bool is_folder(const char *path)
 {
     struct stat s;
@@ -46,13 +49,19 @@ done:
     return status;
 }
 
+static clast_status refuse_density(const clast_pack_config *c, const char *whose)
+{
+    return c->density.n == 0
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG, "density is the %s's own; leave it out", whose);
+}
+
 static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(c->start_columns[0] == '\0' && c->start_diameter == 0.0, CLAST_E_CONFIG,
               "start_columns and start_diameter are for packings of spheres from other programs");
-    CLX_CHECK(c->density.n == 1 && c->density.item[0] == 2650.0, CLAST_E_CONFIG,
-              "density is the state's own; leave it out");
+    CLX_TRY(refuse_density(c, "state"));
     CLX_TRY(clast_state_read_assembly(c->start, a));
 done:
     return status;
@@ -63,13 +72,13 @@ static clast_status read_others(const clast_pack_config *c, clast_assembly *a)
     clast_status status = CLAST_OK;
     const clast_packing_options o = {.columns = c->start_columns, .diameter = c->start_diameter};
     bool has_density = false;
-    CLX_CHECK(c->density.n == 1 && c->density.item[0] > 0.0, CLAST_E_CONFIG,
+    const double density = c->density.n == 0 ? USUAL : c->density.n == 1 ? c->density.item[0] : 0.0;
+    CLX_CHECK(density > 0.0, CLAST_E_CONFIG,
               "grains of another program have one density, above 0 (density)");
     CLX_TRY(clx_packing_read(c->start, &o, a, &has_density));
-    CLX_CHECK(!has_density || c->density.item[0] == 2650.0, CLAST_E_CONFIG,
-              "density is the file's own; leave it out");
+    CLX_TRY(has_density ? refuse_density(c, "file") : CLAST_OK);
     for (int32_t i = 0; i < a->n_grain && !has_density; ++i) {
-        a->density[i] = c->density.item[0];
+        a->density[i] = density;
     }
 done:
     return status;
@@ -187,8 +196,7 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
     const double *x[3];
     const char *const *name = text_column(table, "shape");
     CLX_CHECK(name != NULL, CLAST_E_FORMAT, "there is no column shape");
-    CLX_CHECK(config->density.n == 1 && config->density.item[0] == 2650.0, CLAST_E_CONFIG,
-              "density is the table's own; leave it out");
+    CLX_TRY(refuse_density(config, "table"));
     CLX_TRY(find_places(table, x, made.unit));
     for (int32_t i = 0; i < n_shape; ++i) {
         CLX_TRY(clast_assembly_add_shape(&made, &shape[i], NULL));

@@ -9,6 +9,7 @@
 #include <clast/shape.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0};
@@ -46,29 +47,34 @@ int32_t clx_yade_clump_column(const char *columns)
     return -1;
 }
 
-/// The spheres of one clump as a grain of a shape of its own.
-static clast_status add_clump(const clast_spheres *spheres, const double *clump, int32_t first,
-                              bool *is_done, clast_assembly *a)
+/// A row of a clump.
+typedef struct {
+    double clump;
+    int32_t row;
+} clump_row;
+
+static int by_clump(const void *a, const void *b)
+{
+    const clump_row *x = a;
+    const clump_row *y = b;
+    return x->clump != y->clump ? (x->clump < y->clump ? -1 : 1) : x->row < y->row ? -1 : 1;
+}
+
+/// The spheres of one clump, n rows, as a grain of a shape of its own.
+static clast_status add_clump(const clast_spheres *spheres, int32_t n, const clump_row *rows,
+                              clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     clast_spheres own = {0};
     clast_shape shape = {0};
     char name[48];
     int32_t number = 0;
-    int32_t n = 0;
-    for (int32_t i = first; i < spheres->n; ++i) {
-        n += clump[i] == clump[first] ? 1 : 0;
-    }
     CLX_TRY(clast_spheres_alloc(n, &own));
-    n = 0;
-    for (int32_t i = first; i < spheres->n; ++i) {
-        if (clump[i] == clump[first]) {
-            v3_copy(own.centre[n], spheres->centre[i]);
-            own.radius[n++] = spheres->radius[i];
-            is_done[i] = true;
-        }
+    for (int32_t k = 0; k < n; ++k) {
+        v3_copy(own.centre[k], spheres->centre[rows[k].row]);
+        own.radius[k] = spheres->radius[rows[k].row];
     }
-    (void)snprintf(name, sizeof name, "clump-%lld", (long long)clump[first]);
+    (void)snprintf(name, sizeof name, "clump-%lld", (long long)rows[0].clump);
     CLX_TRY(clast_shape_clump(name, &own, &shape));
     const double at[3] = {shape.source_origin[0], shape.source_origin[1], shape.source_origin[2]};
     CLX_TRY(clast_assembly_add_shape(a, &shape, &number));
@@ -99,22 +105,35 @@ done:
 clast_status clx_yade_clumps(const clast_spheres *spheres, const double *clump, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
-    bool *is_done = NULL;
+    clump_row *rows = NULL; // sorted: a clump's stand together
+    int32_t *first = NULL;  // of the clump that begins with a row, among those; -1: none begins
     int32_t ball = -1;
-    CLX_TRY(clx_alloc(&is_done, spheres->n, sizeof *is_done));
+    CLX_TRY(clx_alloc(&rows, spheres->n, sizeof *rows));
+    CLX_TRY(clx_alloc(&first, spheres->n, sizeof *first));
     for (int32_t i = 0; i < spheres->n; ++i) {
         CLX_CHECK(isfinite(clump[i]) && fabs(clump[i]) < 1e15, CLAST_E_FORMAT, "row %d: clumpId %g",
                   i + 1, clump[i]);
-        if (is_done[i]) {
-            continue;
-        }
-        if (clump[i] >= 0.0) {
-            CLX_TRY(add_clump(spheres, clump, i, is_done, a));
-        } else {
+        rows[i] = (clump_row){clump[i], i};
+    }
+    if (spheres->n > 0) {
+        qsort(rows, (size_t)spheres->n, sizeof *rows, by_clump);
+    }
+    for (int32_t k = 0; k < spheres->n; ++k) {
+        first[rows[k].row] = k > 0 && rows[k].clump == rows[k - 1].clump ? -1 : k;
+    }
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        if (clump[i] < 0.0) {
             CLX_TRY(add_sphere(spheres, i, &ball, a));
+        } else if (first[i] >= 0) {
+            int32_t last = first[i] + 1;
+            while (last < spheres->n && rows[last].clump == clump[i]) {
+                ++last;
+            }
+            CLX_TRY(add_clump(spheres, last - first[i], rows + first[i], a));
         }
     }
 done:
-    clx_free(is_done);
+    clx_free(rows);
+    clx_free(first);
     return status;
 }

@@ -50,8 +50,9 @@ const clast_field clast_pack_fields[] = {
     NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
     {FIELD(F64_LIST, density), 0, 0, 1e6, "kg/m^3",
      "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); "
-     "0: those of the aggregate's own parts, as its state.h5 has them",
-     "2650", .common = true, .group = "density and mass"},
+     "0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's "
+     "own",
+     "", .common = true, .group = "density and mass"},
     CHOICE(density_of, 0, "shape|chance|class|list",
            "density lists one for each shape, or several to draw from whatever a grain's shape, or "
            "one for each class of the sieve curve; list: column density of list:FILE or "
@@ -61,6 +62,16 @@ const clast_field clast_pack_fields[] = {
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)", .common = true),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL, .common = true},
+    {FIELD(TEXT_LIST, material), 0, 0, 0, "-",
+     "name of the grains' material, one for all shapes or one for each, for contacts", "",
+     .group = "materials"},
+    {FIELD(TEXT_LIST, contacts), 0, 0, 0, "-",
+     "what differs where two sides touch, later ones over earlier: two of grains, walls, "
+     "materials, "
+     "walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, "
+     "restitution 0.5, poisson, collision_time 100us (law linear), young 5e6,2e11Pa (law hertz; "
+     "one number, or one of either side)",
+     ""},
     TEXT(
         start, "",
         "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its "

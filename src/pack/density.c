@@ -7,6 +7,16 @@
 #include <clast/shape.h>
 #include <math.h>
 
+/// Of grains that are given none: quartz [kg/m3].
+static double usual[1] = {2650.0};
+
+void clx_pack_set_density(clast_pack_config *config)
+{
+    if (config->density.n == 0) {
+        config->density = (clast_f64_list){1, usual};
+    }
+}
+
 /// The configured one, or that of the shape's own parts.
 static double of_shape(const clast_pack *p, int32_t shape)
 {

@@ -48,7 +48,11 @@ double clx_pack_speed_limit(const clast_pack *p)
     clx_pack_densities(p, &light, &heavy);
     const double r = 0.5 * low;
     const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
-    return FASTEST * clx_law_speed(&p->dem->law, mass, r, r);
+    double least = clx_law_speed(&p->dem->law, mass, r, r);
+    for (int32_t k = 0; k < p->dem->laws.n * p->dem->laws.n; ++k) {
+        least = fmin(least, clx_law_speed(&p->dem->laws.law[k], mass, r, r));
+    }
+    return FASTEST * least;
 }
 
 clast_status clx_pack_load_check(const clast_pack *p)

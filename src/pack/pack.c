@@ -117,6 +117,7 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     CLX_TRY(clx_pack_check(config));
     made->config = *config;
     made->input = *input;
+    clx_pack_set_density(&made->config);
     if (input->start != NULL) {
         CLX_TRY(clx_pack_start_check(made));
     }
@@ -126,8 +127,10 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     if (input->start == NULL) {
         CLX_TRY(clx_pack_check_draws(made));
     }
-    CLX_TRY(clx_pack_load_check(made));
     CLX_TRY(clx_pack_walls_begin(made));
+    CLX_TRY(clx_pack_materials_begin(made));
+    CLX_TRY(clx_pack_load_check(made));
+    CLX_TRY(clx_pack_walls_check(made));
     CLX_TRY(clx_pack_series_begin(made));
     CLX_TRY(clx_pack_load_table(made));
     CLX_TRY(clx_pack_walls_table(made));

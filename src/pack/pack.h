@@ -123,6 +123,12 @@ int32_t clx_pack_n_outside(const clast_pack *pack, int32_t *first);
 /// Sets what acts in the phase.
 void clx_pack_drive(clast_pack *pack);
 
+/// The usual density where none is given.
+CLX_SHARED void clx_pack_set_density(clast_pack_config *config);
+
+/// Contacts by materials, where walls are; nothing without option contacts.
+clast_status clx_pack_materials_begin(clast_pack *pack);
+
 clast_status clx_pack_series_begin(clast_pack *pack);
 clast_status clx_pack_series_row(clast_pack *pack);
 

@@ -89,7 +89,7 @@ done:
     return status;
 }
 
-static clast_status check_speeds(const clast_pack *p)
+clast_status clx_pack_walls_check(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const clast_pack_config *c = &p->config;
@@ -199,7 +199,6 @@ clast_status clx_pack_walls_begin(clast_pack *p)
     CLX_CHECK(
         !is_cell, CLAST_E_CONFIG,
         "domain cell is periodic: it has no walls and no outlets (wall, outlet, wall_forces)");
-    CLX_TRY(check_speeds(p));
     for (int32_t i = 0; i < p->input.n_wall; ++i) {
         CLX_CHECK(c->dem.domain != CLAST_DEM_PERIODIC || p->input.wall[i].number >= 0,
                   CLAST_E_CONFIG,
@@ -394,8 +393,8 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
     CLX_CHECK(*over || s->end == CLX_UNTIL_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
               "stage %d, '%s', has not come to its end in %g s (max_load_time): pressure of its "
               "wall %.4g Pa, farthest way of a wall %.4g m, %.4g kg of grains inside",
-              p->load.stage + 1, p->config.stages.item[p->load.stage], time, l->pressure, l->way,
-              p->mass - p->mass_left);
+              p->load.stage + 1, p->config.stages.item[p->load.stage], time, l->pressure + 0.0,
+              l->way, p->mass - p->mass_left);
 done:
     return status;
 }

@@ -59,8 +59,10 @@ clast_status clx_wall_stage_read(const clast_pack_config *config, int32_t number
 /// Whether a packing has walls, outlets or stages between walls.
 bool clx_pack_has_walls(const clast_pack_config *config);
 
-/// Adds the walls to the simulation; refuses ones that are too fast, and stages that are none.
+/// Adds the walls to the simulation; then, with its contact laws, refuses ones that are too fast,
+/// and stages that are none.
 clast_status clx_pack_walls_begin(clast_pack *pack);
+clast_status clx_pack_walls_check(const clast_pack *pack);
 
 /// Every CLX_SERVO_STEPS while stages go on.
 clast_status clx_pack_walls_look(clast_pack *pack);

@@ -296,6 +296,9 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
              .has_folder = folder != NULL,
              .monitor = monitor};
     own.force = false;
+    if (own.start == NULL || own.start[0] == '\0') {
+        clx_pack_set_density(&own);
+    }
     CLX_TRY(clast_comm_agree(r.comm, begin(&r, folder, config->force), NULL));
     status = save(&r);
     status = finish(&r, status == CLAST_OK ? go(&r) : status, result);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """clast export and clast pack --start: packings of other programs come and go without losing a digit."""
+import csv
 import struct
 import unittest
 
-from clitest import Case, clast
+from clitest import ROOT, Case, clast
 
 LONE = ["--domain", "cell", "--width", "40mm", "--height", "40mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
         "--stages", "hold until time 1s", "--max-steps", "1", "--quiet", "-j", "1"]
@@ -58,6 +59,33 @@ class Starts(Case):
         for ending, says in (("txt", "spheres and clumps"), ("voro", "holds spheres"), ("xyzd", "holds spheres")):
             self.assert_fails(2, "export", run, "-o", self.folder / f"no.{ending}", says=(says,))
         self.assert_fails(2, "export", self.bed("--shapes", "ellipsoid:2,1,1"), "-o", self.folder / "no.conf", says=("spheres and polyhedra",))
+
+    def test_names_that_break_a_format_are_refused(self):
+        """A newline in a shape's name began a line of Rockable's library; a blank in the file's own name cut it off in shapeFile."""
+        for name in ("two\nlines.ply", "a b.ply", "a#b.ply", "a\x7fb.ply"):
+            (self.folder / name).write_bytes((ROOT / "data/standin63/grain00.ply").read_bytes())
+            run, bad = self.bed("--shapes", self.folder / name), self.folder / "bad.conf"
+            self.assert_fails(2, "export", run, "-o", bad, says=("no blanks and no #",))
+            self.assertFalse(bad.exists() or bad.with_suffix(".shp").exists())
+            for ending in ("csv", "json", "vtu", "obj", "dump"):
+                self.assertEqual(clast("export", run, "-o", self.folder / f"first.{ending}").code, 0)
+            with open(self.folder / "first.csv", encoding="utf-8", newline="") as file:
+                self.assertEqual({row["shape"] for row in csv.DictReader(file)}, {f"1-{name}".replace("\x7f", "\\x7f")})
+            self.assertEqual(len([line for line in (self.folder / "first.obj").read_text().split("\n") if line[:1] not in "vfgo#s"]), 0)
+        self.assert_fails(2, "export", self.bed(), "-o", self.folder / "my bed.conf", says=("no blanks and no #",))
+
+    def test_a_density_beside_the_starts_own_is_said(self):
+        """The usual 2650 gave way without a word, 2700 was refused."""
+        run = self.bed("--density", "2000")
+        self.assertEqual(clast("export", run, "-o", self.folder / "bed.data").code, 0)
+        for start, whose in ((run / "state.h5", "state"), (self.folder / "bed.data", "file")):
+            for density in ("2650", "2700"):
+                self.assert_fails(2, "pack", "--start", start, "--start-unit", "m", "--density", density, *LONE, "-o", self.folder / "bad",
+                                  says=(f"density is the {whose}'s own; leave it out",))
+        again = clast("pack", "--start", run / "state.h5", *LONE, "-o", self.folder / "again", "--json")
+        self.assertEqual(again.code, 0, again.err)
+        with open(self.folder / "again" / "grains.csv", encoding="utf-8") as file:
+            self.assertEqual({float(row["density_kg/m^3"]) for row in csv.DictReader(file)}, {2000.0})
 
     def test_old_shapes_stay_where_rockables_configuration_fails(self):
         """The shapes' file was replaced before the configuration was whole."""

@@ -92,7 +92,8 @@ class Walls(Case):
 
     def test_a_killed_run_goes_on_in_the_same_bytes(self):
         whole, cut = self.folder / "whole", self.folder / "cut"
-        options = [*self.silo(), "--shapes", "ellipsoid:1.3,1,0.8", "--checkpoint-time", "0.05s"]
+        options = [*self.silo(), "--shapes", "ellipsoid:1.3,1,0.8", "--material", "salt", "--contacts", "grains walls friction 0.3", "--contacts",
+                   "salt plate friction 0.1 restitution 0.6", "--checkpoint-time", "0.05s"]
         made = clast(*options, "-o", whole)
         self.assertEqual(made.code, 0, made.err)
         for wanted in (3, 6):
@@ -109,6 +110,39 @@ class Walls(Case):
             self.assertEqual(resumed.code, 0, resumed.err)
         for name in ("state.h5", "walls.csv", "load.csv", "series.csv", "summary.json"):
             self.assertEqual((whole / name).read_bytes(), (cut / name).read_bytes(), name)
+
+    def test_materials_slide_by_their_own_friction(self):
+        """Two balls on one belt: mu g t^2 / 2 each."""
+        start, run = self.folder / "start.csv", self.folder / "run"
+        start.write_text("shape,x_m,y_m,z_m,qw,qx,qy,qz,scale,density_kg/m^3\n1-sphere,0,-5e-3,2e-3,1,0,0,0,4e-3,2650\n"
+                         "2-sphere,0,5e-3,2e-3,1,0,0,0,4e-3,2650\n", encoding="utf-8")
+        bed = ["pack", "--start", start, "--shapes", "sphere", "--shapes", "sphere", "--domain", "box", "--width", "40mm", "--fluid-density", "0",
+               "--shaking-time", "0", "--damping", "1", "--rule", "speed", "--still-speed", "1e-6", "--wall", "floor move 1000,0,0mm/s",
+               "--quiet", "-j", "1"]
+        result = clast(*bed, "--material", "ice", "--material", "salt", "--contacts", "grains floor friction 0.1", "--contacts", "salt floor friction 0.3",
+                       "--max-steps", "10000", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        with open(run / "grains.csv", encoding="utf-8") as file:
+            ends = [float(row["x_m"]) for row in csv.DictReader(file)]
+        time_s = rows(run / "walls.csv")[-1]["time_s"]
+        for x, friction in zip(ends, (0.1, 0.3)):
+            self.assertLess(abs(x / (0.5 * friction * 9.81 * time_s ** 2) - 1), 0.01)
+        ice = ["--material", "ice", "--material", "salt"]
+        for options, said in (
+                (["--contacts", "grains lid friction 0.1"], "that is there, not 'lid'"),
+                (["--contacts", "grains floor young 5e6"], "with law hertz alone acts 'young'"),
+                (["--contacts", "grains floor friction 200"], "out of the range of its option is 'friction'"),
+                (["--contacts", "grains floor friction"], "a number is expected after 'friction'"),
+                (["--contacts", "grains floor hue 3"], "expected friction, rolling_friction, restitution, collision_time, young or poisson, not 'hue'"),
+                (["--contacts", "floor walls friction 0.1"], "walls do not touch each other"),
+                (["--contacts", "grains floor friction 0.1", "--contacts", "floor grains friction 0.2"], "an earlier one is of the same two sides"),
+                (["--contacts", "grains floor collision_time 1us"], "time_step 5e-06 s is too long"),
+                (ice, "materials act by what contacts says of them"),
+                ([*ice, "--contacts", "ice snow friction 0.1"], "that is there, not 'snow'"),
+                ([*ice, "--material", "snow", "--contacts", "ice snow friction 0.1"], "3 materials for 2 shapes")):
+            bad = clast(*bed, *options, "-o", self.folder / "bad")
+            self.assertEqual((bad.code, bad.err.count("\n")), (2, 1), bad.err)
+            self.assertIn(said, bad.err)
 
     def test_a_table_and_a_formula_are_one_motion(self):
         """Rows of a straight motion, and its velocity: the same places to rounding."""

@@ -278,6 +278,41 @@ static void those_who_stay_go_on_as_they_were(void **state)
     assert_true(hash[0] == hash[1]);
 }
 
+/* What holds two grains together leaves with either: of three balls in a row, pressed into each
+ * other, one goes, then another. */
+static void attraction_leaves_with_its_grains(void **state)
+{
+    (void)state;
+    for (int cohesion = CLAST_DEM_AREA; cohesion <= CLAST_DEM_JKR; ++cohesion) {
+        clast_dem_config c = scene_space();
+        clast_dem_energy e[3];
+        double held[3];
+        uint8_t goes[3] = {0, 0, 1};
+        clast_dem *dem = NULL;
+        c.cohesion = cohesion;
+        c.time_step = 1e-3 * c.collision_time;
+        c.cohesion_energy = cohesion == CLAST_DEM_AREA ? 1e6 : 0.0;
+        c.surface_energy = cohesion == CLAST_DEM_AREA ? 0.0 : 30.0;
+        const clast_dem_grain ball[3] = {at(-1.999 * RADIUS, 0.0, 0.0), at(0.0, 0.0, 0.0),
+                                         at(1.999 * RADIUS, 0.0, 0.0)};
+        CHECK_OK(clast_dem_create(&c, &dem));
+        add_balls(dem, 3, ball);
+        CHECK_OK(clast_dem_step(dem, 100));
+        for (int k = 0; k < 3; ++k) {
+            CHECK_OK(k > 0 ? clast_dem_remove_grains(dem, goes) : CLAST_OK);
+            goes[2 - k] = 1;
+            clast_dem_energy_measure(dem, &e[k]);
+            held[k] = e[k].translation + e[k].normal_springs + e[k].attraction;
+            assert_true(fabs(e[k].rest) < 1e-12 * (e[0].normal_springs - e[0].attraction));
+        }
+        assert_true(e[0].attraction < 0.0);
+        CHECK_REL(e[1].attraction, 0.5 * e[0].attraction, 1e-9);
+        assert_true(e[2].attraction == 0.0);
+        CHECK_REL(e[2].left, held[0] - held[2], 1e-9);
+        clast_dem_destroy(dem);
+    }
+}
+
 /* A wall that is opened holds nothing; one that would not stay a plane is refused. */
 static void walls_open_and_stay_what_they_are(void **state)
 {
@@ -318,6 +353,7 @@ int main(void)
         cmocka_unit_test(paddle_strikes_with_its_speed_there),
         cmocka_unit_test(moving_walls_miss_no_contact),
         cmocka_unit_test(those_who_stay_go_on_as_they_were),
+        cmocka_unit_test(attraction_leaves_with_its_grains),
         cmocka_unit_test(walls_open_and_stay_what_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
