@@ -6,7 +6,6 @@
 #include "io/h5_inside.h"
 
 #include "base/alloc.h"
-#include "base/file.h"
 #include "io/h5_trailer.h"
 #include <inttypes.h>
 #include <pthread.h>
@@ -119,17 +118,6 @@ void clx_h5_close(clx_h5 *h5)
     }
 }
 
-static clast_status check_name(const clx_h5 *h5, const char *name)
-{
-    clast_status status = CLAST_OK;
-    const size_t n = strlen(name);
-    CLX_CHECK(name[0] == '/' && n < CLX_H5_NAME_LIMIT && (n == 1 || name[n - 1] != '/') &&
-                  strstr(name, "//") == NULL && strstr(name, "/./") == NULL,
-              CLAST_E_USAGE, "%s: '%s' is not a name in a file", h5->label, name);
-done:
-    return status;
-}
-
 /// Link creation list that makes the folders above a new object, without times.
 static hid_t link_list(void)
 {
@@ -167,7 +155,7 @@ done:
 
 clast_status clx_h5_write_folder(clx_h5 *h5, const char *name)
 {
-    clast_status status = check_name(h5, name);
+    clast_status status = clx_h5_check_name(h5->label, name);
     if (status == CLAST_OK) {
         const clx_h5_session session = clx_h5_enter();
         status = make_folders(h5, name, true);
@@ -236,7 +224,7 @@ clast_status clx_h5_write(clx_h5 *h5, const char *name, clx_h5_type type, int32_
     clast_status status = CLAST_OK;
     hsize_t size[CLX_H5_RANK_LIMIT] = {0};
     CLAST_ASSERT(h5->is_writing && rank >= 0 && rank <= CLX_H5_RANK_LIMIT);
-    CLX_TRY(check_name(h5, name));
+    CLX_TRY(clx_h5_check_name(h5->label, name));
     for (int32_t d = 0; d < rank; ++d) {
         CLX_CHECK(shape[d] >= 0, CLAST_E_USAGE, "%s has a size of %" PRId64, name, shape[d]);
         size[d] = (hsize_t)shape[d];
@@ -295,52 +283,13 @@ clast_status clx_h5_write_number(clx_h5 *h5, const char *object, const char *nam
                            value);
 }
 
-static uint32_t turn(uint32_t x, int k)
-{
-    return (x << k) | (x >> (32 - k));
-}
-
-/// Jenkins' lookup3 hash, which HDF5 uses for its structures, of 44 bytes.    [Jenkins2006]
-static uint32_t lookup3_of_44(const unsigned char *bytes)
-{
-    uint32_t word[11];
-    uint32_t a = 0xdeadbeefu + 44;
-    uint32_t b = a;
-    uint32_t c = a;
-    for (int i = 0; i < 11; ++i) {
-        word[i] = (uint32_t)bytes[4 * i] | (uint32_t)bytes[4 * i + 1] << 8 |
-                  (uint32_t)bytes[4 * i + 2] << 16 | (uint32_t)bytes[4 * i + 3] << 24;
-    }
-    for (int i = 0; i < 9; i += 3) {
-        a += word[i];
-        b += word[i + 1];
-        c += word[i + 2];
-        a = (a - c) ^ turn(c, 4), c += b;
-        b = (b - a) ^ turn(a, 6), a += c;
-        c = (c - b) ^ turn(b, 8), b += a;
-        a = (a - c) ^ turn(c, 16), c += b;
-        b = (b - a) ^ turn(a, 19), a += c;
-        c = (c - b) ^ turn(b, 4), b += a;
-    }
-    a += word[9];
-    b += word[10];
-    c = (c ^ b) - turn(b, 14);
-    a = (a ^ c) - turn(c, 11);
-    b = (b ^ a) - turn(a, 25);
-    c = (c ^ b) - turn(b, 16);
-    a = (a ^ c) - turn(c, 4);
-    b = (b ^ a) - turn(a, 14);
-    c = (c ^ b) - turn(b, 24);
-    return c;
-}
-
 /// H5Fget_file_image of HDF5 before 2.0 clears the flag "open for writing" but leaves the
 /// superblock's checksum of before (hdf5 issue 1915): sets the right one.
-static void mend_superblock(unsigned char *image)
+static void mend_superblock(char *image)
 {
-    const uint32_t sum = lookup3_of_44(image);
+    const uint32_t sum = clx_h5_sum(image, 44);
     for (int i = 0; i < 4; ++i) {
-        image[44 + i] = (unsigned char)(sum >> (8 * i));
+        image[44 + i] = (char)(sum >> 8 * i & 0xff);
     }
 }
 
@@ -358,7 +307,7 @@ static clast_status take_image(clx_h5 *h5, char **image, int64_t *n)
               "HDF5 gives no image of its file");
     CLX_CHECK(size >= 48 && made[8] == 3 && made[9] == 8 && made[10] == 8, CLAST_E_MEMORY,
               "HDF5's image has superblock version %d, expected 3", made[8]);
-    mend_superblock((unsigned char *)made);
+    mend_superblock(made);
     *image = made;
     *n = (int64_t)size;
     made = NULL;
@@ -373,15 +322,10 @@ clast_status clx_h5_commit(clx_h5 *h5, const char *path)
     clast_status status = CLAST_OK;
     char *image = NULL;
     int64_t n = 0;
-    clx_file file = {0};
     CLAST_ASSERT(h5->is_writing);
     CLX_TRY(take_image(h5, &image, &n));
-    CLX_TRY(clx_file_begin(path, &file));
-    CLX_TRY(clx_file_write(&file, image, (size_t)n));
-    CLX_TRY(clx_file_print(&file, CLX_H5_TRAILER, clx_h5_crc(0, image, n), n));
-    CLX_TRY(clx_file_commit(&file));
+    CLX_TRY(clx_h5_put(path, image, n));
 done:
-    clx_file_abandon(&file);
     clx_free(image);
     return status;
 }

@@ -21,19 +21,45 @@ clast_status clx_h5_available(void)
 
 static uint32_t hash_of(const char *name)
 {
-    return clx_h5_plain_sum(name, (int64_t)strlen(name));
+    return clx_h5_sum(name, (int64_t)strlen(name));
 }
 
-/// Number of an array or folder, -1 if there is none: the newest are asked for most.
-static int64_t find(const clx_h5 *h5, const char *name)
+/// Where a name stands among the slots, or the empty one where it would.
+static int64_t *slot_of(const clx_h5 *h5, const char *name, uint32_t hash)
 {
-    const uint32_t hash = hash_of(name);
-    for (int64_t i = h5->n - 1; i >= 0; --i) {
-        if (h5->node[i].hash == hash && strcmp(h5->node[i].name, name) == 0) {
-            return i;
+    for (int64_t k = hash;; ++k) {
+        int64_t *slot = &h5->slot[k & (h5->n_slot - 1)];
+        const int64_t i = *slot - 1;
+        if (i < 0 || (h5->node[i].hash == hash && strcmp(h5->node[i].name, name) == 0)) {
+            return slot;
         }
     }
-    return -1;
+}
+
+/// Number of an array or folder, -1 if there is none.
+static int64_t find(const clx_h5 *h5, const char *name)
+{
+    return *slot_of(h5, name, hash_of(name)) - 1;
+}
+
+/// Ensures a slot for one name more.
+static clast_status grow_slots(clx_h5 *h5)
+{
+    clast_status status = CLAST_OK;
+    int64_t *slot = NULL;
+    const int64_t n = h5->n_slot > 0 ? 2 * h5->n_slot : 32;
+    if (2 * (h5->n + 1) <= h5->n_slot) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&slot, n, sizeof *slot));
+    clx_free(h5->slot);
+    h5->slot = slot;
+    h5->n_slot = n;
+    for (int64_t i = 0; i < h5->n; ++i) {
+        *slot_of(h5, h5->node[i].name, h5->node[i].hash) = i + 1;
+    }
+done:
+    return status;
 }
 
 /// Number of the folder that holds `name`, -1 if there is none.
@@ -49,15 +75,23 @@ static int64_t parent_of(const clx_h5 *h5, const char *name)
 clast_status clx_h5_plain_add(clx_h5 *h5, const char *name, int64_t *number)
 {
     clast_status status = CLAST_OK;
-    clx_h5_node made = {.hash = hash_of(name), .parent = -1};
+    clx_h5_node made = {.hash = hash_of(name)};
+    int64_t parent = -1;
+    CLX_TRY(grow_slots(h5));
     if (h5->n > 0) {
-        made.parent = parent_of(h5, name);
-        CLX_CHECK(made.parent >= 0 && h5->node[made.parent].is_folder, CLAST_E_FORMAT,
+        parent = parent_of(h5, name);
+        CLX_CHECK(parent >= 0 && h5->node[parent].is_folder, CLAST_E_FORMAT,
                   "%s: %s lies in no folder", h5->label, name);
         CLX_CHECK(find(h5, name) < 0, CLAST_E_USAGE, "%s is written twice", name);
     }
     CLX_TRY(clx_grow(&h5->node, &h5->capacity, h5->n + 1, sizeof *h5->node));
     CLX_TRY(clx_alloc_text(&made.name, name));
+    if (parent >= 0) {
+        clx_h5_node *folder = &h5->node[parent];
+        *(folder->last > 0 ? &h5->node[folder->last].next : &folder->first) = h5->n;
+        folder->last = h5->n;
+    }
+    *slot_of(h5, name, made.hash) = h5->n + 1;
     *number = h5->n;
     h5->node[h5->n++] = made;
 done:
@@ -103,26 +137,16 @@ void clx_h5_close(clx_h5 *h5)
     }
     if (h5 != NULL) {
         clx_free(h5->node);
+        clx_free(h5->slot);
         clx_free(h5);
     }
-}
-
-static clast_status check_name(const clx_h5 *h5, const char *name)
-{
-    clast_status status = CLAST_OK;
-    const size_t n = strlen(name);
-    CLX_CHECK(name[0] == '/' && n < CLX_H5_NAME_LIMIT && (n == 1 || name[n - 1] != '/') &&
-                  strstr(name, "//") == NULL && strstr(name, "/./") == NULL,
-              CLAST_E_USAGE, "%s: '%s' is not a name in a file", h5->label, name);
-done:
-    return status;
 }
 
 clast_status clx_h5_write_folder(clx_h5 *h5, const char *name)
 {
     clast_status status = CLAST_OK;
     char part[CLX_H5_NAME_LIMIT];
-    CLX_TRY(check_name(h5, name));
+    CLX_TRY(clx_h5_check_name(h5->label, name));
     for (size_t n = 2; n <= strlen(name); ++n) {
         if (name[n] != '/' && name[n] != '\0') {
             continue;
@@ -147,7 +171,7 @@ clast_status clx_h5_write(clx_h5 *h5, const char *name, clx_h5_type type, int32_
     int64_t number = 0;
     int64_t size = clx_h5_plain_width(type);
     char *copy = NULL;
-    CLX_TRY(check_name(h5, name));
+    CLX_TRY(clx_h5_check_name(h5->label, name));
     for (int32_t d = 0; d < rank; ++d) {
         CLX_CHECK(shape[d] >= 0, CLAST_E_USAGE, "%s has a size of %" PRId64, name, shape[d]);
         CLX_CHECK(shape[d] == 0 || size <= file_limit / shape[d], CLAST_E_LIMIT, "%s is too large",
@@ -247,14 +271,9 @@ clast_status clx_h5_commit(clx_h5 *h5, const char *path)
     clast_status status = CLAST_OK;
     char *image = NULL;
     int64_t n = 0;
-    clx_file file = {0};
     CLX_TRY(clx_h5_plain_image(h5, &image, &n));
-    CLX_TRY(clx_file_begin(path, &file));
-    CLX_TRY(clx_file_write(&file, image, (size_t)n));
-    CLX_TRY(clx_file_print(&file, CLX_H5_TRAILER, clx_h5_crc(0, image, n), n));
-    CLX_TRY(clx_file_commit(&file));
+    CLX_TRY(clx_h5_put(path, image, n));
 done:
-    clx_file_abandon(&file);
     clx_free(image);
     return status;
 }
@@ -397,8 +416,8 @@ clast_status clx_h5_count(clx_h5 *h5, const char *folder, int64_t *n)
     int64_t at = 0;
     CLX_TRY(take_folder(h5, folder, &at));
     *n = 0;
-    for (int64_t i = 1; i < h5->n; ++i) {
-        *n += h5->node[i].parent == at ? 1 : 0;
+    for (int64_t i = h5->node[at].first; i > 0; i = h5->node[i].next) {
+        ++*n;
     }
 done:
     return status;
@@ -419,10 +438,8 @@ clast_status clx_h5_member(clx_h5 *h5, const char *folder, int64_t index,
     int64_t at = 0;
     CLX_TRY(take_folder(h5, folder, &at));
     CLX_TRY(clx_alloc(&member, h5->n, sizeof *member));
-    for (int64_t i = 1; i < h5->n; ++i) {
-        if (h5->node[i].parent == at) {
-            member[n++] = h5->node[i].name;
-        }
+    for (int64_t i = h5->node[at].first; i > 0; i = h5->node[i].next) {
+        member[n++] = h5->node[i].name;
     }
     CLX_CHECK(index < n, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label, folder, index);
     qsort(member, (size_t)n, sizeof *member, by_name);

@@ -14,10 +14,11 @@ typedef struct clx_h5_attribute {
 
 /// An array or folder.
 typedef struct clx_h5_node {
-    char *name;     ///< whole, from "/" on
-    uint32_t hash;  ///< of the name
-    int64_t parent; ///< its folder's number, less than its own; -1 of "/"
+    char *name;    ///< whole, from "/" on
+    uint32_t hash; ///< of the name
     bool is_folder;
+    int64_t first, last; ///< members of a folder by their numbers, 0: none
+    int64_t next;        ///< member of the same folder
     clx_h5_type type;
     int32_t rank;
     int64_t shape[CLX_H5_RANK_LIMIT];
@@ -33,6 +34,8 @@ struct clx_h5 {
     char label[256];   ///< file's name for messages
     clx_h5_node *node; ///< [n]; the first is "/"
     int64_t n, capacity;
+    int64_t *slot; ///< [n_slot] a power of two, half of them empty (0): numbers + 1 by their hash
+    int64_t n_slot;
 };
 
 static inline int64_t clx_h5_plain_width(clx_h5_type type)
@@ -55,6 +58,3 @@ clast_status clx_h5_plain_image(clx_h5 *h5, char **image, int64_t *n);
 /// A file's bytes into an empty h5. CLAST_E_FORMAT if they are damaged, CLAST_E_USAGE if they have
 /// a form that takes HDF5.
 clast_status clx_h5_plain_parse(const char *image, int64_t n, clx_h5 *h5);
-
-/// Jenkins' lookup3 hash, the checksum of HDF5's structures.    [Jenkins2006]
-uint32_t clx_h5_plain_sum(const char *bytes, int64_t n);

@@ -4,6 +4,7 @@
 #include "io/h5_plain.h"
 
 #include "base/alloc.h"
+#include "io/h5_trailer.h"
 #include <string.h>
 
 #define UNDEFINED UINT64_MAX
@@ -43,48 +44,6 @@ static clast_status put_word(buffer *b, int width, uint64_t word)
         bytes[k] = (char)(word >> 8 * k & 0xff);
     }
     return append_raw(b, bytes, width);
-}
-
-static uint32_t turn(uint32_t x, int k)
-{
-    return (x << k) | (x >> (32 - k));
-}
-
-/// The k-th word of up to 12 bytes, missing ones 0.
-static uint32_t word_of(const char *bytes, int64_t n, int k)
-{
-    uint32_t word = 0;
-    for (int i = 0; i < 4; ++i) {
-        word |= 4 * k + i < n ? (uint32_t)(unsigned char)bytes[4 * k + i] << 8 * i : 0;
-    }
-    return word;
-}
-
-uint32_t clx_h5_plain_sum(const char *bytes, int64_t n)
-{
-    uint32_t a = 0xdeadbeefu + (uint32_t)n;
-    uint32_t b = a;
-    uint32_t c = a;
-    for (; n > 12; n -= 12, bytes += 12) {
-        a += word_of(bytes, 12, 0), b += word_of(bytes, 12, 1), c += word_of(bytes, 12, 2);
-        a = (a - c) ^ turn(c, 4), c += b;
-        b = (b - a) ^ turn(a, 6), a += c;
-        c = (c - b) ^ turn(b, 8), b += a;
-        a = (a - c) ^ turn(c, 16), c += b;
-        b = (b - a) ^ turn(a, 19), a += c;
-        c = (c - b) ^ turn(b, 4), b += a;
-    }
-    if (n == 0) {
-        return c;
-    }
-    a += word_of(bytes, n, 0), b += word_of(bytes, n, 1), c += word_of(bytes, n, 2);
-    c = (c ^ b) - turn(b, 14);
-    a = (a ^ c) - turn(c, 11);
-    b = (b ^ a) - turn(a, 25);
-    c = (c ^ b) - turn(b, 16);
-    a = (a ^ c) - turn(c, 4);
-    b = (b ^ a) - turn(a, 14);
-    return (c ^ b) - turn(b, 24);
 }
 
 /// Type of a number: class and version, bits, bytes, then where its parts lie.
@@ -224,10 +183,8 @@ static clast_status put_folder(buffer *b, const clx_h5 *h5, int64_t number)
     CLX_TRY(begin_message(b, GROUP_INFO, &begun));
     CLX_TRY(put_word(b, 2, 0));
     end_message(b, begun);
-    for (int64_t i = number + 1; i < h5->n; ++i) {
-        if (h5->node[i].parent == number) {
-            CLX_TRY(put_link(b, &h5->node[i]));
-        }
+    for (int64_t i = h5->node[number].first; i > 0; i = h5->node[i].next) {
+        CLX_TRY(put_link(b, &h5->node[i]));
     }
 done:
     return status;
@@ -253,7 +210,7 @@ static clast_status put_node(buffer *b, clx_h5 *h5, int64_t number)
     for (int k = 0; k < 4; ++k) {
         b->bytes[begun - 4 + k] = (char)((b->n - begun) >> 8 * k & 0xff);
     }
-    CLX_TRY(put_word(b, 4, clx_h5_plain_sum(b->bytes + node->address, b->n - node->address)));
+    CLX_TRY(put_word(b, 4, clx_h5_sum(b->bytes + node->address, b->n - node->address)));
 done:
     return status;
 }
@@ -269,7 +226,7 @@ static clast_status put_superblock(buffer *b, const clx_h5 *h5)
     CLX_TRY(put_word(b, 8, UNDEFINED));
     CLX_TRY(put_word(b, 8, (uint64_t)end));
     CLX_TRY(put_word(b, 8, (uint64_t)h5->node[0].address));
-    CLX_TRY(put_word(b, 4, clx_h5_plain_sum(b->bytes, SUPERBLOCK - 4)));
+    CLX_TRY(put_word(b, 4, clx_h5_sum(b->bytes, SUPERBLOCK - 4)));
 done:
     b->n = end;
     return status;

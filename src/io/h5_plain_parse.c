@@ -4,6 +4,7 @@
 #include "io/h5_plain.h"
 
 #include "base/alloc.h"
+#include "io/h5_trailer.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -166,7 +167,8 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
         return foreign(f);
     }
     if (name == NULL || n_name < 2 || memchr(name, '\0', (size_t)n_name) != name + n_name - 1 ||
-        !take_type(&s, &is_text, &type, &size) || !take_space(&s, &space) || space.rank != 0) {
+        !take_type(&s, &is_text, &type, &size) || !take_space(&s, &space) || space.rank != 0 ||
+        clx_h5_has_attribute(f->h5, f->h5->node[number].name, name)) {
         return damaged(f);
     }
     const char *value = next_bytes(&s, size);
@@ -199,7 +201,8 @@ static clast_status read_link(const file *f, stretch s, int64_t folder, int dept
     if (s.left < 0 || n == 0 || memchr(name, '\0', (size_t)n) != NULL ||
         memchr(name, '/', (size_t)n) != NULL ||
         snprintf(path, sizeof path, "%s/%.*s", folder == 0 ? "" : above, (int)n, name) >=
-            (int)sizeof path) {
+            (int)sizeof path ||
+        clx_h5_has(f->h5, path)) {
         return damaged(f);
     }
     CLX_TRY(clx_h5_plain_add(f->h5, path, &number));
@@ -275,7 +278,7 @@ static clast_status read_node(const file *f, int64_t number, uint64_t address, i
         return foreign(f);
     }
     if (messages == NULL || s.left < 0 || !is_told_once(f, HEAD + size) ||
-        sum != clx_h5_plain_sum(head, HEAD + size)) {
+        sum != clx_h5_sum(head, HEAD + size)) {
         return damaged(f);
     }
     f->h5->node[number].is_folder = true; // until it tells a layout
@@ -299,7 +302,7 @@ clast_status clx_h5_plain_parse(const char *image, int64_t n, clx_h5 *h5)
     const uint64_t root = take_word(&s, 8);
     const uint64_t sum = take_word(&s, 4);
     if (s.left < 0 || memcmp(head, "\x89HDF\r\n\x1a\n\x03\x08\x08", 11) != 0 || base != 0 ||
-        end != (uint64_t)n || sum != clx_h5_plain_sum(image, 44)) {
+        end != (uint64_t)n || sum != clx_h5_sum(image, 44)) {
         return damaged(&f);
     }
     return read_node(&f, 0, root, 0);

@@ -1,5 +1,6 @@
 #pragma once
-// The last line of clast's HDF5 files.
+// What clast's HDF5 files have in common, written by HDF5 or plainly.
+#include "base/status.h"
 #include <inttypes.h>
 
 /// Last line of a file: CRC-32 and size of all bytes before it. HDF5 ignores bytes after its own.
@@ -8,3 +9,12 @@ enum { CLX_H5_TRAILER_SIZE = 1 + 12 + 8 + 4 + 16 + 1 };
 
 /// CRC-32 of n more bytes after those whose CRC-32 is `crc` (0: none).
 uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n);
+
+/// Writes a file's image and the last line, atomically.
+clast_status clx_h5_put(const char *path, const char *image, int64_t n);
+
+/// CLAST_E_USAGE for what is no name of an array or folder in the file `label`.
+clast_status clx_h5_check_name(const char *label, const char *name);
+
+/// Jenkins' lookup3 hash, the checksum of HDF5's structures.    [Jenkins2006]
+uint32_t clx_h5_sum(const char *bytes, int64_t n);

@@ -1,7 +1,9 @@
-// Whether a file of clast's is whole, told without HDF5.
+// What clast's HDF5 files have in common, written by HDF5 or plainly: names, checksums, the last
+// line.
 #include "io/h5.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "io/h5_trailer.h"
 #include <errno.h>
 #include <inttypes.h>
@@ -9,6 +11,59 @@
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
+
+clast_status clx_h5_check_name(const char *label, const char *name)
+{
+    clast_status status = CLAST_OK;
+    const size_t n = strlen(name);
+    CLX_CHECK(name[0] == '/' && n < CLX_H5_NAME_LIMIT && (n == 1 || name[n - 1] != '/') &&
+                  strstr(name, "//") == NULL && strstr(name, "/./") == NULL,
+              CLAST_E_USAGE, "%s: '%s' is not a name in a file", label, name);
+done:
+    return status;
+}
+
+static uint32_t turn(uint32_t x, int k)
+{
+    return (x << k) | (x >> (32 - k));
+}
+
+/// The k-th word of up to 12 bytes, missing ones 0.
+static uint32_t word_of(const char *bytes, int64_t n, int k)
+{
+    uint32_t word = 0;
+    for (int i = 0; i < 4; ++i) {
+        word |= 4 * k + i < n ? (uint32_t)(unsigned char)bytes[4 * k + i] << 8 * i : 0;
+    }
+    return word;
+}
+
+uint32_t clx_h5_sum(const char *bytes, int64_t n)
+{
+    uint32_t a = 0xdeadbeefu + (uint32_t)n;
+    uint32_t b = a;
+    uint32_t c = a;
+    for (; n > 12; n -= 12, bytes += 12) {
+        a += word_of(bytes, 12, 0), b += word_of(bytes, 12, 1), c += word_of(bytes, 12, 2);
+        a = (a - c) ^ turn(c, 4), c += b;
+        b = (b - a) ^ turn(a, 6), a += c;
+        c = (c - b) ^ turn(b, 8), b += a;
+        a = (a - c) ^ turn(c, 16), c += b;
+        b = (b - a) ^ turn(a, 19), a += c;
+        c = (c - b) ^ turn(b, 4), b += a;
+    }
+    if (n == 0) {
+        return c;
+    }
+    a += word_of(bytes, n, 0), b += word_of(bytes, n, 1), c += word_of(bytes, n, 2);
+    c = (c ^ b) - turn(b, 14);
+    a = (a ^ c) - turn(c, 11);
+    b = (b ^ a) - turn(a, 25);
+    c = (c ^ b) - turn(b, 16);
+    a = (a ^ c) - turn(c, 4);
+    b = (b ^ a) - turn(a, 14);
+    return (c ^ b) - turn(b, 24);
+}
 
 uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n)
 {
@@ -19,6 +74,19 @@ uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n)
         sum = crc32(sum, (const Bytef *)bytes + at, (uInt)(n - at < step ? n - at : step));
     }
     return (uint32_t)sum;
+}
+
+clast_status clx_h5_put(const char *path, const char *image, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(clx_file_write(&file, image, (size_t)n));
+    CLX_TRY(clx_file_print(&file, CLX_H5_TRAILER, clx_h5_crc(0, image, n), n));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
 }
 
 /// CRC-32 of the first n bytes of a file.
