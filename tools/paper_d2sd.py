@@ -453,7 +453,7 @@ def matrix_again(rows, again):
     judged = [(r, bias_p(r, 0.02) if n_resolved(r) >= 3 else 1.0, cover_p(r) if n_resolved(r) else 1.0) for r in again]
     for r, bias, cover in judged:
         name, was = row_words(of[row_name(r)]).split(": ", 1)
-        lines.append(f"| {name} | {was} | {row_words(r).split(': ', 1)[1]} | {bias:.3g} | {cover:.3g} |")
+        lines.append(f"| {name} | {was} | {row_words(r).split(': ', 1)[1]} | {f'{bias:.3g}' if n_resolved(r) >= 3 else '-'} | {cover:.3g} |")
     stays = [row_words(r).split(":")[0] for r, bias, cover in judged if min(bias, cover) < 0.05 / n_row]
     due = [" ".join(row_name(r)[:3]) + f" n = {r['n']}" for r in rows if is_suspicious(r) and row_name(r) not in map(row_name, again)]
     lines += ["", f"Not made again yet: {', '.join(due)}."] if due else []
