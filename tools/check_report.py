@@ -5,7 +5,8 @@ A small run of each command that has a report is made. Looked at on each page: n
 phone may scroll within a card, never the page), printed on A4 nothing beyond the paper, no number that a person would write with another
 prefix (0.0003 m, 27,000,000 Pa, 2e-12 m3), no message on the console, nothing fetched, no serious finding of axe-core (where it is at hand).
 A bed of --grains (40,000) spheres is reported too: its page is under 30 MB and its first picture there within 3 s; its frames a second on
-this machine's processor are told.
+this machine's processor are told, and of each level of detail what a frame asks of a graphics card: draw calls, triangles, bytes sent; and the
+CPU time of the page's own thread, at most 10 ms a frame. --only none looks at that bed alone.
 """
 import argparse
 import base64
@@ -79,6 +80,12 @@ TURNED = """(async (n) => { const v = clastViews.open[0], times = [], gl = v.ren
     for (let k = 0; k < n; k += 1) { const t = performance.now(); v.turn(0.05, 0); await new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)));
         gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one); times.push(performance.now() - t); coarse += v.level === 'dots'; }
     times.sort((a, b) => a - b); return [times[n >> 1], coarse]; })"""
+WHOLE = "(() => { const v = clastViews.open[0]; v.isMoving = false; clastViews.setLevel(v, true); return clastViews.timeDrawing(v); })()"
+# Bytes that go to the graphics card from now on.
+COUNTED = """(() => { const gl = clastViews.open[0].renderer.getContext(); window.sentBytes = 0;
+    for (const name of ['bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D', 'texSubImage3D']) { const real = gl[name]; gl[name] = (...given) => {
+        const data = given.find(ArrayBuffer.isView); window.sentBytes += data ? (name === 'bufferSubData' && given[4] ? given[4] * data.BYTES_PER_ELEMENT : data.byteLength) : 0;
+        return real.apply(gl, given); }; } })()"""
 
 
 def raw(number, unit):
@@ -88,7 +95,9 @@ def raw(number, unit):
     return unit in PREFIXED and value != 0 and not 0.99e-2**power <= value < 1.01e4**power
 
 
-def make_runs(clast, folder):
+def make_runs(clast, folder, read):
+    if not read:
+        return
     beds = "".join(f"{0.4 + 0.01 * (k % 30)},{0.5 + 0.013 * (k * 7 % 29)},{0.36 + 0.001 * (k * 5 % 17)}\n" for k in range(40))
     (folder / "beds.csv").write_text("flatness,elongation,porosity\n" + beds)
     for name, words in RUNS.items():
@@ -149,6 +158,23 @@ def make_bed(clast, folder, n):
     return folder / "bed/report.html"
 
 
+def thread_time(browser):
+    """CPU seconds of the page's own thread."""
+    return next(m["value"] for m in browser.call("Performance.getMetrics")["metrics"] if m["name"] == "TaskDuration")
+
+
+def ask_of_card(browser, name, expression, n):
+    """What each of the n frames that an expression draws costs, in words; the expression's value and milliseconds of the page's thread a frame."""
+    sent, began = browser.value("window.sentBytes"), thread_time(browser)
+    found = browser.value(expression)
+    own = 1e3 * (thread_time(browser) - began) / n
+    calls, triangles, points = browser.value("(({calls, triangles, points}) => [calls, triangles, points])(clastViews.open[0].renderer.info.render)")
+    sent = (browser.value("window.sentBytes") - sent) / n
+    print(f"report:   a frame of {name}: {calls} draw calls, {triangles:,} triangles, {points:,} dots, {sent:.0f} bytes sent, {own:.1f} ms of CPU of the page's thread",
+          flush=True)
+    return found, own
+
+
 def measure(browser, page, n, pictures):
     """Size, time to the first picture, frames a second while it turns; CPU seconds too, for a busy machine."""
     browser.screen(1200, 900, False)
@@ -165,8 +191,11 @@ def measure(browser, page, n, pictures):
     began = browser.cpu()
     took, coarse = browser.value(f"{TURNED}({TURNS})")
     turning = (browser.cpu() - began) / TURNS
+    browser.value(COUNTED)
+    browser.call("Performance.enable", timeDomain="threadTicks")
+    _, dots = ask_of_card(browser, "dots", f"Object.assign(clastViews.open[0], {{isSlow: true, isMoving: true}}), {TURNED}({TURNS})", TURNS)
     began = browser.cpu()
-    whole = browser.value("clastViews.timeDrawing(clastViews.open[0])")
+    whole, surfaces = ask_of_card(browser, "surfaces", WHOLE, 1)
     drawn = browser.cpu() - began
     size = page.stat().st_size
     print(f"report: {n} grains, {size / 1e6:.1f} MB; first picture after {first:.2f} s ({cost:.2f} s of CPU); turning {1e3 / took:.1f} frames a second "
@@ -174,7 +203,9 @@ def measure(browser, page, n, pictures):
     if pictures:
         browser.picture(pictures / f"bed-{n}.png")
     more = max(1, n / 40000)
+    own = max(dots, surfaces)
     return ([f"{n} grains: {size} bytes"] * (size > 30e6 * more)
+            + [f"{n} grains: {own:.1f} ms of the page's thread a frame"] * (own > 10)
             + [f"{n} grains: first picture after {first:.1f} s, {cost:.1f} s of CPU"] * (min(first, cost) > 3 * more))
 
 
@@ -193,9 +224,9 @@ def main():
         asked.pictures.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        make_runs(clast, folder)
-        browser = Browser(WEBGL)
         read = [run for run in RUNS if asked.only in run]
+        make_runs(clast, folder, read)
+        browser = Browser(WEBGL)
         for run in read:
             faults += [f"{run}: {fault}" for fault in look(browser, folder / run / "report.html", axe, asked.pictures)]
         for n in asked.grains or [40000]:

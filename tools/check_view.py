@@ -4,7 +4,8 @@
 Two small beds are poured and reported on one page. Looked at: a cut through a ball is a disc of the radius that geometry gives, in the
 ball's colour; the grain under a point is the nearest one that the cut left, its numbers are those of grains.csv; bars of contacts are
 as many as summary.json says, each grain's too; a PNG has the size that was asked for and shows what the stage shows; linked cameras
-agree; every key does its thing; the time slider puts each grain where the frame for ParaView has it; dots, the coarse level of detail, cover
+agree; every key does its thing; the time slider puts each grain where the frame for ParaView has it, and grains that the end does not have are
+neither counted nor coloured as its own; colours are told apart by people who lack a kind of cone; dots, the coarse level of detail, cover
 the pixels of the surfaces in their colours; pictures are those of tests/view within a tolerance (--renew makes them anew); memory after six second views is what it was; a page without WebGL keeps its words; no message on the
 console, nothing fetched, no serious finding of axe-core (where it is at hand).
 """
@@ -213,6 +214,68 @@ def check_time(page, folder, pictures):
     page.hold("end" in page.ask(f"{VIEW}.parts.when.textContent"), "the last moment is not called the end")
 
 
+def check_strangers(page):
+    """A moment in which every third grain is none of the end's, and the others stand in another order: the sliders, colours and words keep them apart."""
+    page.ask("""(() => { const v = clastViews.open[0], frame = v.data.frames.frame[0], n = v.data.n_shown;
+        const text = (a) => btoa(Array.from(new Uint8Array(a.buffer), (c) => String.fromCharCode(c)).join(''));
+        const number = new Uint32Array(n), shape = new Uint32Array(n), scale = new Float32Array(n);
+        for (let i = 0; i < n; i += 1) { number[i] = i % 3 === 1 ? 0xffffffff : n - 1 - i; shape[i] = v.data.shapes[0].number; scale[i] = 1; }
+        window.keptFrame = {...frame};
+        Object.assign(frame, {place: text(Uint16Array.from({length: 3 * n}, (_, i) => 257 * i % 65536)), turn: undefined, grain: text(number), shape: text(shape), scale: text(scale)}); })()""")
+    n = page.ask(f"{VIEW}.data.n_shown")
+    known = [n - 1 - i for i in range(n) if i % 3 != 1]
+    put = lambda name, value: page.ask(f"{VIEW}.parts.{name}.value = {value}; {VIEW}.parts.{name}.dispatchEvent(new Event('input'))")
+    page.ask(f"{VIEW}.parts.colour.value = 'order'; {VIEW}.parts.colour.dispatchEvent(new Event('change'))")
+    put("time", 0)
+    page.equal(page.ask(f"[{VIEW}.meshes[0].count, {VIEW}.note.textContent]"), [n, f"{n} grains"], "grains of a moment")
+    page.equal(page.ask(f"[...{VIEW}.meshes[0].userData.grain].filter(g => g !== 0xffffffff)"), sorted(known), "grains of a moment in order of growth")
+    place = page.ask(f"(() => {{ const {{ grain, pose }} = {VIEW}.meshes[0].userData, i = grain.indexOf({known[5]}), {{ low, step }} = {VIEW}.data.frames; return (pose[10 * i] - low[0]) / step[0]; }})()")
+    page.hold(abs(place - 257 * 3 * (n - 1 - known[5]) % 65536) < 0.6, f"a grain that was sorted has another's place: {place}")
+    grey = page.ask(f"(() => {{ const m = {VIEW}.meshes[0], c = [...m.instanceColor.array.slice(-3)]; return c.map(x => Math.round(100 * x)); }})()")
+    page.equal(grey, [26, 30, 34], "colour of a grain that the end does not have")  # #8b949d, linear
+    page.hold("not among the grains of the end" in page.ask(f"{VIEW}.legend.textContent"), "the legend does not say what is grey")
+    put("grow", 10)
+    page.equal(page.ask(f"{VIEW}.meshes[0].count"), sum(g < 10 for g in known), "grains shown by the slider at a moment with strangers")
+    put("grow", n)
+    page.ask("(() => { const v = clastViews.open[0]; v.data.frames.frame[0].grain = btoa('\\xff'.repeat(4 * v.data.n_shown)); })()")
+    put("time", 1)
+    put("grow", 10)
+    put("time", 0)
+    page.equal(page.ask(f"[{VIEW}.meshes[0].count, {VIEW}.parts.grow.disabled, {VIEW}.parts.growing.disabled]"), [n, True, True], "a moment of strangers alone")
+    put("time", f"{VIEW}.data.frames.frame.length")
+    page.equal(page.ask(f"[{VIEW}.meshes[0].count, {VIEW}.parts.grow.disabled]"), [10, False], "the slider of growth after such a moment")
+    put("grow", n)
+    page.ask(f"Object.assign({VIEW}.data.frames.frame[0], keptFrame); {VIEW}.parts.colour.value = 'size'; {VIEW}.parts.colour.dispatchEvent(new Event('change'))")
+
+
+# What people without one kind of cone see of linear red, green, blue: protan, deutan, tritan.       [Machado2009, severity 1]
+CONES = {"protan": ((0.152286, 1.052583, -0.204868), (0.114503, 0.786281, 0.099216), (-0.003882, -0.048116, 1.051998)),
+         "deutan": ((0.367322, 0.860646, -0.227968), (0.280085, 0.672501, 0.047413), (-0.011820, 0.042940, 0.968881)),
+         "tritan": ((1.255528, -0.076749, -0.178779), (-0.078411, 0.930809, 0.147602), (0.004733, 0.691367, 0.303900))}
+
+
+def seen_lab(colour, cones):
+    """CIE L*a*b* of a colour #rrggbb as such a person sees it."""
+    part = [int(colour[k:k + 2], 16) / 255 for k in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in part]
+    rgb = [min(max(sum(m * c for m, c in zip(row, linear)), 0), 1) for row in cones] if cones else linear
+    xyz = [sum(m * c for m, c in zip(row, rgb)) for row in ((0.4339, 0.3762, 0.1899), (0.2126, 0.7152, 0.0722), (0.0178, 0.1096, 0.8727))]
+    f = [c ** (1 / 3) if c > 216 / 24389 else (24389 / 27 * c + 16) / 116 for c in xyz]
+    return 116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])
+
+
+def check_colours(page):
+    """The bar grows lighter all the way for everyone, and the colours of shapes are told apart (CIE76 distance above 10)."""
+    bar = page.ask(f"{VIEW}.data.bar")
+    shapes = re.findall("#[0-9a-f]{6}", re.search(r"LABELS = .*", (ROOT / "web/live/common.js").read_text())[0])
+    for name, cones in {"all cones": None, **CONES}.items():
+        light = [seen_lab(colour, cones)[0] for colour in bar]
+        page.hold(min(b - a for a, b in zip(light, light[1:])) > 1, f"the colour bar does not grow lighter all the way ({name})")
+        seen = [seen_lab(colour, cones) for colour in shapes]
+        near = min(math.dist(a, b) for k, a in enumerate(seen) for b in seen[:k])
+        page.hold(near > 10, f"two colours of shapes are {near:.1f} apart ({name})")
+
+
 def covered(picture):
     """Share of the picture that is not its corner's colour, and the mean colour there."""
     width, height, rows = picture
@@ -289,6 +352,9 @@ def check_picture(page, pictures):
         wide, high, _ = page.picture(width) if width < 1000 else (*page.ask(f"(() => {{ const c = clastViews.drawPicture({VIEW}, {width}); return [c.width, c.height]; }})()"), 0)
         page.equal(wide, width, "width of the picture")
         page.close_to(high / wide, page.ask(f"{VIEW}.stage.clientHeight / {VIEW}.stage.clientWidth"), 0.01, "shape of the picture")
+    page.ask(f"{VIEW}.parts.width.value = 99999; {VIEW}.stage.dispatchEvent(new KeyboardEvent('keydown', {{key: 'p'}}))")
+    page.hold(page.ask(f"!{VIEW}.parts.width.validity.valid"), "a picture of 99999 pixels is not refused")
+    page.ask(f"{VIEW}.parts.width.value = 2400")
     if pictures:
         page.browser.picture(pictures / "view.png")
 
@@ -310,6 +376,8 @@ def main():
         print("SKIPPED LOUDLY: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
         return 0
     began, axe, faults = time.monotonic(), axe_source(), []
+    if asked.pictures:
+        asked.pictures.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         pour(asked.clast, folder)
@@ -328,6 +396,8 @@ def main():
         check_growth(page)
         check_likeness(page, "ellipsoids", asked.renew)
         check_time(page, folder, asked.pictures)
+        check_strangers(page)
+        check_colours(page)
         check_levels(page)
         check_picture(page, asked.pictures)
         check_beside(page, asked.pictures)
@@ -361,6 +431,7 @@ def check_without(address):
     page = Page(browser)
     page.hold("needs a browser with WebGL" in page.ask("document.querySelector('.view').innerText"), "without WebGL the page does not say what is missing")
     page.hold(page.ask("document.querySelectorAll('table').length") > 3, "without WebGL the tables are gone")
+    page.faults += list(told(browser.events))
     browser.close()
     return page.faults
 

@@ -176,8 +176,11 @@ function begin(view) {
 }
 
 function newRenderer() {
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('webgl2', { antialias: true, powerPreference: 'low-power' });
+  if (!context) return null; // three.js would write so on the console
   try {
-    const made = new WebGLRenderer({ antialias: true, powerPreference: 'low-power', preserveDrawingBuffer: false });
+    const made = new WebGLRenderer({ canvas, context });
     made.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     return made;
   } catch {
@@ -222,7 +225,10 @@ function showBeside(view, other) {
   if (other !== null) {
     makeRoom();
     const renderer = newRenderer();
-    if (!renderer) return;
+    if (!renderer) {
+      view.source.host.classList.remove('two');
+      return;
+    }
     const second = makeView(other, renderer);
     second.first = view;
     second.parts.beside.hidden = true;
@@ -333,4 +339,4 @@ window.addEventListener('afterprint', () => open.forEach((view) => {
 }));
 
 /// For tests and for people at the browser's console: what the page shows, and what it can draw.
-window.clastViews = { open, drawPicture, grainAt, pick, timeDrawing, show, replace };
+window.clastViews = { open, drawPicture, grainAt, pick, setLevel, timeDrawing, show, replace };

@@ -154,19 +154,64 @@ static bool columns_of(const clast_table *table, columns *c)
     return true;
 }
 
-/// The assembly's shape of that name, or -1.
-static int32_t shape_of(const clast_assembly *a, const clast_table *names, double number)
+/// A shape's name and its place in the assembly.
+typedef struct {
+    const char *name;
+    int32_t place;
+} titled;
+
+static int by_name(const void *a, const void *b)
 {
-    if (!(number >= 0.0 && number < (double)names->n_row)) {
-        return -1;
-    }
-    const char *name = names->column[0].text[(int64_t)number];
+    const titled *p = a;
+    const titled *q = b;
+    const int order = strcmp(p->name, q->name);
+    return order != 0 ? order : (p->place > q->place) - (p->place < q->place);
+}
+
+static clast_status titles_of(const clast_assembly *a, titled **list)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(list, a->n_shape, sizeof **list));
     for (int32_t s = 0; s < a->n_shape; ++s) {
-        if (strcmp(a->shape[s].name, name) == 0) {
-            return s;
+        (*list)[s] = (titled){a->shape[s].name, s};
+    }
+    qsort(*list, (size_t)a->n_shape, sizeof **list, by_name);
+done:
+    return status;
+}
+
+/// First shape of that name in a list by name, or -1.
+static int32_t find_title(const titled *list, int32_t n, const char *name)
+{
+    int32_t low = 0;
+    for (int32_t high = n; low < high;) {
+        const int32_t middle = low + (high - low) / 2;
+        if (strcmp(list[middle].name, name) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
         }
     }
-    return -1;
+    return low < n && strcmp(list[low].name, name) == 0 ? list[low].place : -1;
+}
+
+/// The assembly's shape of each of a frame's names, or -1: the one of the same number where it has
+/// that name (two may share one), else the first that has it.
+static clast_status match_shapes(const clast_assembly *a, const clast_table *names, int32_t **shape)
+{
+    clast_status status = CLAST_OK;
+    titled *list = NULL;
+    CLX_TRY(clx_alloc(shape, names->n_row, sizeof **shape));
+    CLX_TRY(titles_of(a, &list));
+    for (int64_t i = 0; i < names->n_row; ++i) {
+        const char *name = names->column[0].text[i];
+        (*shape)[i] = i < a->n_shape && strcmp(a->shape[i].name, name) == 0
+                          ? (int32_t)i
+                          : find_title(list, a->n_shape, name);
+    }
+done:
+    clx_free(list);
+    return status;
 }
 
 static clast_status frame_alloc(int64_t n, clx_frame *frame)
@@ -211,6 +256,7 @@ static clast_status read_frame(const clx_run *run, const entry *e, const clast_a
     char path[PATH_SIZE];
     clast_table table = {0};
     clast_table names = {0};
+    int32_t *shape = NULL;
     columns c;
     clx_frame made = {.time = e->time};
     CLX_TRY(clx_run_path(run, e->name, path, sizeof path));
@@ -220,17 +266,22 @@ static clast_status read_frame(const clx_run *run, const entry *e, const clast_a
         goto done;
     }
     CLX_TRY(frame_alloc(table.n_row, &made));
+    CLX_TRY(match_shapes(a, &names, &shape));
     for (int64_t i = 0; i < table.n_row; ++i) {
+        const double number = c.shape[i];
+        const bool is_known = number >= 0.0 && number < (double)names.n_row;
         const bool is_named = list != NULL && fabs(c.grain[i]) < 0x1p63;
         const named key = {.id = is_named ? (int64_t)c.grain[i] : 0};
         const named *found =
             is_named ? bsearch(&key, list, (size_t)a->n_grain, sizeof *list, by_id) : NULL;
-        add_grain(&c, i, shape_of(a, &names, c.shape[i]), found != NULL ? found->place : -1, &made);
+        add_grain(&c, i, is_known ? shape[(int64_t)number] : -1, found != NULL ? found->place : -1,
+                  &made);
     }
     *frame = made;
     made = (clx_frame){0};
 done:
     frame_free(&made);
+    clx_free(shape);
     clast_table_free(&table);
     clast_table_free(&names);
     return status;
@@ -326,6 +377,7 @@ clast_status clx_frames_last(const clx_run *run, const clast_assembly *from, cla
     for (int32_t i = 0; i < frame.n; ++i) {
         CLX_TRY(clast_assembly_add_grain(&made, frame.shape[i], frame.position[i],
                                          frame.orientation[i], frame.scale[i], 1.0));
+        made.density[i] = 0.0; // which a frame does not tell
     }
     *last = made;
     made = (clast_assembly){0};

@@ -21,6 +21,9 @@ typedef struct {
     int32_t budget;  ///< triangles a grain
     double centre[3], length;
     const clx_frames *frames; ///< or NULL
+    int32_t *order;           ///< [n_shown]: grains by shape, in their order
+    int32_t *first;           ///< [n_shape + 1]: where in `order` each shape begins
+    bool *is_used;            ///< [n_shape]: a grain of it is shown, now or at another moment
 } view;
 
 /// Text inside JSON inside <script>: '<' and '>' as \u003c, so that no tag can begin there.
@@ -225,15 +228,13 @@ static clast_status put_grains(clx_file *file, const view *v, int32_t shape)
     clast_status status = CLAST_OK;
     unsigned char *grain = NULL;
     unsigned char *pose = NULL;
-    size_t n = 0;
-    CLX_TRY(clx_alloc(&grain, v->n_shown, 4));
-    CLX_TRY(clx_alloc(&pose, v->n_shown, 4 * (size_t)POSE));
-    for (int32_t i = 0; i < v->n_shown; ++i) {
-        if (v->assembly->shape_id[i] == shape) {
-            store32(grain + 4 * n, (uint32_t)i);
-            store_pose(v, i, pose + 4 * POSE * n);
-            ++n;
-        }
+    const int32_t *mine = v->order + v->first[shape];
+    const size_t n = (size_t)(v->first[shape + 1] - v->first[shape]);
+    CLX_TRY(clx_alloc(&grain, (int64_t)n, 4));
+    CLX_TRY(clx_alloc(&pose, (int64_t)n, 4 * (size_t)POSE));
+    for (size_t k = 0; k < n; ++k) {
+        store32(grain + 4 * k, (uint32_t)mine[k]);
+        store_pose(v, mine[k], pose + 4 * POSE * k);
     }
     (void)clx_file_print(file, ", \"grain\": \"");
     clx_page_base64(file, grain, 4 * n);
@@ -291,23 +292,45 @@ done:
     return status;
 }
 
-/// True when a grain of the shape is shown, now or at another moment.
-static bool is_used(const view *v, int32_t shape)
+static void view_free(view *v)
 {
+    clx_free(v->order);
+    clx_free(v->first);
+    clx_free(v->is_used);
+}
+
+/// Sorts the grains by shape, and finds which shapes are shown at all.
+static clast_status sort_grains(view *v)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *a = v->assembly;
+    CLX_TRY(clx_alloc(&v->order, v->n_shown, sizeof *v->order));
+    CLX_TRY(clx_alloc(&v->first, (int64_t)a->n_shape + 1, sizeof *v->first));
+    CLX_TRY(clx_alloc(&v->is_used, a->n_shape, sizeof *v->is_used));
+    memset(v->first, 0, ((size_t)a->n_shape + 1) * sizeof *v->first);
+    memset(v->is_used, 0, (size_t)a->n_shape * sizeof *v->is_used);
     for (int32_t i = 0; i < v->n_shown; ++i) {
-        if (v->assembly->shape_id[i] == shape) {
-            return true;
-        }
+        v->is_used[a->shape_id[i]] = true;
+        ++v->first[a->shape_id[i] + 1];
     }
+    for (int32_t s = 0; s < a->n_shape; ++s) {
+        v->first[s + 1] += v->first[s];
+    }
+    for (int32_t i = v->n_shown; i-- > 0;) { // from its end down to its begin
+        v->order[--v->first[a->shape_id[i] + 1]] = i;
+    }
+    for (int32_t s = 0; s < a->n_shape; ++s) {
+        v->first[s] = v->first[s + 1];
+    }
+    v->first[a->n_shape] = v->n_shown;
     for (int32_t k = 0; v->frames != NULL && k < v->frames->n; ++k) {
         const clx_frame *frame = &v->frames->frame[k];
         for (int32_t i = 0; i < frame->n; ++i) {
-            if (frame->shape[i] == shape) {
-                return true;
-            }
+            v->is_used[frame->shape[i]] = true;
         }
     }
-    return false;
+done:
+    return status;
 }
 
 /// Colour bar of a picture of the same assembly; a pose's size times `unit` is on its scale. None
@@ -529,9 +552,11 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
 {
     clast_status status = CLAST_OK;
     bool is_first = true;
+    view v = {0};
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY, "the state holds no grains");
-    view v = begin(assembly, limit);
+    v = begin(assembly, limit);
     v.frames = frames;
+    CLX_TRY(sort_grains(&v));
     CLX_CHECK(isfinite(v.length) && v.length > 0.0, CLAST_E_GEOMETRY,
               "the grains of the state have no finite extent");
     (void)clx_file_print(
@@ -549,7 +574,7 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
     CLX_TRY(clx_frames_put(file, frames, assembly, v.n_shown, v.centre, v.length));
     (void)clx_file_print(file, ", \"shapes\": [");
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
-        if (is_used(&v, s)) {
+        if (v.is_used[s]) {
             (void)clx_file_print(file, "%s", is_first ? "" : ",");
             is_first = false;
             CLX_TRY(put_shape(file, &v, s));
@@ -557,5 +582,6 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
     }
     (void)clx_file_print(file, "]}</script></div>\n");
 done:
+    view_free(&v);
     return status;
 }

@@ -128,6 +128,8 @@ class Evolve(Case):
         views = [json.loads(text) for text in re.findall(r'class="view-data">(.*?)</script>', (run / "report.html").read_text(), re.S)]
         for frame in (frame for view in views if view.get("frames") for frame in view["frames"]["frame"]):
             self.assertEqual(set(base64.b64decode(frame["grain"])), {255})  # rows of a frame are no bodies of the end
+        bodies = views[-1]["shapes"][0]
+        self.assertEqual(set(base64.b64decode(bodies["pose"])[36:40]), {0})  # density: none is told, which was shown as 1 kg/m3
         for frame in (run / "frames").iterdir():
             for name in ("node", "on_floor", "grains", "envelope_m", "porosity", "speed_m/s", "mass_kg"):
                 self.assertIn(f'Name="{name}"', frame.read_text())

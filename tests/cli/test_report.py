@@ -118,6 +118,8 @@ class Report(Case):
         cube = ["--domain", "box:0,0,0,1,1,1"]
         runs = [
             ["pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "10g", "--max-steps", "4000"],
+            ["pack", "--curve", "4mm", "--mass", "2g", "--domain", "cell", "--width", "16mm", "--height", "16mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
+             "--load-rate", "4/s", "--seed", "3", "--stages", "isotropic 20kPa until rest", "--max-steps", "600", "--energy"],
             ["porosity", packed, "--trim", "1mm", "--local", "--pores", "20"],
             ["decompose", os.path.join(DATA, "d2sd/points_b3_n500.csv"), *cube, "--beta-dt", "1e-6", "--sizes", "2"],
             ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1"],
@@ -129,14 +131,17 @@ class Report(Case):
         ]
         for k, words in enumerate(runs):
             with self.subTest(" ".join(words[:1])):
-                run = packed if words[0] == "pack" else os.path.join(self.folder.name, str(k))
+                run = packed if k == 0 else os.path.join(self.folder.name, str(k))
                 made = clast(*words, "-q", "-o", run)
                 self.assertEqual(made.code, 0, made.err)
                 self.assertEqual(clast("report", run).code, 0)
                 page = self.page(os.path.join(run, "report.html"))
                 self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+                self.assertEqual(re.findall(r"<t[dh][^>]*><code>([a-z_0-9]+)</code>", page.split("Configuration")[0]), [])  # normal_1, width_m, ..
                 text = seen(page)
                 self.assertNotRegex(text, r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
+                if "--load-rate" in words:
+                    self.assertRegex(text, r"Contact stress\s+[-.\d]+\s+[kM]?Pa")
 
     def test_frames_are_the_views_moments(self):
         run = os.path.join(self.folder.name, "framed")

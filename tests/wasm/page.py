@@ -96,6 +96,18 @@ class Live(unittest.TestCase):
         self.assertEqual(said[0], "clast")
         return self.native(folder, *said[1:], *words)
 
+    def same_colours(self, report):
+        """The view's colours, bars and their marks are those of the report of the same run; lengths within float32."""
+        data = json.loads(re.search(r'class="view-data">(.*?)</script>', report.read_text(), re.S).group(1))
+        here = json.loads(self.browser.value(f"JSON.stringify((({{bar, shape, shape_name, size, order}}) => ({{bar, shape, shape_name, size, order}}))(rooms.{self.room}.view.data))"))
+        for key in ("bar", "shape", "shape_name"):
+            self.assertEqual(here[key], data[key])
+        for key in ("size", "order"):
+            self.assertEqual([here[key][k] for k in ("title", "log")], [data[key][k] for k in ("title", "log")])
+            self.assertEqual([text for _, text in here[key]["ticks"]], [text for _, text in data[key]["ticks"]])
+            for mine, its in [(here[key][end], data[key][end]) for end in ("low", "high")] + [(a[0], b[0]) for a, b in zip(here[key]["ticks"], data[key]["ticks"])]:
+                self.assertAlmostEqual(mine, its, delta=1e-5 * (1 + abs(its)))
+
     def memory(self):
         """Bytes of the page's heap that are in use."""
         self.browser.call("HeapProfiler.collectGarbage")

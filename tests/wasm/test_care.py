@@ -1,9 +1,13 @@
 """clast-live.html as a careful reader meets it: no serious finding of axe-core in light or dark, memory steady over ten runs, a picture like the one
 that is kept (a tolerance for other graphics), files of hostile names and contents dropped on the page as a person drops them, nothing on the console."""
 import base64
+import hashlib
 import json
 import os
+import pathlib
+import re
 import sys
+import tempfile
 import time
 import unittest
 
@@ -21,6 +25,8 @@ HOSTILE = {
     "<img src=x onerror=alert(1)>.csv": b"x,y\n0.1,0.1\n0.2,0.9\n", "../../etc/passwd.csv": b"x,y\n1,2,\"\n", "--force.csv": b"x,y\n0.1,0.1\nq,2\n",
     "\u202egnp.csv": b"\0\xff\xfe" * 400, "a b'\"$(id).csv": b"x,y\n" + b"9" * 70000, "empty.csv": b"", "CON.vtu": b"<VTKFile type=\"PolyData\">",
     "bomb.ply": b"ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nend_header\n", "x" * 300 + ".csv": b"x,y\n1,nan\n",
+    "__proto__": b"x,y\n0.1,0.1\n", "constructor.csv": b"x,y\n0.1,0.1\n0.4,0.3\n", "points.zip": b"PK\x03\x04" + bytes(60), "<script>alert(1)</script>.csv": b"x,y\n",
+    "million.stl": bytes(80) + (1_000_000).to_bytes(4, "little"), "cells": b"x,y\n0.1,0.1\n0.4,0.3\n",
     "deep.h5": b"\x89HDF\r\n\x1a\n" + b"\xff" * 3000, "solid.stl": b"solid \xff\nfacet normal 0 0\n", "huge.stl": b"\0" * 80 + b"\xff\xff\xff\x7f",
 }
 DROP = """(() => { const data = new DataTransfer(); data.items.add(new File([Uint8Array.from(atob(BYTES), c => c.charCodeAt(0))], NAME));
@@ -95,6 +101,39 @@ class Care(unittest.TestCase):
         mean, far = picture.difference(data, KEPT.joinpath("split.png").read_bytes())
         self.assertLess(mean, 3)
         self.assertLess(far, 0.02)
+
+
+class Old(unittest.TestCase):
+    """Browsers that lack what the page stands on, and one that cannot read its script at all, are told so; nothing is on the console but that."""
+    LINE = "This browser is too old for this page"
+
+    def said(self, before, path=PAGE):
+        one = browser.Browser(browser.WEBGL)
+        self.addCleanup(one.close)
+        one.call("Page.addScriptToEvaluateOnNewDocument", source=before)
+        one.open(path.as_uri())
+        time.sleep(1)
+        lines = one.value("['grow-', 'pour-', ''].map((room) => document.getElementById(room + 'error').textContent + document.getElementById(room + 'state').textContent)")
+        return lines, list(browser.told(one.events))
+
+    def test_what_is_lacking_is_told(self):
+        for name in ("WebAssembly", "BigInt", "DecompressionStream"):
+            with self.subTest(name):
+                lines, told = self.said(f"delete window.{name}")
+                self.assertEqual([line.startswith(self.LINE) for line in lines], [True] * 3, lines)
+                self.assertEqual(told, [])
+
+    def test_a_script_that_cannot_be_read_is_told(self):
+        text = PAGE.read_text()
+        script = max(re.findall(r"<script>(.*?)</script>", text, re.S), key=len)
+        newer = script + "\nlet x = 1 <=> 2;"
+        digest = lambda s: base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "live.html"
+            page.write_text(text.replace(script, newer).replace(digest(script), digest(newer)))
+            lines, told = self.said("", page)
+        self.assertEqual([line.startswith(self.LINE) for line in lines], [True] * 3, lines)
+        self.assertEqual(len(told), 1, told)  # the browser's own word for the script
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ class Grow(page.Live):
         with page.Folder() as folder:
             self.unzipped(folder)
             self.native(folder, "report", "aggregate", "-o", "page.html")
-            self.assertIn("view-data", (folder / "page.html").read_text())
+            self.same_colours(folder / "page.html")
             self.native(folder, "export", "aggregate", "-o", "zipped.csv")
             self.assertEqual((folder / "zipped.csv").read_bytes(), native)
             self.native(folder, "render", "aggregate", "-o", "picture.png")
@@ -81,12 +81,46 @@ class Grow(page.Live):
         self.assertRegex(self.text("grow-error"), "^clast aggregate: .*cone")
         self.set(cone="20deg")
         for name, content in (("a.stl", b""), ("<img src=x onerror=alert(1)>.stl", b"solid x\nfacet"), ("../../up.stl", bytes(90)), ("--force.ply", b"ply\nformat"),
+                              ("million.stl", bytes(80) + (1_000_000).to_bytes(4, "little")), ("scan.zip", b"PK\x03\x04" + bytes(40)), ("empty", b""),
                               ("..", b"\0\xff" * 200)):
             with self.subTest(name):
                 self.drop(name, content)
                 self.run_room()
                 self.assertRegex(self.text("grow-error"), "^clast aggregate: ")
         self.assertEqual(self.browser.value("document.images.length"), 0)
+
+    def test_files_named_as_what_objects_have(self):
+        """`__proto__` was no file of the form, and `sphere` and `grain00.ply` were kept and never read."""
+        stl = next(iter(sorted(STL))).read_bytes()
+        kept = ["__proto__", "constructor", "toString", "<script>alert(1)</script>.stl".replace("/", "_"), "_sphere", "_grain00.ply", "_aggregate", "ellipsoid_1,2,3"]
+        self.set(replicate="2", rays="1", orientations="1")
+        for name, plain in zip(("__proto__", "constructor", "toString", "<script>alert(1)</script>.stl", "sphere", "grain00.ply", "aggregate", "ellipsoid:1,2,3"), kept):
+            with self.subTest(name):
+                self.drop(name, stl)
+                self.assertEqual(self.browser.value("rooms.grow.value('core')"), plain)
+        self.assertEqual(self.text("grow-given"), f"own files: {', '.join(kept)}")
+        self.assertEqual(self.browser.value("document.querySelectorAll('main script').length"), 0)
+        self.browser.value("(() => { const box = document.getElementById('grow-coat___proto__'); box.checked = true; box.dispatchEvent(new Event('change', {bubbles: true})); })()")
+        word = self.browser.value("packed({values: rooms.grow.values(), files: Object.fromEntries([...rooms.grow.files].map(([n, b]) => [n, base64Of(b)]))})")
+        for core in ("__proto__", "constructor"):
+            with self.subTest(core):
+                self.set(core=core)
+                self.run_room()
+                self.assertEqual(self.text("grow-error"), "")
+                with page.Folder() as folder:
+                    self.unzipped(folder)
+                    self.assertEqual((folder / core).read_bytes(), stl)
+                with page.Folder() as folder:
+                    self.command(folder)
+                    self.assertEqual(hashlib.sha256((folder / "aggregate/history.csv").read_bytes()).hexdigest(), self.text("grow-hash"))
+        self.open(f"grow={word}")
+        self.assertEqual(self.browser.value("[...rooms.grow.files.keys()]"), kept)
+
+    def test_a_folder_and_a_large_file_are_lines(self):
+        self.browser.value("rooms.grow.take([{name: 'scans', size: 4096, arrayBuffer: () => Promise.reject(new DOMException('x', 'NotFoundError'))}])")
+        self.assertEqual(self.text("grow-error"), "scans cannot be read: a folder, or a file that is gone")
+        self.browser.value("rooms.split.take([{name: 'scans.csv', size: 9e9}])")
+        self.assertIn("scans.csv has 9000 MB; this page takes 64 MB a file", self.text("error"))
 
     def test_an_answer_that_the_page_cannot_show_is_told(self):
         self.set(more="--help")

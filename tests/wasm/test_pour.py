@@ -27,7 +27,7 @@ class Pour(page.Live):
             found = json.loads(self.native(folder, "porosity", "bed", "--json"))
             self.assertAlmostEqual(found["bulk"], porosity, delta=1e-12)
             self.native(folder, "report", "bed", "-o", "page.html")
-            self.assertIn("view-data", (folder / "page.html").read_text())
+            self.same_colours(folder / "page.html")
 
     def test_it_is_stopped_within_a_tenth_of_a_second_and_goes_on(self):
         self.set(**{**SMALL, "mass": "6g"})
@@ -55,6 +55,23 @@ class Pour(page.Live):
         self.browser.value("(() => { const s = document.getElementById('pour-moment'); s.value = 1; s.dispatchEvent(new Event('input')); })()")
         self.assertEqual(self.text("pour-when"), "at 2 ms of the simulation")
         self.same()
+
+    def test_a_limit_of_steps_among_more_options_counts_as_in_a_terminal(self):
+        """It was overruled by each slice's own, and stayed in the command beside it."""
+        for more, steps, n in (("--max-steps 700", "", 700), ("--energy --max_steps=900", "300", 900), ("--max-steps 1.5e3 --energy", "", 1500)):
+            with self.subTest(more):
+                self.set(**SMALL, max_steps=steps, more=more)
+                self.run_room()
+                self.assertEqual(self.text("pour-error"), "")
+                self.assertEqual(self.browser.value("rooms.pour.result.json.n_step"), n)
+                self.assertEqual(self.text("pour-command").count("max"), 1)
+                self.assertIn(f"--max-steps {n}", self.text("pour-command"))
+                self.same()
+        for more, steps in (("--max-steps many", ""), ("", "many"), ("--max-steps", "5"), ("--max-steps -3", ""), ("", "2.5")):
+            with self.subTest(more + steps):
+                self.set(**SMALL, max_steps=steps, more=more)
+                self.run_room()
+                self.assertRegex(self.text("pour-error"), "^clast pack: .*max.steps")
 
     def test_forms_and_curves(self):
         for values in ({"curve": "uniform", "shape": "ellipsoid"}, {"curve": "lognormal", "shape": "grain31.ply", "spread": "10", "height": "60mm"}):

@@ -2,7 +2,7 @@
 const $ = (id) => document.getElementById(id);
 const MOST_SHARED = 60000; // letters of an address that browsers keep
 const COLOURS = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'];
-const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#999999'];
+const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#737373'];
 let program = null; // clast, compiled
 
 function bytesOf(base64) {
@@ -73,7 +73,7 @@ function refusalOf({ result, fault }) {
 
 function columnsOf(text) {
   const lines = text.split('\n').filter((line) => line && !line.startsWith('#'));
-  const names = lines[0].split(',');
+  const names = (lines[0] ?? '').split(',');
   const rows = lines.slice(1).map((line) => line.split(',').map(Number));
   return Object.fromEntries(names.map((name, k) => [name, rows.map((row) => row[k])]));
 }
@@ -118,9 +118,23 @@ async function digestOf(bytes) {
   return digest ? [...new Uint8Array(digest)].map((b) => b.toString(16).padStart(2, '0')).join('') : 'not known to this browser';
 }
 
-/// A dropped file's name as one that a command line may hold.
+const TAKEN = ['sphere', 'ellipsoid', 'bed', 'aggregate', 'cells']; // words of the commands, and the folders that they write
+const MOST_BYTES = 64e6; // of a file
+
+/// A dropped file's name as one that a command line may hold, and that means nothing else there.
 function plainName(name, otherwise) {
-  return name.replace(/^[-/\\]+|[/\\\0]/g, '_').replace(/^[.\s]+$/, '') || otherwise;
+  const plain = name.replace(/^[-/\\]+|[/\\\0:]/g, '_').replace(/^[.\s]+$/, '') || otherwise;
+  return TAKEN.includes(plain) || GRAINS.has(plain) ? `_${plain}` : plain;
+}
+
+/// Bytes of a dropped file; an Error whose message is a line for the reader.
+async function bytesOfFile(file, command) {
+  if (file.size > MOST_BYTES) throw new Error(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; this page takes 64 MB a file, a terminal takes more: clast ${command} --help`);
+  try {
+    return new Uint8Array(await file.arrayBuffer());
+  } catch {
+    throw new Error(`${file.name} cannot be read: a folder, or a file that is gone`);
+  }
 }
 
 // Files out.

@@ -11,8 +11,8 @@ class GrowRoom extends Room {
   }
 
   listFiles() {
-    const own = Object.keys(this.files);
-    const shapes = [...Object.keys(GRAINS).map((name) => [name, `${GRAIN_NAMES[name]} (${name})`]), ['sphere', 'sphere'],
+    const own = [...this.files.keys()];
+    const shapes = [...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]} (${name})`]), ['sphere', 'sphere'],
       ...own.filter((name) => !this.isTable(name)).map((name) => [name, name])];
     this.setOptions('core', shapes);
     this.setOptions('sizes', [['', 'one size, by the slider'], ...own.filter((name) => this.isTable(name)).map((name) => [name, name])]);
@@ -45,7 +45,7 @@ class GrowRoom extends Room {
     if (this.value('sizes') === '') add('--size', this.value('size'));
     else { add('--sizes', this.value('sizes')); add('--size-unit', this.value('size_unit')); }
     add('--replicate', this.value('replicate'));
-    if (words.some((w) => w in GRAINS || w in this.files)) add('--unit', this.value('unit'));
+    if (words.some((w) => GRAINS.has(w) || this.files.has(w))) add('--unit', this.value('unit'));
     for (const name of ['cone', 'rays', 'orientations', 'contact']) add(`--${name}`, this.value(name));
     const envelopes = [...this.$('form').querySelectorAll('[data-envelope]:checked')].map((box) => box.dataset.envelope);
     envelopes.forEach((name) => add('--envelope', name));
@@ -57,7 +57,7 @@ class GrowRoom extends Room {
   /// Grains that the form asks for, as far as it can be told without reading as clast does.
   estimate() {
     const name = this.value('sizes');
-    const lines = name === '' ? 1 : new TextDecoder().decode(this.files[name] ?? new Uint8Array()).split('\n').filter(Boolean).length;
+    const lines = name === '' ? 1 : new TextDecoder().decode(this.files.get(name) ?? new Uint8Array()).split('\n').filter(Boolean).length;
     return lines * (Number(this.value('replicate')) || 1);
   }
 

@@ -66,10 +66,8 @@ async function begin() {
   showRoom('grow');
   const isGiven = openAddress(location.hash);
   const failAll = (text) => Object.values(rooms).forEach((room) => { room.say(''); room.fail(text); });
-  if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') {
-    failAll('this browser is too old: WebAssembly and DecompressionStream are wanted (Chromium 85, Firefox 114, Safari 16.4)');
-    return;
-  }
+  if (typeof WebAssembly !== 'object' || typeof BigInt !== 'function' || typeof DecompressionStream !== 'function') return; // old.js says so
+  window.clastRuns = true;
   try {
     const viewer = loadViewer();
     program = await WebAssembly.compile(await unzipped(bytesOf($('clast-wasm').textContent.trim())));

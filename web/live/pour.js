@@ -2,13 +2,14 @@
 const SLICE = 0.35; // s of computing between two pictures
 const SLOW_STEPS = 200;
 const SLOW_PAUSE = 125; // ms
+const MAX_STEPS = /^--max[-_]steps(=|$)/;
 const KEPT = { frames: 240, bytes: 96e6 }; // pictures that can be gone back to
-const FROM_UNIT = { nm: 1e-9, um: 1e-6, '\u00b5m': 1e-6, mm: 1e-3, cm: 1e-2, m: 1, mg: 1e-6, g: 1e-3, kg: 1, t: 1e3, 'kg/m^3': 1, 'g/cm^3': 1e3 };
+const FROM_UNIT = new Map(Object.entries({ nm: 1e-9, um: 1e-6, '\u00b5m': 1e-6, mm: 1e-3, cm: 1e-2, m: 1, mg: 1e-6, g: 1e-3, kg: 1, t: 1e3, 'kg/m^3': 1, 'g/cm^3': 1e3 }));
 
 /// A value with its unit in SI, or NaN: for estimates alone, clast reads the text itself.
 function siOf(text) {
   const match = /^([\d.eE+-]+)\s*([^\d\s]\S*)?$/.exec(text.trim());
-  return match ? Number(match[1]) * (match[2] === undefined ? 1 : FROM_UNIT[match[2]] ?? NaN) : NaN;
+  return match ? Number(match[1]) * (match[2] === undefined ? 1 : FROM_UNIT.get(match[2]) ?? NaN) : NaN;
 }
 
 class PourRoom extends Room {
@@ -21,10 +22,10 @@ class PourRoom extends Room {
   }
 
   listFiles() {
-    const own = Object.keys(this.files);
+    const own = [...this.files.keys()];
     this.setOptions('curve', [['one', 'one size'], ['uniform', 'even between two sizes'], ['lognormal', 'lognormal'],
       ...['U1', 'U3', 'U5', 'U7', 'B30', 'B50', 'B70'].map((name) => [name, `published curve ${name}`]), ...own.filter((name) => this.isTable(name)).map((name) => [name, `${name}: sieve curve`])]);
-    this.setOptions('shape', [['sphere', 'spheres'], ['ellipsoid', 'ellipsoids'], ...Object.keys(GRAINS).map((name) => [name, `${GRAIN_NAMES[name]}, convex hull (${name})`]),
+    this.setOptions('shape', [['sphere', 'spheres'], ['ellipsoid', 'ellipsoids'], ...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]}, convex hull (${name})`]),
       ...own.filter((name) => !this.isTable(name)).map((name) => [name, `${name}, convex hull`])]);
     this.$('given').textContent = own.length > 0 ? `own files: ${own.join(', ')}` : '';
   }
@@ -76,7 +77,23 @@ class PourRoom extends Room {
     return siOf(this.value('mass')) / (siOf(this.value('density')) * (Math.PI / 6) * size ** 3);
   }
 
-  limit() { return Number(this.value('max_steps')) || Infinity; }
+  /// More options without --max-steps, which each slice has of its own.
+  more() {
+    const words = super.more();
+    return words.filter((word, k) => !MAX_STEPS.test(word) && !/^--max[-_]steps$/.test(words[k - 1] ?? ''));
+  }
+
+  /// Reads how many steps are wanted, in their field or among more options, where the last counts, as in a terminal; 0: no limit.
+  /// A refusal is the command's own.
+  async readLimit() {
+    const words = super.more();
+    const given = words.flatMap((word, k) => (MAX_STEPS.test(word) ? [word.includes('=') ? word.slice(word.indexOf('=') + 1) : words[k + 1] ?? ''] : []));
+    const text = [this.value('max_steps') || '0', ...given].pop();
+    this.limit = Number(text) || Infinity;
+    if (/^\d[\d.e+]*$/i.test(text) && Number.isInteger(Number(text))) return null;
+    const ended = await this.engine.run([...this.words, `--max-steps=${text}`, '--json'], this.filesOf(this.words));
+    return refusalOf(ended) ?? `--max-steps ${text}: a whole number of steps is wanted`;
+  }
 
   async compute() {
     this.words = this.wordsNow();
@@ -86,7 +103,7 @@ class PourRoom extends Room {
     this.seen = 0;
     this.fixed = null;
     this.slice = SLOW_STEPS;
-    return this.pour(this.words);
+    return await this.readLimit() ?? this.pour(this.words);
   }
 
   /// Goes on from the bed that stopped.
@@ -96,7 +113,7 @@ class PourRoom extends Room {
     this.running = true;
     this.setReady();
     this.say('computing');
-    const refusal = await this.told(this.pour(['pack', '--resume', 'bed']));
+    const refusal = await this.told((async () => await this.readLimit() ?? this.pour(['pack', '--resume', 'bed']))());
     this.ended(refusal);
   }
 
@@ -113,7 +130,7 @@ class PourRoom extends Room {
     this.stopped = false;
     for (;;) {
       const done = this.result?.json.n_step ?? 0;
-      const to = Math.min(done + this.slice, this.limit());
+      const to = Math.min(done + this.slice, this.limit);
       const begun = performance.now();
       const given = { ...this.filesOf(this.words), ...this.result?.files };
       const ended = await this.engine.run([...words, '--max-steps', String(to), '--json'], given);
@@ -124,7 +141,7 @@ class PourRoom extends Room {
       const { json } = this.result;
       this.rate = (json.n_step - done) / seconds;
       this.watch();
-      if (json.phase === 'done' || json.n_step >= this.limit() || this.stopped) { this.showEnd(); return null; }
+      if (json.phase === 'done' || json.n_step >= this.limit || this.stopped) { this.showEnd(); return null; }
       await this.pause();
       if (this.stopped) { this.showEnd(); return null; }
       this.slice = this.nextSlice(json);

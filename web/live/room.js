@@ -2,23 +2,11 @@
 const UNDO = 60; // states of the form that are kept
 
 /// Bundled surfaces by name.
-const GRAINS = Object.fromEntries([...document.querySelectorAll('script[data-grain]')].map((s) => [s.dataset.grain, bytesOf(s.textContent.trim())]));
-
-let webGL = null;
-
-/// Whether this browser draws in 3-D; asked once, since three.js writes to the console where it does not.
-function hasWebGL() {
-  if (webGL === null) {
-    const context = document.createElement('canvas').getContext('webgl2');
-    webGL = context !== null;
-    context?.getExtension('WEBGL_lose_context')?.loseContext();
-  }
-  return webGL;
-}
+const GRAINS = new Map([...document.querySelectorAll('script[data-grain]')].map((s) => [s.dataset.grain, bytesOf(s.textContent.trim())]));
 
 class Room {
   constructor(name) {
-    Object.assign(this, { name, files: {}, past: [], view: null, fixed: null, words: null, result: null });
+    Object.assign(this, { name, files: new Map(), past: [], view: null, fixed: null, words: null, result: null });
     this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => this.fail(text));
   }
 
@@ -47,10 +35,10 @@ class Room {
   value(id) { return this.$(id).value.trim(); }
 
   /// All that the address and undo keep: what is typed, and the user's own files.
-  snapshot() { return { values: this.values(), files: { ...this.files } }; }
+  snapshot() { return { values: this.values(), files: new Map(this.files) }; }
 
   restore({ values, files }) {
-    this.files = { ...files };
+    this.files = new Map(files);
     this.listFiles();
     for (const field of this.fields()) {
       const value = values[field.id.slice(this.name.length + 1)];
@@ -66,7 +54,8 @@ class Room {
   /// Notes a change of the form, so that it can be undone.
   note() {
     const now = this.snapshot();
-    if (this.last && JSON.stringify(now.values) === JSON.stringify(this.last.values) && Object.keys(now.files).join() === Object.keys(this.last.files).join()) return;
+    const hasFiles = ({ files }) => files.size === now.files.size && [...files].every(([name, bytes]) => now.files.get(name) === bytes);
+    if (this.last && JSON.stringify(now.values) === JSON.stringify(this.last.values) && hasFiles(this.last)) return;
     if (this.last) this.past.push(this.last);
     if (this.past.length > UNDO) this.past.shift();
     this.last = now;
@@ -109,14 +98,14 @@ class Room {
   async take(list) {
     this.fail('');
     for (const file of list) {
-      if (file.size > 64e6) {
-        this.fail(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; this page takes 64 MB a file, a terminal takes more: clast ${this.command} --help`);
-        continue;
-      }
       const name = plainName(file.name, 'file');
-      this.files[name] = new Uint8Array(await file.arrayBuffer());
-      this.listFiles();
-      this.given(name);
+      try {
+        this.files.set(name, await bytesOfFile(file, this.command));
+        this.listFiles();
+        this.given(name);
+      } catch (fault) {
+        this.fail(fault.message);
+      }
     }
     this.turnSliders();
     this.note();
@@ -125,7 +114,7 @@ class Room {
   /// Files and bundled grains that the words name.
   filesOf(words) {
     const named = (name) => words.some((w) => w === name || w.endsWith(`=${name}`) || w.endsWith(`:${name}`));
-    return Object.fromEntries([...Object.entries(GRAINS), ...Object.entries(this.files)].filter(([name]) => named(name)));
+    return Object.fromEntries([...GRAINS, ...this.files].filter(([name]) => named(name)));
   }
 
   more() { return this.value('more').split(/\s+/).filter(Boolean); }
@@ -141,7 +130,7 @@ class Room {
     if (data.n_grain === 0) return;
     if (this.view?.renderer) window.clastViews.replace(this.view, text);
     else {
-      this.view = hasWebGL() ? window.clastViews.show(this.$('view'), text, `clast ${this.name}`) : null;
+      this.view = window.clastViews.show(this.$('view'), text, `clast ${this.name}`);
       if (!this.view) this.noView();
       else if (this.colour) {
         this.view.by = this.colour;
@@ -220,7 +209,7 @@ class Room {
 
   share() {
     const { values, files } = this.snapshot();
-    const kept = { values, files: Object.fromEntries(Object.entries(files).map(([name, bytes]) => [name, base64Of(bytes)])) };
+    const kept = { values, files: Object.fromEntries([...files].map(([name, bytes]) => [name, base64Of(bytes)])) };
     const word = packed(kept);
     if (word.length > MOST_SHARED) { this.say('these files are too large for an address; take the zip'); return; }
     location.hash = `${this.name}=${word}`;
@@ -228,7 +217,7 @@ class Room {
   }
 
   open(kept) {
-    const files = Object.fromEntries(Object.entries(kept.files ?? {}).map(([name, text]) => [plainName(name, 'file'), bytesOf(text)]));
+    const files = new Map(Object.entries(kept.files ?? {}).map(([name, text]) => [plainName(name, 'file'), bytesOf(text)]));
     this.restore({ values: kept.values ?? {}, files });
   }
 

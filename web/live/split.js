@@ -321,15 +321,19 @@ function shared() {
 }
 
 function openSplit(kept) {
-  setPoints(String(kept.name), String(kept.text), String(kept.domain));
+  setPoints(plainName(String(kept.name), 'points'), String(kept.text), String(kept.domain));
   for (const key of ['variant', 'mesh', 'beta_dt', 'more']) $(key).value = String(kept[key] ?? '');
 }
 
 async function take(file) {
   if (!file) return;
   const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
-  const name = plainName(file.name, 'points');
-  setPoints(name, isText ? await file.text() : new Uint8Array(await file.arrayBuffer()));
+  try {
+    const bytes = await bytesOfFile(file, 'decompose');
+    setPoints(plainName(file.name, 'points'), isText ? new TextDecoder().decode(bytes) : bytes);
+  } catch (fault) {
+    fail(fault.message);
+  }
 }
 
 function listenSplit() {

@@ -1,5 +1,4 @@
 // A run's state (state.h5 as clast writes it without HDF5, docs/theory/state-file.md) read, and as the viewer's data (web/view/data.js).
-const UNDEFINED = 0xffffffffffffffffn;
 
 /// Arrays and attributes of a file by their paths.
 class State {
@@ -35,8 +34,8 @@ class State {
     } else if (kind === 3) {
       Object.assign(array, { type: view.getUint8(at), signed: (view.getUint8(at + 1) & 8) !== 0, size: view.getUint32(at + 4, true) });
     } else if (kind === 8) {
-      const place = view.getBigUint64(at + 2, true);
-      Object.assign(array, { isArray: true, at: place === UNDEFINED ? 0 : Number(place), length: Number(view.getBigUint64(at + 10, true)) });
+      const place = view.getBigInt64(at + 2, true); // -1: none
+      Object.assign(array, { isArray: true, at: place < 0 ? 0 : Number(place), length: Number(view.getBigUint64(at + 10, true)) });
     } else if (kind === 6) {
       const n = view.getUint16(at + 3, true);
       const name = this.text(at + 5, n);
@@ -73,12 +72,8 @@ class State {
 
   /// Columns of numbers of a table: {name: Float64Array}.
   table(name) {
-    const columns = {};
-    for (const member of this.members.get(`/table/${name}`) ?? []) {
-      const path = `/table/${name}/${member}`;
-      if (this.arrays.get(path)?.type === 0x11) columns[this.of(path, 'name')] = this.numbers(path);
-    }
-    return columns;
+    const paths = (this.members.get(`/table/${name}`) ?? []).map((member) => `/table/${name}/${member}`);
+    return Object.fromEntries(paths.filter((path) => this.arrays.get(path)?.type === 0x11).map((path) => [this.of(path, 'name'), this.numbers(path)]));
   }
 }
 
@@ -172,24 +167,46 @@ function surfaceOf(state, path, budget) {
   return { position: one.position.map((c, i) => c * axes[i % 3]), index: one.index };
 }
 
-/// Marks of a bar: 1, 2, 5 times powers of ten.
-function barOf(title, low, high, scale, isLog) {
-  const bar = { title, log: isLog && high > 3 * low && low > 0, low, high, unit: scale, ticks: [] };
+// Colours and marks are those of src/render/legend.c, so that a grain looks as in the picture and the report of the same run.
+const BAR = ['#5a3a82', '#574a8d', '#525994', '#4c6898', '#467599', '#418199', '#3c8e99', '#379b98', '#36a894', '#3ab48e', '#48c084', '#5fcb75', '#7ad564', '#99dd52', '#bbe33f',
+  '#dde733', '#fde93b'];
+const SHAPES = ['#e69f00', '#56b4e9', '#009e73', '#d55e00', '#cc79a7', '#0072b2', '#f0e442', '#737373'];
+const MOST_TICKS = 12;
+const WIDE = 4; // a bar whose high end is more than so many times the low one is logarithmic
+
+/// A bar with its marks: 1, 2, 5 times powers of ten.
+function barOf(title, low, high, scale, mayBeLog) {
+  const bar = { title, log: mayBeLog && low > 0 && high > WIDE * low, low, high, unit: scale, ticks: [] };
   const place = (v) => (bar.log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
-  const add = (v) => { const t = place(v); if (t > -1e-6 && t < 1 + 1e-6) bar.ticks.push([t, String(Number(v.toPrecision(4)))]); };
-  if (!(high > low)) return bar;
+  const add = (v) => {
+    const t = high > low ? place(v) : 0.5;
+    if (bar.ticks.length < MOST_TICKS && t > -1e-9 && t < 1 + 1e-9) bar.ticks.push([Math.min(Math.max(t, 0), 1), String(Number(v.toPrecision(10)))]);
+  };
+  if (!(high > low * (1 + 1e-9))) { add(low); return bar; }
   if (bar.log) {
-    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); p += 1) (high / low < 300 ? [1, 2, 5] : [1]).forEach((k) => add(k * 10 ** p));
-  } else {
-    const rough = (high - low) / 5;
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = power * [1, 2, 5, 10].find((k) => k * power >= rough);
-    for (let v = Math.ceil(low / step - 1e-9) * step; v <= high * (1 + 1e-9); v += step) add(v);
+    const decades = Math.log10(high / low);
+    const stride = Math.max(1, Math.ceil(decades / 8));
+    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); p += 1) {
+      if (p % stride === 0) (decades < 4 ? [1, 2, 5] : [1]).forEach((k) => add(k * 10 ** p));
+    }
+    if (bar.ticks.length >= 3) return bar;
+    bar.ticks = []; // less than a decade: round numbers evenly spaced in value
   }
+  const rough = (high - low) / 5;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * (rough / power > 3.5 ? 5 : rough / power > 1.5 ? 2 : 1);
+  for (let k = Math.ceil(low / step - 1e-9), i = 0; i < MOST_TICKS; i += 1) add((k + i) * step);
   return bar;
 }
 
-const metre = (size) => [[1e-6, '\u00b5m'], [1e-3, 'mm'], [1, 'm']].find(([f]) => size < 999.5 * f) ?? [1, 'm'];
+/// The bar of the order of arrival: its ends are named, marks too close to them give way.
+function orderBar(n) {
+  const bar = barOf('order of arrival', 1, n, 0, false);
+  const ends = n > 1 ? [[0, '1'], [1, String(n)]] : [[0.5, '1']];
+  return { ...bar, ticks: [...bar.ticks.filter(([place]) => place > 0.09 && place < 0.91).slice(0, MOST_TICKS - 2), ...ends] };
+}
+
+const metre = (size) => [[1e3, 'km'], [1, 'm'], [1e-3, 'mm'], [1e-6, '\u00b5m']].find(([f]) => size >= 0.9995 * f) ?? [1e-9, 'nm'];
 
 /// Poses, sizes and bounds of the grains.
 function grainsOf(state) {
@@ -288,17 +305,18 @@ function viewData(state, fixed) {
       pose.set([grains.scale[i], grains.size[i] / length, grains.density[i]], 10 * m + 7);
     });
     return {
-      name: state.of(path, 'name'), number: s, colour: Math.min(s, LABELS.length - 1), smooth: state.of(path, 'kind') !== 'mesh',
+      name: state.of(path, 'name'), number: s, colour: Math.min(s, SHAPES.length - 1), smooth: state.of(path, 'kind') !== 'mesh',
       position: coded(position.map((c) => c / length)), index: coded(index), grain: coded(Uint32Array.from(mine)), pose: coded(pose),
       diameter: Math.cbrt((6 * state.of(path, 'volume')) / Math.PI) / length,
     };
   }).filter(Boolean);
   const names = grains.shapes.map((path) => state.of(path, 'name'));
+  const shown = names.slice(0, SHAPES.length).map((name, k) => (k === SHAPES.length - 1 && names.length > SHAPES.length ? `${names.length - k} others` : name));
   return {
-    unit: 'm', length, n_grain: grains.n, n_shown: grains.n, centre, bar: COLOURS,
+    unit: 'm', length, n_grain: grains.n, n_shown: grains.n, centre, bar: BAR,
     size: barOf(`equivalent diameter (${unit})`, least, most, length / factor, true),
-    order: barOf('order of arrival', 1, Math.max(grains.n, 1), 1, false),
-    shape: names.slice(0, LABELS.length).map((_, k) => LABELS[k]), shape_name: names.slice(0, LABELS.length),
+    order: orderBar(grains.n),
+    shape: SHAPES.slice(0, names.length), shape_name: shown,
     contact: contacts ? { pair: coded(contacts.pair), branch: coded(contacts.branch), force: contacts.force && coded(contacts.force) } : undefined,
     values: valuesOfGrains(state, grains, contacts),
     shapes,

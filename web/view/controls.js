@@ -1,6 +1,6 @@
 // What the user can press, turn and type.
 import { moveCut, setCut } from './cut.js';
-import { isEnd } from './data.js';
+import { isEnd, UNKNOWN } from './data.js';
 import { makeChains } from './chains.js';
 import { showFirst } from './grains.js';
 import { drawLegend, tag } from './legend.js';
@@ -51,8 +51,9 @@ function grow(view, n) {
   dropNear(view);
   showFirst(view.chains ? [...view.meshes, view.chains] : view.meshes, n === view.data.n_shown ? Infinity : n);
   const drawn = view.meshes.reduce((sum, mesh) => sum + mesh.count, 0);
-  const share = drawn === view.data.n_grain ? '' : `${drawn.toLocaleString('en')} of `;
-  view.note.textContent = `${share}${view.data.n_grain.toLocaleString('en')} grains`;
+  const all = isEnd(view) ? view.data.n_grain : view.meshes.reduce((sum, mesh) => sum + mesh.userData.grain.length, 0);
+  const share = drawn === all ? '' : `${drawn.toLocaleString('en')} of `;
+  view.note.textContent = `${share}${all.toLocaleString('en')} grains`;
   view.draw();
 }
 
@@ -67,7 +68,10 @@ function go(view, k) {
   parts.when.textContent = timeOf(view, to);
   parts.time.setAttribute('aria-valuetext', parts.when.textContent);
   parts.chains.disabled = !isEnd(view);
-  grow(view, view.shown);
+  const hasOrder = view.meshes.some(({ userData: { grain } }) => grain.length > 0 && grain[0] !== UNKNOWN);
+  parts.grow.disabled = !hasOrder;
+  parts.growing.disabled = !hasOrder;
+  grow(view, hasOrder ? Number(parts.grow.value) : view.data.n_shown);
   view.paint();
 }
 
@@ -142,10 +146,10 @@ function dark(view, isDark) {
 /// Width in pixels and the button that saves.
 function pictureControls(view) {
   const width = tag('input');
-  Object.assign(width, { type: 'number', min: MIN_WIDTH, max: MAX_WIDTH, value: 2400, step: 100, title: 'Width of the picture in pixels' });
+  Object.assign(width, { type: 'number', min: MIN_WIDTH, max: MAX_WIDTH, value: 2400, step: 1, title: `Width of the picture in pixels, ${MIN_WIDTH} to ${MAX_WIDTH}`, required: true });
   width.setAttribute('aria-label', width.title);
   view.parts.width = width;
-  return [button('Save PNG', 'Save this view as a PNG', () => savePicture(view, Number(width.value))), width, tag('span', 'view-note', 'px wide')];
+  return [button('Save PNG', 'Save this view as a PNG', () => savePicture(view)), width, tag('span', 'view-note', 'px wide')];
 }
 
 function linkControls(view, others) {
@@ -171,11 +175,12 @@ export function makeControls(view, others) {
     place: range('Place of the cut', 0, 1, 0.002, 0.5, (place) => { moveCut(view, place); view.draw(); }),
     chains: button(data.contacts?.force ? 'Force chains' : 'Contacts', 'Show contacts in place of the grains', () => toggleChains(view)),
   };
+  parts.growing = button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow, (n) => grow(view, n)));
   view.parts = parts;
   parts.colour.value = view.by;
   parts.place.hidden = true;
   parts.chains.setAttribute('aria-pressed', 'false');
-  bar.append(parts.colour, ...timeControls(view), button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow, (n) => grow(view, n))), parts.grow, view.note, parts.cut, parts.place);
+  bar.append(parts.colour, ...timeControls(view), parts.growing, parts.grow, view.note, parts.cut, parts.place);
   if (data.contacts) bar.append(parts.chains);
   bar.append(button('Reset view', 'Frame everything', () => { view.frame(); view.draw(); }),
     button('Light / dark', 'Change the background', () => dark(view, !view.dark)), ...pictureControls(view), ...linkControls(view, others));
@@ -202,7 +207,7 @@ function actByKey(view, key) {
   if (axis) cut(view, view.cut.axis === axis ? 'none' : axis);
   else if (key === 'c') colour(view, colours[(colours.indexOf(view.by) + 1) % colours.length]);
   else if (key === 'f') toggleChains(view);
-  else if (key === 'p') savePicture(view, Number(view.parts.width.value));
+  else if (key === 'p') savePicture(view);
   else if ((key === ',' || key === '.') && view.parts.time) go(view, view.moment + (key === '.' ? 1 : -1));
   else if (key === 'escape') pick(view, -1);
   else return false;

@@ -18,6 +18,7 @@ import { Color } from 'three';
 
 export const POSE = 10;
 export const WALL = 0xffffffff;
+export const UNKNOWN = 0xffffffff; // a moment's grain that the end does not have
 
 export function bytes(text) {
   const raw = atob(text);

@@ -3,11 +3,12 @@ import {
   BufferAttribute, BufferGeometry, Color, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, ShaderChunk, Vector3,
 } from 'three';
 import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
-import { floats, POSE, words } from './data.js';
+import { floats, POSE, UNKNOWN, words } from './data.js';
 
 const CREASE = 0.6; // rad: sharper edges stay edges
 const TINT = new Color('#c9b79c'); // grains of one size, as in pictures
 const PICKED = new Color('#d55e00');
+export const NOT_KNOWN = '#8b949d'; // of a moment's grains that the end does not have, where colours stand for what only the end tells
 
 export function geometryOf(shape) {
   const plain = new BufferGeometry();
@@ -129,12 +130,17 @@ export function colourAt(colours, t, out) {
   return out.copy(colours[i]).lerp(colours[i + 1], x - i);
 }
 
+/// Grains that are drawn without a value on the bar: those that the end does not have, unless colours stand for size or shape.
+export function lacksValues(view) {
+  return view.by !== 'shape' && view.by !== 'size' && view.meshes.some(({ userData: { grain } }) => grain[grain.length - 1] === UNKNOWN);
+}
+
 /// What a colour stands for: a grain's value on the bar `by`.
 function valueOf(data, by, mesh, i) {
   const g = mesh.userData.grain[i];
   if (by === 'order') return g + 1;
   if (data[by].values) return data[by].values[g];
-  if (by === 'coordination') return data.contacts.count[g] ?? 0;
+  if (by === 'coordination') return data.contacts.count[g];
   return mesh.userData.pose[POSE * i + 8] * data.size.unit;
 }
 
@@ -142,10 +148,12 @@ export function paintGrains(view) {
   const { meshes, data, by } = view;
   const colour = new Color();
   const single = by !== 'shape' && !isWide(data[by]);
+  const isBare = lacksValues(view);
   for (const mesh of meshes) {
     const { grain, shape } = mesh.userData;
     for (let i = 0; i < grain.length; i += 1) {
       if (grain[i] === view.picked) colour.copy(PICKED);
+      else if (isBare && grain[i] === UNKNOWN) colour.set(NOT_KNOWN);
       else if (by === 'shape') colour.set(data.shape[shape.colour]);
       else if (single) colour.copy(TINT);
       else colourAt(data.colours, placeOf(data[by], valueOf(data, by, mesh, i)), colour);
@@ -155,7 +163,7 @@ export function paintGrains(view) {
   }
 }
 
-/// Shows the grains placed before `n`.
+/// Shows the grains placed before `n`; Infinity: all, those too that the end does not have.
 export function showFirst(meshes, n) {
   for (const mesh of meshes) {
     const { grain } = mesh.userData;

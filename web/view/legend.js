@@ -1,6 +1,6 @@
 // What colours mean, and how long a length is.
 import { isEnd } from './data.js';
-import { isWide } from './grains.js';
+import { isWide, lacksValues, NOT_KNOWN } from './grains.js';
 import { length, roundBelow } from './units.js';
 
 const BAR = 260; // px: width of the colour bar, as in page.css
@@ -40,25 +40,30 @@ export function single(bar) {
   return isWide(bar) ? null : `${Number(bar.low.toPrecision(4))}, all grains`;
 }
 
-function shapeLegend(data) {
-  return data.shape.map((colour, k) => {
-    const row = tag('span', 'view-key', data.shape_name[k]);
-    const dot = tag('i', 'view-dot');
-    dot.style.background = colour;
-    row.prepend(dot);
-    return row;
-  });
+/// Dots of colours and what they stand for, below or instead of the bar: [[colour, text]].
+export function keysOf(view) {
+  if (!barOf(view)) return view.data.shape.map((colour, k) => [colour, view.data.shape_name[k]]);
+  return lacksValues(view) ? [[NOT_KNOWN, 'not among the grains of the end']] : [];
+}
+
+function keyRow([colour, text]) {
+  const row = tag('span', 'view-key', text);
+  const dot = tag('i', 'view-dot');
+  dot.style.background = colour;
+  row.prepend(dot);
+  return row;
 }
 
 export function drawLegend(view) {
   const bar = barOf(view);
+  const keys = keysOf(view).map(keyRow);
   if (!bar) {
-    view.legend.replaceChildren(...shapeLegend(view.data));
+    view.legend.replaceChildren(...keys);
     return;
   }
   const title = tag('span', 'view-title', titleOf(bar));
   if (single(bar)) {
-    view.legend.replaceChildren(title, tag('span', '', single(bar)));
+    view.legend.replaceChildren(...keys, title, tag('span', '', single(bar)));
     return;
   }
   const strip = tag('i', 'view-bar');
@@ -69,7 +74,7 @@ export function drawLegend(view) {
     mark.style.left = `${100 * place}%`;
     scale.append(mark);
   }
-  view.legend.replaceChildren(title, strip, scale);
+  view.legend.replaceChildren(...keys, title, strip, scale);
 }
 
 /// A round length at the distance of the point about which the view turns: its text and its pixels.

@@ -1,5 +1,5 @@
 // A run's moments: its grains as its frames place them, and as it ended.
-import { bytes, floats, isEnd, POSE, WALL, words } from './data.js';
+import { bytes, floats, isEnd, POSE, UNKNOWN, words } from './data.js';
 import { setGrains } from './grains.js';
 import { dropNear } from './near.js';
 import { pick } from './pick.js';
@@ -23,7 +23,7 @@ function makeBase(data, meshes) {
 function shapesOf(data, frame) {
   if (!frame.shape) return null;
   const place = new Map(data.shapes.map((shape, s) => [shape.number, s]));
-  return words(frame.shape).map((number) => place.get(number) ?? 0);
+  return words(frame.shape).map((number) => place.get(number));
 }
 
 /// Most grains of each shape at any moment.
@@ -66,11 +66,21 @@ function grainsAt(view, k) {
     } else part.pose[at + 3] = 1;
     part.pose[at + 7] = scale;
     part.pose[at + 8] = scale * data.shapes[shape[i]].diameter;
-    part.pose[at + 9] = g === WALL ? 0 : base.density[g];
+    part.pose[at + 9] = g === UNKNOWN ? 0 : base.density[g];
     part.grain[part.n] = g;
     part.n += 1;
   }
-  return parts;
+  return parts.map(inOrder);
+}
+
+/// A part's grains in order of growth, as showFirst counts them; those that the end does not have are last.
+function inOrder(part) {
+  const { grain, pose } = part;
+  if (grain.every((g, i) => i === 0 || grain[i - 1] <= g)) return part;
+  const order = Uint32Array.from(grain, (_, i) => i).sort((a, b) => grain[a] - grain[b] || a - b);
+  const sorted = new Float32Array(pose.length);
+  order.forEach((from, to) => sorted.set(pose.subarray(POSE * from, POSE * (from + 1)), POSE * to));
+  return { grain: Uint32Array.from(order, (i) => grain[i]), pose: sorted };
 }
 
 /// Text of a moment's time.

@@ -1,7 +1,7 @@
 // The grain under the pointer, and all of its numbers.
 import { Raycaster, Vector2 } from 'three';
 import { isCutAway } from './cut.js';
-import { isEnd, WALL } from './data.js';
+import { isEnd, UNKNOWN } from './data.js';
 import { findGrain } from './grains.js';
 import { tag } from './legend.js';
 import { length, lengths, si, volume } from './units.js';
@@ -13,8 +13,8 @@ export function grainAt(view, x, y) {
   ray.setFromCamera(new Vector2((2 * x) / w - 1, 1 - (2 * y) / h), view.camera);
   const hits = ray.intersectObjects([...view.meshes, ...view.near ?? []].filter((m) => m?.count > 0), false);
   const first = hits.find((hit) => !isCutAway(view, hit.point));
-  const grain = first ? first.object.userData.grain[first.instanceId] : WALL;
-  return grain === WALL ? -1 : grain;
+  const grain = first ? first.object.userData.grain[first.instanceId] : UNKNOWN;
+  return grain === UNKNOWN ? -1 : grain;
 }
 
 function degrees(radian) {

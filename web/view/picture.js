@@ -1,6 +1,6 @@
 // The view as a PNG of any size, in tiles that every graphics card can draw.
 import { setLevel } from './dots.js';
-import { labelledTicks, barOf, scaleBar, single, titleOf } from './legend.js';
+import { labelledTicks, barOf, keysOf, scaleBar, single, titleOf } from './legend.js';
 
 const TILE = 2048; // px
 export const MIN_WIDTH = 64;
@@ -39,18 +39,19 @@ function drawMarks(view, canvas, k) {
   c.textBaseline = 'top';
   const height = canvas.height / k;
   const width = canvas.width / k;
-  if (!bar) {
-    view.data.shape.forEach((colour, i) => {
-      const y = height - 24 - 18 * (view.data.shape.length - 1 - i);
-      c.fillStyle = colour;
-      c.fillRect(20, y, 10, 10);
-      c.fillStyle = ink;
-      c.fillText(view.data.shape_name[i], 36, y - 2);
-    });
-  } else if (single(bar)) {
+  const keys = keysOf(view);
+  const foot = height - (!bar ? 24 : single(bar) ? 66 : 82);
+  keys.forEach(([colour, name], i) => {
+    const y = foot - 18 * (keys.length - 1 - i);
+    c.fillStyle = colour;
+    c.fillRect(20, y, 10, 10);
+    c.fillStyle = ink;
+    c.fillText(name, 36, y - 2);
+  });
+  if (bar && single(bar)) {
     c.fillText(titleOf(bar), 20, height - 46);
     c.fillText(single(bar), 20, height - 28);
-  } else {
+  } else if (bar) {
     const strip = c.createLinearGradient(20, 0, 280, 0);
     view.data.bar.forEach((colour, i) => strip.addColorStop(i / (view.data.bar.length - 1), colour));
     c.fillText(titleOf(bar), 20, height - 62);
@@ -80,8 +81,18 @@ export function drawPicture(view, width) {
   return canvas;
 }
 
-export function savePicture(view, width) {
-  drawPicture(view, width).toBlob((blob) => {
+/// Saves the view as wide as its field says; a width that is none is told at the field.
+export function savePicture(view) {
+  const { width } = view.parts;
+  width.max = Math.floor(MAX_WIDTH * Math.min(1, view.stage.clientWidth / view.stage.clientHeight)); // no side longer than MAX_WIDTH
+  width.setCustomValidity('');
+  if (!width.reportValidity()) return;
+  drawPicture(view, Number(width.value)).toBlob((blob) => {
+    if (!blob) {
+      width.setCustomValidity('The browser has no memory for a picture as wide.');
+      width.reportValidity();
+      return;
+    }
     const link = document.createElement('a');
     link.href = URL.createObjectURL(blob);
     link.download = `${view.name}.png`;
