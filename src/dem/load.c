@@ -119,8 +119,7 @@ static void measure_lanes(int64_t begin, int64_t end, int32_t worker, void *cont
 
 bool clx_dem_stress_is_fast(const clast_dem *dem)
 {
-    return dem->item == NULL && dem->container == NULL && dem->laws.n == 0 &&
-           !dem->law.has_history;
+    return dem->item == NULL && dem->container == NULL && dem->laws.n == 0 && !dem->law.has_history;
 }
 
 /// Pairs that touched in the last step, in the order of the list: the inner list has them all.
