@@ -46,6 +46,14 @@ class Split(page.Live):
                     one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(".svg")}
                 self.assertEqual(here, there)
 
+    def test_a_browser_without_simd_is_told_so(self):
+        made = self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="WebAssembly.validate = () => false")
+        self.browser.open("about:blank")
+        self.assertIsNone(self.browser.open(page.PAGE.as_uri()))
+        self.browser.call("Page.removeScriptToEvaluateOnNewDocument", **made)
+        for error in ("error", "grow-error", "pour-error"):
+            self.assertRegex(self.text(error), "^this browser is too old: WebAssembly with SIMD")
+
     def test_a_cloud_is_split_and_the_command_repeats_it(self):
         self.click("[data-make=cluster]")
         self.split()
