@@ -15,9 +15,9 @@ let heard = 0;
 const beside = await Promise.all(seeds.map((seed) => workers.pack({ ...bed, seed }, { onProgress: () => { heard += 1; } })));
 const many = (performance.now() - begun) / 1e3;
 const stop = new AbortController();
-const long = (signal, onProgress) => workers.pack({ ...bed, max_steps: 1000000, shaking_time: '5s' }, { signal, onProgress }).then(() => 'done', (fault) => fault.name);
-let stopped;
-await new Promise((go) => { stopped = long(stop.signal, go); }); // it computes
+const long = (signal) => workers.pack({ ...bed, max_steps: 1000000, shaking_time: '5s' }, { signal }).then(() => 'done', (fault) => fault.name);
+const stopped = long(stop.signal);
+await new Promise((go) => { setTimeout(go, 300); });
 stop.abort();
 const aborted = await Promise.race([stopped, new Promise((done) => { setTimeout(done, 0, 'a turn later'); })]); // what is told at once comes before any timer
 const [all, last] = [new AbortController(), new AbortController()];
