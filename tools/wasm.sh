@@ -10,7 +10,7 @@ prefix=$PWD/build/portable/wasm
 export PKG_CONFIG_LIBDIR=$prefix/lib/pkgconfig
 export NODE_PATH=/usr/share/nodejs # where Debian keeps what emcc asks node for, which a node of another origin does not look through
 log=build/wasm.log
-compile="$(em-config LLVM_ROOT)/clang $(emcc --cflags | tail -1) <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>"
+compile="$(command -v ccache || true) $(em-config LLVM_ROOT)/clang $(emcc --cflags | tail -1) -msimd128 <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>"
 { [ -f build/wasm/build.ninja ] ||
     emcmake cmake -S . -B build/wasm -G Ninja "-DCMAKE_C_COMPILE_OBJECT=$compile" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O3 -DNDEBUG" -DCLAST_VIEW=ON \
         -DCLAST_THREADS=OFF -DCLAST_HDF5=OFF -DCLAST_TIFF=OFF -DCLAST_SUNDIALS=OFF -DCLAST_MPI=OFF -DBUILD_TESTING=OFF -DCLAST_BENCH=OFF \

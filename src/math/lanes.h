@@ -2,8 +2,9 @@
 // Four doubles side by side (eight in a few files), and vectors of three of them.
 //
 // Written with the compilers' vector types: one AVX2 register where a function is compiled for
-// that (base/machine.h), two SSE2 halves on any x86-64, NEON pairs on ARM. Every operation is the
-// scalar one in the same order as its twin in vec3.h, so that lanes give the bits of scalar code.
+// that (base/machine.h), two SSE2 halves on any x86-64, NEON pairs on ARM, SIMD128 pairs in
+// WebAssembly. Every operation is the scalar one in the same order as its twin in vec3.h, so that
+// lanes give the bits of scalar code.
 #include "base/machine.h"
 #include <math.h>
 #include <stdint.h>

@@ -108,6 +108,17 @@ class Live(unittest.TestCase):
             for mine, its in [(here[key][end], data[key][end]) for end in ("low", "high")] + [(a[0], b[0]) for a, b in zip(here[key]["ticks"], data[key]["ticks"])]:
                 self.assertAlmostEqual(mine, its, delta=1e-5 * (1 + abs(its)))
 
+    def at_once(self, action, told):
+        """What the page tells in the same turn of its event loop as an action, whose CPU time is less than a tenth of a second: wall time is the machine's."""
+        self.browser.call("Performance.enable")
+
+        def cpu():
+            return {one["name"]: one["value"] for one in self.browser.call("Performance.getMetrics")["metrics"]}["ThreadTime"]
+        begun = cpu()
+        said = self.browser.value(f"(() => {{ {action}; return {told}; }})()")
+        self.assertLess(cpu() - begun, 0.1)
+        return said
+
     def memory(self):
         """Bytes of the page's heap that are in use."""
         self.browser.call("HeapProfiler.collectGarbage")

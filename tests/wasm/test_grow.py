@@ -1,6 +1,5 @@
 """The room Grow of clast-live.html: an aggregate grows before the eyes, and the command that the page names grows the same."""
 import hashlib
-import time
 
 import jobs
 import page
@@ -57,12 +56,12 @@ class Grow(page.Live):
         self.open("grow=AAAA")
         self.assertIn("damaged", self.text("grow-error"))
 
-    def test_cancel_ends_within_a_tenth_of_a_second(self):
+    def test_cancel_ends_at_once(self):
         self.set(replicate="400", rays="64", orientations="32")
         self.click("#grow-run")
-        time.sleep(0.4)
+        self.until("Boolean(rooms.grow.history)", 60)  # it grows
         self.assertEqual(self.text("grow-state"), "computing")
-        self.assertLess(self.browser.value("(() => { const t = performance.now(); rooms.grow.cancel(); return performance.now() - t; })()"), 100)
+        self.assertEqual(self.at_once("rooms.grow.cancel()", "document.getElementById('grow-state').textContent"), "cancelled")
         self.until("rooms.grow.engine.isReady", 30)
         self.grow()
 

@@ -32,7 +32,6 @@ class SameAnswer(unittest.TestCase):
         told = json.loads(done.stdout)
         self.assertTrue(told["same"])
         self.assertEqual((told["aborted"], told["refused"]), ("AbortError", "ClastError"))
-        self.assertLess(told["took"], 300 + 1000)
         self.assertEqual(told["waiting"], [True, "AbortError", 0])
         print(f"two beds one after the other {told['one']:.1f} s, in two workers {told['many']:.1f} s")
 

@@ -275,8 +275,12 @@ export class ClastWorkers extends Clast {
   }
 }
 
+/// A module of one function in SIMD128.
+const SIMD = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
+
 async function compiled(source) {
   if (source instanceof WebAssembly.Module) return source;
+  if (!WebAssembly.validate(SIMD)) throw new Error('clast.wasm wants WebAssembly with SIMD: Chromium 91, Firefox 89, Safari 16.4, node 16.4');
   let bytes = source;
   if (bytes === undefined) {
     const url = new URL('./clast.wasm', import.meta.url);
