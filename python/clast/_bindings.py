@@ -4149,7 +4149,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'flatness_deviation': ('number', 0.175, '-', 0.0, 10.0, None, 'its standard deviation'),
         'elongation_mean': ('number', 0.682, '-', 0.001, 1.0, None, 'mean elongation I/L of form_law'),
         'elongation_deviation': ('number', 0.139, '-', 0.0, 10.0, None, 'its standard deviation'),
-        'density': ('numbers', '', 'kg/m^3', 0.0, 1000000.0, None, "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's own"),
+        'density': ('numbers', '', 'kg/m^3', 0.0, 1000000.0, None, "density of the grains (rho_p), else 2650: one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none beside a start, which has its own"),
         'density_of': ('choice', 'shape', '-', None, None, 'shape|chance|class|list', "density lists one for each shape, or several to draw from whatever a grain's shape, or one for each class of the sieve curve; list: column density of list:FILE or masses:FILE, in place of density"),
         'density_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each density (by number of grains) with density_of: chance; none: all equal'),
         'mass': ('number', 1.0, 'kg', 1e-15, 1000000000000000.0, None, 'mass of the packing (m_tot)'),

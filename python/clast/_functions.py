@@ -1101,7 +1101,7 @@ def pack(
         flatness_deviation: its standard deviation (0 to 10; default 0.175)
         elongation_mean: mean elongation I/L of form_law (0.001 to 1; default 0.682)
         elongation_deviation: its standard deviation (0 to 10; default 0.139)
-        density: density of the grains (rho_p): one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none: 2650, or the start's own (kg/m^3; 0 to 1e+06; no default)
+        density: density of the grains (rho_p), else 2650: one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none beside a start, which has its own (kg/m^3; 0 to 1e+06; no default)
         density_of: density lists one for each shape, or several to draw from whatever a grain's shape, or one for each class of the sieve curve; list: column density of list:FILE or masses:FILE, in place of density (shape, chance, class, list; default shape)
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)

@@ -10,6 +10,7 @@ typedef struct clx_run_state {
     bool is_whole;   ///< it ended well
     bool is_running; ///< a process is at it
     bool can_resume; ///< it has a checkpoint
+    bool has_state;  ///< state.h5
     double share;    ///< done of the whole, or NAN
     const char *command, *outcome;
     const char *process, *started; ///< of the process that is at it

@@ -431,7 +431,8 @@ done:
     return status;
 }
 
-/// Stopped or failed: says how to go on, or removes a new run that would have replaced another.
+/// Stopped or failed: says how to go on, or where what did not come to its end is, or removes a new
+/// run that would have replaced another.
 static clast_status end_badly(clast_run_folder *run, clast_status status)
 {
     char why[1024];
@@ -447,7 +448,9 @@ static clast_status end_badly(clast_run_folder *run, clast_status status)
     clx_run_state_line(run->path, &state, line);
     const bool can_go_on =
         state.can_resume && (is_stopped || status == CLAST_E_DISK || status == CLAST_E_MEMORY);
-    if (run->is_beside && !can_go_on) {
+    if (status == CLAST_E_CONVERGE) {
+        (void)clx_fail(status, "%s; what there is until then is in %s", why, run->path);
+    } else if (run->is_beside && !can_go_on) {
         (void)clx_run_remove_tree(run->path);
         (void)clx_fail(status, "%s", why);
     } else if (can_go_on) {

@@ -71,6 +71,7 @@ clast_status clx_run_state_read(const char *folder, clx_run_state *state)
         (clx_run_state){.is_study = has_file(folder, "study.json"),
                         .is_running = is_locked(folder),
                         .can_resume = clx_checkpoint_exists(folder),
+                        .has_state = has_state,
                         .share = json_is_number(share) ? json_number_value(share) : (double)NAN,
                         .command = text_of(manifest, "command"),
                         .outcome = text_of(manifest, "outcome"),
@@ -118,6 +119,11 @@ void clx_run_state_line(const char *folder, const clx_run_state *state, char lin
         (void)snprintf(line, CLX_RUN_LINE, "%s: %s%s, go on with %s%s%s--resume %s%s", folder, verb,
                        at, is_known ? "clast " : "", state->command, is_known ? " " : "", folder,
                        then);
+    } else if (state->has_state) {
+        (void)snprintf(
+            line, CLX_RUN_LINE,
+            "%s: %s%s, and state.h5 there is how it was then; begin it anew with --force", folder,
+            verb, at);
     } else {
         (void)snprintf(line, CLX_RUN_LINE,
                        "%s: %s%s without a checkpoint; begin it anew with --force", folder, verb,

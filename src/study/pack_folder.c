@@ -290,9 +290,8 @@ done:
     return status;
 }
 
-clast_status clx_pack_write_results(const char *folder, const char *config, clast_pack *pack,
-                                    const clast_pack_config *physics,
-                                    const clast_pack_result *result)
+/// The bed as it is, and how it came there.
+static clast_status write_bed(const char *folder, const char *config, clast_pack *pack)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PACK_PATH];
@@ -302,6 +301,25 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
     CLX_TRY(draw_energy(folder, clast_pack_series(pack)));
     CLX_TRY(write_load(folder, pack));
     CLX_TRY(write_walls(folder, pack));
+done:
+    return status;
+}
+
+clast_status clx_pack_write_end(const char *folder, const char *config, clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(write_bed(folder, config, pack));
+    CLX_TRY(clx_checkpoint_clear(folder));
+done:
+    return status;
+}
+
+clast_status clx_pack_write_results(const char *folder, const char *config, clast_pack *pack,
+                                    const clast_pack_config *physics,
+                                    const clast_pack_result *result)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(write_bed(folder, config, pack));
     if (result->dem.n_grain > 0 && physics->dem.domain == CLAST_DEM_CELL) {
         CLX_TRY(write_achieved(folder, pack));
         CLX_TRY(write_grains(folder, pack));

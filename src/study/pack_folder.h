@@ -9,6 +9,10 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
                                     const clast_pack_config *physics,
                                     const clast_pack_result *result);
 
+/// What a run leaves that did not come to its end, for instance a servo that cannot reach its
+/// stress: state.h5 and the tables over time, no checkpoint.
+clast_status clx_pack_write_end(const char *folder, const char *config, clast_pack *pack);
+
 /// Frame number `index` for ParaView.
 clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack);
 

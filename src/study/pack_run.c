@@ -81,10 +81,15 @@ static bool talk(const run *r)
     return m != NULL && m->stop != NULL && m->stop(m->context);
 }
 
+static double share_done(const run *r)
+{
+    return (double)clast_dem_n_step(clast_pack_dem(r->pack)) /
+           (double)clast_pack_expected_steps(r->pack);
+}
+
 static clast_status save(run *r)
 {
     clast_status status = CLAST_OK;
-    const double done = (double)clast_dem_n_step(clast_pack_dem(r->pack));
     r->saved_at = clx_clock();
     if (!r->has_folder) {
         return CLAST_OK;
@@ -94,7 +99,7 @@ static clast_status save(run *r)
         status = clx_pack_checkpoint_write(r->folder, r->text, r->pack);
     }
     if (is_first(r) && status == CLAST_OK) {
-        status = clx_run_folder_progress(r->own, done / (double)clast_pack_expected_steps(r->pack));
+        status = clx_run_folder_progress(r->own, share_done(r));
     }
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
 done:
@@ -193,6 +198,22 @@ done:
     return status;
 }
 
+/// Keeps the bed of a run that did not come to its end, and says why it did not.
+static clast_status keep_end(run *r)
+{
+    char why[CLX_DETAIL_SIZE];
+    (void)snprintf(why, sizeof why, "%s", clast_error_detail());
+    clast_status status = clx_pack_gather(r->pack);
+    if (r->folder != NULL && status == CLAST_OK) {
+        status = clx_pack_write_end(r->folder, r->text, r->pack);
+    }
+    if (r->folder != NULL && status == CLAST_OK) {
+        status = clx_run_folder_progress(r->own, share_done(r));
+    }
+    status = clast_comm_agree(r->comm, status, NULL);
+    return status == CLAST_OK ? clx_fail(CLAST_E_CONVERGE, "%s", why) : status;
+}
+
 /// Measures and writes what a run leaves: rank 0's part.
 static clast_status conclude(run *r, clast_status status, clast_pack_result *made)
 {
@@ -225,6 +246,8 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
     if (status == CLAST_OK) {
         status = clx_pack_gather(r->pack);
         clx_pack_count_ranks(r->pack, &ranks);
+    } else if (status == CLAST_E_CONVERGE && r->has_folder) {
+        status = keep_end(r);
     }
     if (is_first(r)) {
         status = conclude(r, status, &made);

@@ -55,6 +55,25 @@ class Load(Case):
             self.assertTrue((self.folder / "fine" / name).exists(), name)
         self.assert_fails(2, "porosity", run, "--fields", "1m", says=("repeats after",))
 
+    def test_a_bed_that_does_not_come_to_its_end_is_kept(self):
+        """Its state and its tables tell why; an older run in the folder stays until a new one is whole."""
+        run, new = self.folder / "run", self.folder / "run.new"
+        lost = [*CELL, "--stages", "isotropic 20kPa until rest", "--max-load-time", "0.02s"]
+        whole = clast(*CELL, "--stages", "hold until time 1ms", "-o", run)
+        self.assertEqual(whole.code, 0, whole.err)
+        kept = (run / "summary.json").read_bytes()
+        for _ in range(2):  # the second replaces what the first left
+            self.assert_fails(5, *lost, "--force", "-o", run, says=("not come to its end in 0.02 s", "until then is in", "run.new"))
+            self.assertEqual((run / "summary.json").read_bytes(), kept)
+            self.assertGreater(len(rows(new / "load.csv")), 1)
+            self.assertEqual(list(new.glob("checkpoint*")), [])
+        self.assertEqual(json.loads((new / "manifest.json").read_text())["outcome"], "failed")
+        self.assert_fails(3, "export", new, "-o", self.folder / "lost.csv", says=("failed at", "state.h5 there is how it was then"))
+        seen = clast("export", new / "state.h5", "-o", self.folder / "lost.csv")
+        self.assertEqual(seen.code, 0, seen.err)
+        self.assert_fails(5, *lost, "-o", self.folder / "alone", says=("until then is in",))
+        self.assertGreater(len(rows(self.folder / "alone" / "load.csv")), 1)
+
     def test_poured_beds_have_the_book_and_their_old_bits(self):
         poured = ["pack", "--curve", "6mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",
                   "--quiet", "-j", "1", "--json"]
