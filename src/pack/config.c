@@ -50,9 +50,8 @@ const clast_field clast_pack_fields[] = {
     NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
     {FIELD(F64_LIST, density), 0, 0, 1e6, "kg/m^3",
      "density of the grains (rho_p), else 2650: one for all, or one for each shape (or as "
-     "density_of "
-     "says); 0: those of the aggregate's own parts, as its state.h5 has them; none beside a start, "
-     "which has its own",
+     "density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none "
+     "beside a start, which has its own",
      "", .common = true, .group = "density and mass"},
     CHOICE(density_of, 0, "shape|chance|class|list",
            "density lists one for each shape, or several to draw from whatever a grain's shape, or "
