@@ -232,8 +232,13 @@ static void rungs_are_sums_over_pairs(void **state)
         number[i] = i;
     }
     CHECK_OK(clast_domain_parse("box:0,0,0,2,1,1", &domain));
-    const clx_sample sample = {
-        .domain = &domain, .n_test = N, .n = N, .n_real = N, .u = u, .number = number};
+    const clx_sample sample = {.comm = clast_comm_one(),
+                               .domain = &domain,
+                               .n_test = N,
+                               .n = N,
+                               .n_real = N,
+                               .u = u,
+                               .number = number};
     CHECK_OK(clx_ladder_count(clast_comm_one(), &sample, weight, &ladder));
     assert_true(ladder.first == 0 && ladder.n >= 4);
     for (int32_t r = 0; r < ladder.n; ++r) {

@@ -505,7 +505,6 @@ static void density_goes_with_the_shape(void **state)
     b.config.spacing = 8.2e-3;
     b.input.n_shape = 2;
     b.input.shape = both;
-    double *const old = b.config.density.item;
     b.config.density = (clast_f64_list){2, density};
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     CHECK_OK(clast_pack_advance(pack, 1));
@@ -524,7 +523,7 @@ static void density_goes_with_the_shape(void **state)
     pack = NULL;
     density[0] = 900.0; /* one of two floats */
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
-    b.config.density = (clast_f64_list){1, old};
+    b.config.density = (clast_f64_list){0, NULL};
     b.input.n_shape = 1;
     for (int k = 0; k < 2; ++k) {
         clast_shape_free(&both[k]);
@@ -546,7 +545,6 @@ static void density_is_drawn_by_weight(void **state)
         bed b;
         clast_pack *pack = NULL;
         begin(&b);
-        double *const old = b.config.density.item;
         b.config.spacing = 8.2e-3;
         b.config.dem.width = 0.15;
         b.config.dem.height = 0.3;
@@ -555,7 +553,7 @@ static void density_is_drawn_by_weight(void **state)
         b.config.density_of = CLAST_PACK_DENSITY_CHANCE;
         b.config.density_weight = (clast_f64_list){2, weight};
         if (k == 1) {
-            b.config.density = (clast_f64_list){1, old};
+            b.config.density = (clast_f64_list){1, density};
             b.config.density_of = CLAST_PACK_DENSITY_SHAPE;
             b.config.density_weight = (clast_f64_list){0, NULL};
         }
@@ -584,7 +582,7 @@ static void density_is_drawn_by_weight(void **state)
             CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
         }
         b.config.density_weight = (clast_f64_list){0, NULL};
-        b.config.density = (clast_f64_list){1, old};
+        b.config.density = (clast_f64_list){0, NULL};
         end(&b);
     }
     assert_memory_equal(size[0], size[1], sizeof size[0]);
@@ -738,14 +736,15 @@ static void what_cannot_work_is_refused(void **state)
     (void)state;
     bed b;
     clast_pack *pack = NULL;
+    double density = 900.0;
     begin(&b);
     b.config.mass = 5.0;
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "cannot fit"));
     b.config.mass = 0.02;
-    b.config.density.item[0] = 900.0;
+    b.config.density = (clast_f64_list){1, &density};
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
-    b.config.density.item[0] = 2650.0;
+    b.config.density = (clast_f64_list){0, NULL};
     b.config.dem.width = 5e-3; /* narrower than a grain */
     b.config.mass = 1e-4;
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_GEOMETRY);
