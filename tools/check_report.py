@@ -72,6 +72,7 @@ AXE_RUN = """axe.run(document).then(r => r.violations.filter(v => ["serious", "c
     .map(v => `axe ${v.id}: ${v.nodes[0].html.slice(0, 160)}`))"""
 PREFIXED = {"Pa s", "m", "s", "Pa", "kg", "N", "J", "g", "m2", "m3", "m\u00b2", "m\u00b3"}
 TURNS = 12
+REPEATS = 3  # of what is measured: the least counts, for other work on the machine only adds
 # What a view does after its first picture (the timing of surfaces) would be counted with it on a busy machine.
 NO_MORE = "(() => { const later = setTimeout; window.setTimeout = (what, ms) => ms === 200 ? 0 : later(what, ms); })()"
 DRAWN = """new Promise(done => { document.querySelector('.view').scrollIntoView(); const look = () => clastViews.open.length ? requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())))
@@ -176,13 +177,16 @@ def ask_of_card(browser, name, expression, n):
 
 
 def measure(browser, page, n, pictures):
-    """Size, time to the first picture, frames a second while it turns; CPU seconds too, for a busy machine."""
+    """Size, time to the first picture, frames a second while it turns; CPU seconds too, and the least of some, for a busy machine."""
     browser.screen(1200, 900, False)
     paused = browser.call("Page.addScriptToEvaluateOnNewDocument", source=NO_MORE)["identifier"]
-    began = browser.cpu()
-    browser.open(page.as_uri())
-    first = browser.value(DRAWN) / 1e3
-    cost = browser.cpu() - began
+    first, cost = math.inf, math.inf
+    for _ in range(REPEATS):
+        browser.open("about:blank")
+        began = browser.cpu()
+        browser.open(page.as_uri())
+        first = min(first, browser.value(DRAWN) / 1e3)
+        cost = min(cost, browser.cpu() - began)
     browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=paused)
     browser.open(page.as_uri())
     browser.value(DRAWN)
@@ -193,10 +197,13 @@ def measure(browser, page, n, pictures):
     turning = (browser.cpu() - began) / TURNS
     browser.value(COUNTED)
     browser.call("Performance.enable", timeDomain="threadTicks")
-    _, dots = ask_of_card(browser, "dots", f"Object.assign(clastViews.open[0], {{isSlow: true, isMoving: true}}), {TURNED}({TURNS})", TURNS)
-    began = browser.cpu()
-    whole, surfaces = ask_of_card(browser, "surfaces", WHOLE, 1)
-    drawn = browser.cpu() - began
+    as_dots = f"Object.assign(clastViews.open[0], {{isSlow: true, isMoving: true}}), {TURNED}({TURNS})"
+    dots = min(ask_of_card(browser, "dots", as_dots, TURNS)[1] for _ in range(REPEATS))
+    whole, surfaces, drawn = math.inf, math.inf, math.inf
+    for _ in range(REPEATS):
+        began = browser.cpu()
+        took_whole, own = ask_of_card(browser, "surfaces", WHOLE, 1)
+        whole, surfaces, drawn = min(whole, took_whole), min(surfaces, own), min(drawn, browser.cpu() - began)
     size = page.stat().st_size
     print(f"report: {n} grains, {size / 1e6:.1f} MB; first picture after {first:.2f} s ({cost:.2f} s of CPU); turning {1e3 / took:.1f} frames a second "
           f"({turning * 1e3:.0f} ms of CPU a frame, {coarse} of {TURNS} as dots); all surfaces {whole:.0f} ms ({drawn * 1e3:.0f} ms of CPU); no graphics card", flush=True)

@@ -208,10 +208,10 @@ function release(view) {
   view.box.remove();
 }
 
-/// Makes room for one more; where a view of the page was, a button brings it back.
-function makeRoom() {
+/// Makes room for one more beside a view that is kept; where a view of the page was, a button brings it back.
+function makeRoom(kept) {
   if (open.length < MAX_VIEWS) return;
-  const oldest = open[0];
+  const oldest = open.find((view) => view !== kept);
   if (oldest.first) oldest.first.second = null;
   release(oldest);
   if (!oldest.first) offer(oldest.source);
@@ -223,7 +223,7 @@ function showBeside(view, other) {
   view.second = null;
   view.source.host.classList.toggle('two', other !== null);
   if (other !== null) {
-    makeRoom();
+    makeRoom(view);
     const renderer = newRenderer();
     if (!renderer) {
       view.source.host.classList.remove('two');

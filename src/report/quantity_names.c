@@ -22,11 +22,10 @@ static const struct {
 
 static const struct {
     const char *ending, *unit;
-} endings[] = {{"_kg/m^3", "kg/m^3"}, {"_kg/m3", "kg/m^3"}, {"_kg_m3", "kg/m^3"},
-               {"_1/m", "1/m"},       {"_m/s", "m/s"},      {"_m3", "m^3"},
-               {"_m2", "m^2"},        {"_kg", "kg"},        {"_rad", "rad"},
-               {"_deg", "deg"},       {"_Pa", "Pa"},        {"_J", "J"},
-               {"_N", "N"},           {"_um", "um"},        {"_mm", "mm"},
+} endings[] = {{"_kg/m^3", "kg/m^3"}, {"_kg/m3", "kg/m^3"}, {"_kg_m3", "kg/m^3"}, {"_1/m", "1/m"},
+               {"_m/s", "m/s"},       {"_m3", "m^3"},       {"_m2", "m^2"},       {"_kg", "kg"},
+               {"_rad", "rad"},       {"_deg", "deg"},      {"_Pa", "Pa"},        {"_J", "J"},
+               {"_N", "N"},           {"_Nm", "N m"},       {"_um", "um"},        {"_mm", "mm"},
                {"_m", "m"},           {"_s", "s"}};
 
 /// What a name may begin with; the rest is a known name: "mean_d_agg" is "Aggregate diameter,
@@ -110,10 +109,40 @@ static bool find_of_envelope(name key, const char *place, clx_quantity *q)
     return false;
 }
 
+/// Columns of walls.csv, each after the name of its wall or outlet: "piston_force_z".
+static bool find_of_wall(name key, const char *place, clx_quantity *q)
+{
+    enum { N_OF_WALL = 11 }; // then those of an outlet
+    static const char *const of[][3] = {{"_force_x", "force along x", "N"},
+                                        {"_force_y", "force along y", "N"},
+                                        {"_force_z", "force along z", "N"},
+                                        {"_torque_x", "torque about x", "N m"},
+                                        {"_torque_y", "torque about y", "N m"},
+                                        {"_torque_z", "torque about z", "N m"},
+                                        {"_work", "work on the grains", "J"},
+                                        {"_angle", "angle", "rad"},
+                                        {"_x", "x", "m"},
+                                        {"_y", "y", "m"},
+                                        {"_z", "z", "m"},
+                                        {"_n", "grains that left", ""},
+                                        {"_kg", "mass that left", "kg"}};
+    for (size_t k = 0; place != NULL && strcmp(place, "walls") == 0 && k < sizeof of / sizeof *of;
+         ++k) {
+        const bool is_outlet = begins(key, "outlet_");
+        if (ends(key, of[k][0]) && (k < N_OF_WALL || is_outlet)) {
+            const int n = (int)(key.n - strlen(of[k][0]));
+            (void)snprintf(q->label, sizeof q->label, "%.*s, %s", n, key.text, of[k][1]);
+            q->unit = of[k][2];
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool find_plain(name key, const char *place, clx_quantity *q)
 {
     char words[CLX_QUANTITY_SIZE];
-    if (find(key, place, q) || find_of_envelope(key, place, q)) {
+    if (find(key, place, q) || find_of_envelope(key, place, q) || find_of_wall(key, place, q)) {
         return true;
     }
     if (find_envelope(key, words)) {

@@ -348,6 +348,29 @@ static void place_of(const clx_run *run, const char *key, char place[CLX_QUANTIT
                    clx_run_is_without_unit(run) ? CLX_MODEL_UNITS : "", key);
 }
 
+/// True where a part with a spread has plain values too, which its table of parts leaves out: the
+/// level of its intervals is in the title.
+static bool has_plain_value(const json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (is_scalar(value) && strcmp(key, "confidence") != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void put_pairs_card(clx_file *file, const char *key, const char *place, const json_t *value)
+{
+    (void)clx_file_print(file, "<div class=\"card\"><h4>");
+    clx_quantity_put_label(file, key, NULL);
+    (void)clx_file_print(file, "</h4>");
+    put_pairs(file, value, place);
+}
+
 static void put_part(clx_file *file, const clx_run *run, const char *key, const json_t *value,
                      int32_t rows)
 {
@@ -359,11 +382,11 @@ static void put_part(clx_file *file, const clx_run *run, const char *key, const 
     if (json_is_array(value) && json_array_size(value) > 0) {
         put_list(file, key, place, value, rows);
     } else if (is_flat(value)) {
-        (void)clx_file_print(file, "<div class=\"card\"><h4>");
-        clx_quantity_put_label(file, key, NULL);
-        (void)clx_file_print(file, "</h4>");
-        put_pairs(file, value, place);
+        put_pairs_card(file, key, place, value);
     } else if (json_is_object(value) && first_row(value) != NULL) {
+        if (has_plain_value(value)) {
+            put_pairs_card(file, key, place, value);
+        }
         put_spread(file, key, value);
     }
 }

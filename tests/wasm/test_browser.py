@@ -46,6 +46,28 @@ class Split(page.Live):
                     one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(".svg")}
                 self.assertEqual(here, there)
 
+    def test_an_answer_belongs_to_its_points(self):
+        """Points that came while others were split had the cells of those; a run that failed left the result of the one before."""
+        self.click("[data-make=cluster]")
+        self.split()
+        self.set(**{"more": "--help"})
+        self.split()
+        self.assertIn("in a terminal: clast decompose", self.text("error"))
+        self.assertTrue(self.browser.value("document.getElementById('result').hidden"))
+        self.assertEqual(self.text("state"), "")
+        self.set(**{"more": ""})
+        self.browser.value("document.getElementById('run').click(), document.querySelector('[data-make=even]').click()")
+        self.assertEqual(self.text("state"), "cancelled")
+        self.until("splitter.isReady", 60)
+        time.sleep(1)
+        self.assertEqual(self.browser.value("[state.result, state.running, document.getElementById('result').hidden]"), [None, False, True])
+        self.split()
+        self.assertEqual(self.text("error"), "")
+
+    def set(self, **values):
+        for name, value in values.items():
+            self.browser.value(f"document.getElementById({json.dumps(name)}).value = {json.dumps(value)}")
+
     def test_a_cloud_is_split_and_the_command_repeats_it(self):
         self.click("[data-make=cluster]")
         self.split()

@@ -124,6 +124,17 @@ class Old(unittest.TestCase):
                 self.assertEqual([line.startswith(self.LINE) for line in lines], [True] * 3, lines)
                 self.assertEqual(told, [])
 
+    def test_the_word_of_it_stays(self):
+        """A click emptied the line."""
+        one = browser.Browser(browser.WEBGL)
+        self.addCleanup(one.close)
+        one.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.DecompressionStream")
+        one.open(PAGE.as_uri() + "#split")
+        time.sleep(1)
+        one.value("document.querySelector('[data-make=cluster]').click(), document.getElementById('grow-run').click()")
+        for name in ("error", "grow-error"):
+            self.assertTrue(one.value(f"document.getElementById('{name}').textContent").startswith(self.LINE))
+
     def test_a_script_that_cannot_be_read_is_told(self):
         text = PAGE.read_text()
         script = max(re.findall(r"<script>(.*?)</script>", text, re.S), key=len)

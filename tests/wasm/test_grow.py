@@ -1,5 +1,6 @@
 """The room Grow of clast-live.html: an aggregate grows before the eyes, and the command that the page names grows the same."""
 import hashlib
+import time
 
 import jobs
 import page
@@ -55,6 +56,27 @@ class Grow(page.Live):
         self.assertEqual(self.text("grow-hash"), digest)
         self.open("grow=AAAA")
         self.assertIn("damaged", self.text("grow-error"))
+
+    def test_several_files_are_picked(self):
+        """The browser's list of them is empty once the field is; names that become the same are numbered."""
+        with page.Folder() as folder:
+            paths = [folder / name for name in ("one.csv", "two.csv", "sphere", "_sphere", " one.csv ")]
+            for path in paths:
+                path.write_text("size_um,count\n40,4\n60,3\n")
+            self.pick(paths)
+            self.until("rooms.grow.files.size === 5", 10)
+            self.pick(paths[:1])
+            time.sleep(0.3)
+        self.assertEqual(self.text("grow-given"), "own files: one.csv, two.csv, _sphere, _sphere_2, one_2.csv")
+
+    def test_a_refused_run_leaves_no_result(self):
+        self.set(replicate="2", rays="1", orientations="1", core="sphere")
+        self.grow()
+        self.assertFalse(self.browser.value("document.getElementById('grow-result').hidden"))
+        self.set(more="--no-such-option")
+        self.run_room()
+        self.assertRegex(self.text("grow-error"), "no-such-option")
+        self.assertEqual(self.browser.value("[document.getElementById('grow-result').hidden, document.getElementById('grow-moment').disabled]"), [True, True])
 
     def test_cancel_ends_at_once(self):
         self.set(replicate="400", rays="64", orientations="32")

@@ -43,6 +43,15 @@ class Pour(page.Live):
         self.assertNotIn("--max-steps", self.text("pour-command"))
         self.same()
 
+    def test_a_limit_of_steps_is_a_whole_number(self):
+        """A limit beyond that of the command was none."""
+        for text, wanted in (("+300", True), ("3e2", True), ("300.", True), ("1e17", False), ("0x10", False), ("2.5", False), ("many", False)):
+            with self.subTest(text):
+                self.set(**SMALL, max_steps=text)
+                self.run_room()
+                self.assertEqual(self.text("pour-error") == "", wanted, self.text("pour-error"))
+                self.assertEqual(self.browser.value("document.getElementById('pour-result').hidden"), not wanted)
+
     def test_step_by_step_and_back(self):
         self.set(**SMALL, pace="step")
         self.click("#pour-run")

@@ -25,6 +25,17 @@ class SameAnswer(unittest.TestCase):
                     one["files"] = {path: digest for path, digest in one["files"].items() if not path.endswith(CHARTS)}
                 self.assertEqual(here, there)
 
+    def test_files_of_any_name(self):
+        """A file `hasOwnProperty` ended the run by a fault, and `__proto__` was not found."""
+        done = subprocess.run(["node", pathlib.Path(__file__).with_name("names.mjs"), jobs.PACKAGE], capture_output=True, text=True, check=False, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual(told.pop("empty"), 0)
+        self.assertEqual(len(told), 5)
+        for name, found in told.items():
+            with self.subTest(name):
+                self.assertEqual(found, [0, 0, True, True, False])
+
     def test_workers_give_the_same_and_end_at_once(self):
         script = pathlib.Path(__file__).with_name("workers.mjs")
         done = subprocess.run(["node", script, jobs.PACKAGE, "2"], capture_output=True, text=True, check=False, timeout=600)

@@ -123,7 +123,7 @@ const MOST_BYTES = 64e6; // of a file
 
 /// A dropped file's name as one that a command line may hold, and that means nothing else there.
 function plainName(name, otherwise) {
-  const plain = name.replace(/^[-/\\]+|[/\\\0:]/g, '_').replace(/^[.\s]+$/, '') || otherwise;
+  const plain = name.trim().replace(/^[-/\\]+|[/\\\0:]/g, '_').replace(/^[.\s]+$/, '') || otherwise;
   return TAKEN.includes(plain) || GRAINS.has(plain) ? `_${plain}` : plain;
 }
 

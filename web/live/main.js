@@ -64,12 +64,12 @@ async function loadViewer() {
 }
 
 async function begin() {
+  if (typeof WebAssembly !== 'object' || !WebAssembly.validate(SIMD) || typeof BigInt !== 'function' || typeof DecompressionStream !== 'function') return; // old.js says so
   listenPage();
   draw();
   showRoom('grow');
   const isGiven = openAddress(location.hash);
   const failAll = (text) => Object.values(rooms).forEach((room) => { room.say(''); room.fail(text); });
-  if (typeof WebAssembly !== 'object' || !WebAssembly.validate(SIMD) || typeof BigInt !== 'function' || typeof DecompressionStream !== 'function') return; // old.js says so
   window.clastRuns = true;
   try {
     const viewer = loadViewer();

@@ -90,7 +90,7 @@ class PourRoom extends Room {
     const given = words.flatMap((word, k) => (MAX_STEPS.test(word) ? [word.includes('=') ? word.slice(word.indexOf('=') + 1) : words[k + 1] ?? ''] : []));
     const text = [this.value('max_steps') || '0', ...given].pop();
     this.limit = Number(text) || Infinity;
-    if (/^\d[\d.e+]*$/i.test(text) && Number.isInteger(Number(text))) return null;
+    if (/^\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && Number.isInteger(Number(text)) && Number(text) <= 9e15) return null;
     const ended = await this.engine.run([...this.words, `--max-steps=${text}`, '--json'], this.filesOf(this.words));
     return refusalOf(ended) ?? `--max-steps ${text}: a whole number of steps is wanted`;
   }

@@ -6,7 +6,7 @@ const GRAINS = new Map([...document.querySelectorAll('script[data-grain]')].map(
 
 class Room {
   constructor(name) {
-    Object.assign(this, { name, files: new Map(), past: [], view: null, fixed: null, words: null, result: null });
+    Object.assign(this, { name, files: new Map(), names: new Map(), past: [], view: null, fixed: null, words: null, result: null });
     this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => this.fail(text));
   }
 
@@ -95,12 +95,21 @@ class Room {
 
   // Files.
 
+  /// The name here of a file; where another file's has become the same, with a number.
+  nameOf(file) {
+    const plain = plainName(file.name, 'file');
+    let name = plain;
+    for (let k = 2; this.files.has(name) && (this.names.get(name) ?? name) !== file.name; k += 1) name = plain.replace(/(\.[^.]*)?$/, `_${k}$1`);
+    return name;
+  }
+
   async take(list) {
     this.fail('');
     for (const file of list) {
-      const name = plainName(file.name, 'file');
+      const name = this.nameOf(file);
       try {
         this.files.set(name, await bytesOfFile(file, this.command));
+        this.names.set(name, file.name);
         this.listFiles();
         this.given(name);
       } catch (fault) {
@@ -153,6 +162,9 @@ class Room {
     this.fail('');
     this.note();
     this.running = true;
+    this.result = null;
+    this.$('result').hidden = true;
+    this.$('moment').disabled = true;
     this.setReady();
     this.say('computing');
     const begun = performance.now();
@@ -230,7 +242,7 @@ class Room {
       if (event.target.type !== 'range') this.turnSliders();
       this.note();
     });
-    for (const input of form.querySelectorAll('input[type=file]')) input.addEventListener('change', () => { this.take(input.files); input.value = ''; });
+    for (const input of form.querySelectorAll('input[type=file]')) input.addEventListener('change', () => { this.take([...input.files]); input.value = ''; });
     this.$('cancel').addEventListener('click', () => this.cancel());
     this.$('undo').addEventListener('click', () => this.undo());
     this.$('copy').addEventListener('click', () => copy(commandOf(this.words), 'copied', (text) => this.say(text)));

@@ -3,7 +3,7 @@ const SIZE = 640; // of the picture, in its own pixels
 const EDGE = 14;
 const state = {
   name: null, text: null, columns: [], bounds: null, // the table and what the picture shows of it
-  strokes: [], painting: false, result: null, picked: -1, run: 0,
+  strokes: [], painting: false, result: null, picked: -1, running: false,
 };
 
 function say(text) { $('state').textContent = text; }
@@ -49,6 +49,7 @@ function boxAround(columns) {
 }
 
 function setPoints(name, text, domain) {
+  if (state.running) cancel();
   state.name = name;
   state.text = text;
   state.columns = typeof text === 'string' ? glance(text) : [];
@@ -99,6 +100,7 @@ function paintedText() {
 }
 
 function usePainted() {
+  if (state.running) cancel();
   $('undo').disabled = state.strokes.length === 0;
   if (state.strokes.length > 0) setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
   else { Object.assign(state, { text: null, columns: [], result: null }); $('given').textContent = 'no points yet'; setReady(); draw(); }
@@ -266,15 +268,26 @@ async function start() {
   $('run').disabled = true;
   $('cancel').disabled = false;
   say('computing');
-  await finish(await splitter.run(state.words, { [state.name]: state.text }));
+  $('result').hidden = true;
+  state.result = null;
+  state.running = true;
+  draw();
+  try {
+    await finish(await splitter.run(state.words, { [state.name]: state.text }));
+  } catch (fault) {
+    say('');
+    fail(`this page cannot show what clast answered (${fault.message}); in a terminal: ${commandOf(state.words)}`);
+  }
 }
 
 function cancel() {
+  state.running = false;
   splitter.cancel();
   say('cancelled');
 }
 
 async function finish(ended) {
+  state.running = false;
   const { result } = ended;
   const refusal = refusalOf(ended);
   const seconds = (performance.now() - state.begun) / 1000;

@@ -48,7 +48,7 @@ export function tableOf(points) {
 /// Numbers of a table as clast writes it (lines of # are notes): {column: Float64Array}.
 export function columnsOf(text) {
   const lines = text.split('\n').filter((line) => line && !line.startsWith('#'));
-  const names = lines[0].split(',');
+  const names = lines.length > 0 ? lines[0].split(',') : [];
   const columns = Object.fromEntries(names.map((name) => [name, new Float64Array(lines.length - 1)]));
   lines.slice(1).forEach((line, i) => line.split(',').forEach((cell, k) => { columns[names[k]][i] = cell === '' ? NaN : Number(cell); }));
   return columns;
@@ -65,6 +65,18 @@ class Bytes {
     for (const part of this.parts) { all.set(part, at); at += part.length; }
     return new TextDecoder().decode(all);
   }
+}
+
+/// A folder's names are keys of a plain object in emscripten, which has hasOwnProperty, __proto__, ... of its own: here of one that has none.
+function nameAnything(FS) {
+  const ops = FS.lookupPath('/').node.node_ops;
+  const { mknod } = ops;
+  ops.mknod = (...given) => {
+    const node = mknod(...given);
+    if (FS.isDir(node.mode)) node.contents = Object.create(null);
+    return node;
+  };
+  ops.readdir = (node) => ['.', '..', ...Object.keys(node.contents)];
 }
 
 function writeFiles(FS, files) {
@@ -89,7 +101,7 @@ function readFiles(FS, folder, prefix, given, found) {
     if (FS.isDir(node.mode)) readFiles(FS, path, `${prefix}${name}/`, given, found);
     else if (FS.isFile(node.mode)) {
       const bytes = FS.readFile(path);
-      if (!(`${prefix}${name}` in given) || !isSame(given[`${prefix}${name}`], bytes)) found[prefix + name] = bytes;
+      if (!Object.hasOwn(given, prefix + name) || !isSame(given[prefix + name], bytes)) found.set(prefix + name, bytes);
     }
   }
 }
@@ -141,6 +153,7 @@ export class Clast {
       },
     });
     const { FS } = module;
+    nameAnything(FS);
     FS.mkdirTree(HOME);
     FS.chdir(HOME);
     writeFiles(FS, files);
@@ -154,9 +167,9 @@ export class Clast {
       status = 4;
       err.push(new TextEncoder().encode(`clast: ended by WebAssembly: ${fault.message}; the same in a terminal: ${commandLine(words)}\n`));
     }
-    const found = {};
+    const found = new Map();
     readFiles(FS, HOME, '', files, found);
-    return { status, stdout: out.text(), stderr: err.text(), files: found };
+    return { status, stdout: out.text(), stderr: err.text(), files: Object.fromEntries(found) };
   }
 
   /// The same for a command with --json: its object; a ClastError where the exit code is another than 0.
