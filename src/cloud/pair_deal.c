@@ -41,7 +41,9 @@ static void deal_blocks(const clast_comm *comm, clx_pair_deal *deal)
     deal->begin = deal->end = 0;
     for (int32_t b = 0; b < deal->n_block; ++b) {
         const double middle = (before + 0.5 * deal->candidates[b]) / deal->work;
-        const int32_t owner = (int32_t)(middle * comm->n_rank);
+        const int32_t last = comm->n_rank - 1;
+        const int32_t owner =
+            middle * comm->n_rank < last ? (int32_t)(middle * comm->n_rank) : last;
         before += deal->candidates[b];
         deal->begin += owner < comm->rank ? 1 : 0;
         deal->end += owner <= comm->rank ? 1 : 0;

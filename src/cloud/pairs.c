@@ -466,7 +466,8 @@ clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
     CLX_TRY(clast_comm_agree(comm, check(domain, cloud, config), NULL));
     CLX_TRY(select_points(config, &w));
     CLX_TRY(make_cells(config, &w));
-    CLX_TRY(clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error));
+    status = clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error);
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
     CLX_TRY(sum_pairs(config->n_shell, &w, &made.n_repeated));
     made.n = w.n_all;
     made.n_outside = w.n_outside;

@@ -81,8 +81,8 @@ static clast_status check_points(const clast_cloud *cloud, int64_t before)
     }
     for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
         const double w = cloud->weight[i];
-        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0",
+        CLX_CHECK(w > 0.0 && w <= 1e60, CLAST_E_FORMAT, // sums of fourth powers are doubles
+                  "the weight of point %lld is %g; it must be a number > 0, 1e60 at most",
                   (long long)(before + i + 1), w);
     }
 done:

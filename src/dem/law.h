@@ -42,6 +42,8 @@ typedef struct clx_law {
     double adhesion;               ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
 } clx_law;
 
+enum { CLX_MOST_MATERIALS = 256 };
+
 /// Laws by the materials that touch: law[a n + b]; n 0: all contacts have the configuration's.
 typedef struct clx_laws {
     int32_t n;

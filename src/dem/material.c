@@ -3,8 +3,6 @@
 #include "dem/dem.h"
 #include <math.h>
 
-enum { MOST = 256 };
-
 clast_dem_contact clast_dem_contact_of(const clast_dem_config *c, bool at_wall)
 {
     if (c == NULL) {
@@ -45,7 +43,9 @@ clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n, const clast_dem_c
     CLX_ARGUMENTS(dem, contact);
     clast_status status = CLAST_OK;
     clx_law *law = NULL;
-    CLX_CHECK(n >= 1 && n <= MOST, CLAST_E_USAGE, "%d materials: 1 to %d", n, MOST);
+    bool has_history = dem->law.has_history;
+    CLX_CHECK(n >= 1 && n <= CLX_MOST_MATERIALS, CLAST_E_USAGE, "%d materials: 1 to %d", n,
+              CLX_MOST_MATERIALS);
     CLX_CHECK(dem->n_grain == 0 && dem->laws.n == 0, CLAST_E_USAGE,
               "contacts by materials are given once, before the first grain");
     CLX_TRY(clx_walls_begin(dem));
@@ -59,10 +59,11 @@ clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n, const clast_dem_c
                 goto done;
             }
             law[a * n + b] = law[b * n + a] = clx_law_of_contact(&dem->config, c);
-            dem->law.has_history = dem->law.has_history || law[a * n + b].has_history;
+            has_history = has_history || law[a * n + b].has_history;
         }
     }
     dem->laws = (clx_laws){n, law};
+    dem->law.has_history = has_history;
     law = NULL;
 done:
     clx_free(law);
@@ -98,7 +99,7 @@ done:
 bool clx_grains_rub(const clast_dem *dem)
 {
     const int32_t n = dem->laws.n;
-    bool is_used[MOST] = {false};
+    bool is_used[CLX_MOST_MATERIALS] = {false};
     bool rub = n == 0 && dem->law.friction[0] > 0.0;
     for (int32_t i = 0; i < dem->n_body && n > 0; ++i) {
         is_used[dem->body[i].material] = true;

@@ -91,7 +91,8 @@ static clast_status reserve_local(clast_dem *whole, int64_t n_grain, int64_t n_i
     CLX_TRY(clx_grains_reserve(local, n_grain));
     CLX_TRY(clx_items_reserve_all(local, n_item));
     CLX_TRY(clx_grow(&r->number, &r->number_capacity, n_grain, sizeof *r->number));
-    CLX_TRY(clx_grow(&r->is_ghost, &r->is_ghost_capacity, n_grain, sizeof *r->is_ghost));
+    // never NULL, which tells a rank's own simulation
+    CLX_TRY(clx_grow(&r->is_ghost, &r->is_ghost_capacity, n_grain + 1, sizeof *r->is_ghost));
     local->number = r->number;
     local->is_ghost = r->is_ghost;
 done:

@@ -123,7 +123,7 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
     removal r = {.goes = goes};
     clx_energy_held before = {0};
     CLX_TRY(clx_dem_gather_all(dem)); // rank 0 has all pairs then
-    CLX_TRY(clx_alloc(&r.item, dem->n_item, sizeof *r.item));
+    CLX_TRY(clx_dem_agree(dem, clx_alloc(&r.item, dem->n_item, sizeof *r.item)));
     if (dem->energy != NULL) {
         before = clx_energy_held_now(dem);
     }

@@ -75,6 +75,8 @@ static int64_t parent_of(const clx_h5 *h5, const char *name)
 clast_status clx_h5_plain_add(clx_h5 *h5, const char *name, int64_t *number)
 {
     clast_status status = CLAST_OK;
+    clx_free(h5->member);
+    h5->member = NULL;
     clx_h5_node made = {.hash = hash_of(name)};
     int64_t parent = -1;
     CLX_TRY(grow_slots(h5));
@@ -138,6 +140,7 @@ void clx_h5_close(clx_h5 *h5)
     if (h5 != NULL) {
         clx_free(h5->node);
         clx_free(h5->slot);
+        clx_free(h5->member);
         clx_free(h5);
     }
 }
@@ -428,23 +431,37 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
+/// Sorts the names of a folder's members, kept until a name is added.
+static clast_status list_members(clx_h5 *h5, int64_t folder)
+{
+    clast_status status = CLAST_OK;
+    if (h5->member != NULL && h5->listed == folder) {
+        return CLAST_OK;
+    }
+    clx_free(h5->member);
+    h5->member = NULL;
+    CLX_TRY(clx_alloc(&h5->member, h5->n, sizeof *h5->member));
+    h5->listed = folder;
+    h5->n_member = 0;
+    for (int64_t i = h5->node[folder].first; i > 0; i = h5->node[i].next) {
+        h5->member[h5->n_member++] = h5->node[i].name;
+    }
+    qsort(h5->member, (size_t)h5->n_member, sizeof *h5->member, by_name);
+done:
+    return status;
+}
+
 clast_status clx_h5_member(clx_h5 *h5, const char *folder, int64_t index,
                            char name[CLX_H5_NAME_LIMIT])
 {
     CLAST_ASSERT(index >= 0);
     clast_status status = CLAST_OK;
-    const char **member = NULL;
-    int64_t n = 0;
     int64_t at = 0;
     CLX_TRY(take_folder(h5, folder, &at));
-    CLX_TRY(clx_alloc(&member, h5->n, sizeof *member));
-    for (int64_t i = h5->node[at].first; i > 0; i = h5->node[i].next) {
-        member[n++] = h5->node[i].name;
-    }
-    CLX_CHECK(index < n, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label, folder, index);
-    qsort(member, (size_t)n, sizeof *member, by_name);
-    (void)snprintf(name, CLX_H5_NAME_LIMIT, "%s", strrchr(member[index], '/') + 1);
+    CLX_TRY(list_members(h5, at));
+    CLX_CHECK(index < h5->n_member, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label,
+              folder, index);
+    (void)snprintf(name, CLX_H5_NAME_LIMIT, "%s", strrchr(h5->member[index], '/') + 1);
 done:
-    clx_free(member);
     return status;
 }

@@ -36,6 +36,8 @@ struct clx_h5 {
     int64_t n, capacity;
     int64_t *slot; ///< [n_slot] a power of two, half of them empty (0): numbers + 1 by their hash
     int64_t n_slot;
+    char **member; ///< [n_member] names of folder `listed`, sorted; NULL: none is listed
+    int64_t listed, n_member;
 };
 
 static inline int64_t clx_h5_plain_width(clx_h5_type type)

@@ -11,6 +11,7 @@
 
 enum {
     DEPTH_LIMIT = 16,
+    MOST_ATTRIBUTES = 1024, // of one object; each new name is compared with all
     HEAD = 10,
     DATASPACE = 1,
     DATATYPE = 3,
@@ -165,6 +166,9 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
     const char *name = next_bytes(&s, n_name);
     if (version != 3) {
         return foreign(f);
+    }
+    if (f->h5->node[number].n_attribute >= MOST_ATTRIBUTES) {
+        return damaged(f);
     }
     if (name == NULL || n_name < 2 || memchr(name, '\0', (size_t)n_name) != name + n_name - 1 ||
         !take_type(&s, &is_text, &type, &size) || !take_space(&s, &space) || space.rank != 0 ||

@@ -1,6 +1,7 @@
 #pragma once
-// Sums of powers of positive weights in fixed point, two words a sum: exact, so that weights may
-// come in any order and on any rank. Where the greatest weight and the number of weights are known
+// Sums of powers of positive weights in fixed point, two words a sum: a term is cut off at
+// 2^(-2 bits) of the greatest one's power, adding loses nothing, so that weights may come in any
+// order and on any rank. Where the greatest weight and the number of weights are known
 // these sums cost a tenth of those of math/exact_sum.h, in memory and time.
 #include <math.h>
 #include <stdint.h>

@@ -284,6 +284,8 @@ clast_status clx_pack_materials_begin(clast_pack *p)
     CLX_TRY(clx_alloc(&of_shape, n_name, sizeof *of_shape));
     CLX_TRY(name_materials(&m, of_shape));
     m.n = m.n_grain + p->dem->walls.n;
+    CLX_CHECK(m.n <= CLX_MOST_MATERIALS, CLAST_E_CONFIG,
+              "%d materials, each wall its own; at most %d", m.n, CLX_MOST_MATERIALS);
     CLX_TRY(clx_alloc(&m.table, (int64_t)m.n * m.n, sizeof *m.table));
     for (int32_t k = 0; k < m.n * m.n; ++k) {
         m.table[k] = clast_dem_contact_of(&c->dem, k % m.n >= m.n_grain);

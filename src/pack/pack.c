@@ -353,13 +353,11 @@ done:
     return status;
 }
 
-static clast_status series_row_due(clast_pack *p)
+clast_status clx_pack_rows(clast_pack *p)
 {
-    const int64_t step = clast_dem_n_step(p->dem);
     const int64_t n = p->series.n_row;
-    const bool is_due = step % steps_of(p, p->config.series_time) == 0 &&
-                        (n == 0 || clast_table_numbers(&p->series, "step")[n - 1] < (double)step);
-    if (!is_due) {
+    if (n > 0 &&
+        clast_table_numbers(&p->series, "step")[n - 1] >= (double)clast_dem_n_step(p->dem)) {
         return CLAST_OK;
     }
     clx_inner_unpack(p->dem);
@@ -371,6 +369,12 @@ static clast_status series_row_due(clast_pack *p)
         status = clx_pack_walls_row(p);
     }
     return clx_dem_agree(p->dem, status);
+}
+
+static clast_status series_row_due(clast_pack *p)
+{
+    const bool is_due = clast_dem_n_step(p->dem) % steps_of(p, p->config.series_time) == 0;
+    return is_due ? clx_pack_rows(p) : CLAST_OK;
 }
 
 /// What is due at this step, before it is taken.

@@ -132,6 +132,9 @@ clast_status clx_pack_materials_begin(clast_pack *pack);
 clast_status clx_pack_series_begin(clast_pack *pack);
 clast_status clx_pack_series_row(clast_pack *pack);
 
+/// A row of each table over time for the step at hand, where there is none.
+CLX_SHARED clast_status clx_pack_rows(clast_pack *pack);
+
 /// Spreads its grains over ranks from the next step on; called by all, as all of its functions then
 /// are. Before the state is read or written, clx_pack_gather brings it to rank 0.
 CLX_SHARED clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm);

@@ -447,7 +447,7 @@ clast_status clx_pack_outlets(clast_pack *p)
         return CLAST_OK;
     }
     CLX_TRY(clx_dem_gather_grains(p->dem));
-    CLX_TRY(clx_alloc(&goes, n, sizeof *goes));
+    CLX_TRY(clx_dem_agree(p->dem, clx_alloc(&goes, n, sizeof *goes)));
     for (int32_t i = 0; i < n; ++i) {
         const clx_grain *g = &p->dem->grain[i];
         for (int32_t k = 0; k < p->n_outlet && goes[i] == 0; ++k) {

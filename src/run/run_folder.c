@@ -448,7 +448,7 @@ static clast_status end_badly(clast_run_folder *run, clast_status status)
     clx_run_state_line(run->path, &state, line);
     const bool can_go_on =
         state.can_resume && (is_stopped || status == CLAST_E_DISK || status == CLAST_E_MEMORY);
-    if (status == CLAST_E_CONVERGE) {
+    if (status == CLAST_E_CONVERGE && state.has_state && !state.can_resume) {
         (void)clx_fail(status, "%s; what there is until then is in %s", why, run->path);
     } else if (run->is_beside && !can_go_on) {
         (void)clx_run_remove_tree(run->path);

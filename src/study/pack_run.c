@@ -203,6 +203,7 @@ static clast_status keep_end(run *r)
 {
     char why[CLX_DETAIL_SIZE];
     (void)snprintf(why, sizeof why, "%s", clast_error_detail());
+    (void)clx_pack_rows(r->pack); // what ended the run may keep its last row from being measured
     clast_status status = clx_pack_gather(r->pack);
     if (r->folder != NULL && status == CLAST_OK) {
         status = clx_pack_write_end(r->folder, r->text, r->pack);
@@ -357,13 +358,22 @@ static clast_status find_origin(run *r, const char *folder, int64_t max_steps, o
                                 clast_pack_config *config)
 {
     clast_status status = CLAST_OK;
+    clx_run_state state = {0};
+    char line[CLX_RUN_LINE];
     CLX_TRY(find(folder, &from->found, &from->is_end));
+    CLX_TRY(clx_run_state_read(folder, &state));
+    clx_run_state_line(folder, &state, line);
+    CLX_CHECK(!from->is_end || strcmp(state.outcome, "failed") != 0, CLAST_E_USAGE, "%s", line);
     CLX_TRY(clast_fields_parse(from->found.path, from->found.config, clast_pack_fields, config));
+    if (config->start[0] != '\0' && config->density.n == 1 && config->density.item[0] == 2650.0) {
+        config->density.n = 0; // what runs of a start had until 0.1.0, and nothing acted on
+    }
     config->max_steps = max_steps > 0 || from->is_end ? max_steps : config->max_steps;
     if (is_first(r)) {
         CLX_TRY(clx_run_folder_resume(folder, "pack", r->monitor, &r->own));
     }
 done:
+    clx_run_state_free(&state);
     return status;
 }
 

@@ -72,7 +72,10 @@ class Load(Case):
         seen = clast("export", new / "state.h5", "-o", self.folder / "lost.csv")
         self.assertEqual(seen.code, 0, seen.err)
         self.assert_fails(5, *lost, "-o", self.folder / "alone", says=("until then is in",))
-        self.assertGreater(len(rows(self.folder / "alone" / "load.csv")), 1)
+        table = rows(self.folder / "alone" / "load.csv")
+        self.assertGreater(len(table), 1)
+        self.assertAlmostEqual(table[-1]["time_s"], 0.02, 3)  # the moment of the end is in it
+        self.assert_fails(2, "pack", "--resume", self.folder / "alone", "-q", says=("failed at", "begin it anew"))
 
     def test_poured_beds_have_the_book_and_their_old_bits(self):
         poured = ["pack", "--curve", "6mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",

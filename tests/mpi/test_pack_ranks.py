@@ -177,6 +177,17 @@ class Beds(Case):
         self.assertEqual(made["phase"], "done")
         self.assertIn("lid_force_z_N", (run / "walls.csv").read_text().splitlines()[0])
 
+    def test_ranks_without_grains_have_walls_that_move(self):
+        made, _ = self.same_files(
+            (2, 3), *SMALL, "--mass", "0.15g", "--height", "50mm", "--shapes", "ellipsoid:1,0.8,0.6",
+            "--max-steps", 4000, "--rule", "speed", "--wall", "floor vibrate 0,0,0.3mm 5ms")
+        self.assertLess(made["n_grain"], 4)
+
+    def test_materials_touch_by_their_own(self):
+        self.same_files((2, 3), *SMALL, "--domain", "box", "--mass", "6g", "--height", "40mm", "--max-steps", 1500, "--shapes", "sphere",
+                        "--shapes", "ellipsoid:1,0.7,0.5", "--material", "glass", "--material", "steel", "--contacts",
+                        "glass steel friction 0.9 restitution 0.7", "--contacts", "glass glass rolling_friction 0.2")
+
     def test_grains_leave_by_an_orifice(self):
         plate, gate = self.write_plate("plate.stl", 13, 8), self.write_plate("gate.stl", 8.5)
         made, _ = self.same_files(

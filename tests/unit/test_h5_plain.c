@@ -311,6 +311,19 @@ static void names_are_found_at_once(void **state)
     CHECK_OK(clx_h5_member(again, "/table", 41, name));
     assert_string_equal(name, "000041");
     clx_h5_close(again);
+    CHECK_OK(clx_h5_create(&again)); /* and of one folder, one by one */
+    for (int k = FOLDERS * EACH - 1; k >= 0; --k) {
+        const double x = k;
+        (void)snprintf(name, sizeof name, "/table/%06d", k);
+        CHECK_OK(clx_h5_write(again, name, CLX_H5_F64, 0, NULL, &x));
+    }
+    for (int k = 0; k < FOLDERS * EACH; ++k) {
+        char expected[CLX_H5_NAME_LIMIT];
+        (void)snprintf(expected, sizeof expected, "%06d", k);
+        CHECK_OK(clx_h5_member(again, "/table", k, name));
+        assert_string_equal(name, expected);
+    }
+    clx_h5_close(again);
     clx_h5_close(h5);
 }
 
