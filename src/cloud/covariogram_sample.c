@@ -287,7 +287,7 @@ static void sample_block(int64_t begin, int64_t end, int32_t worker, void *conte
         const bool is_map = s->domain->kind == CLAST_DOMAIN_MAP;
         const sequence q = sequence_at(block / N_BLOCK, is_map ? 7 : 4);
         for (int64_t k = 0; k < BLOCK; ++k) {
-            double u[7];
+            double u[7] = {0.0};
             quasi(&q, block % N_BLOCK * BLOCK + k, u);
             if (is_map) {
                 add_point(s, u, s->sum + block * (s->n + 1));

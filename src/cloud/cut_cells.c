@@ -115,6 +115,7 @@ static clast_status leave_out_empty(const clx_sample *m, clast_cells *cells)
         status = clx_alloc(&moved, cells->n, sizeof *moved);
     }
     CLX_TRY(clast_comm_agree(m->comm, status, NULL));
+    CLAST_ASSERT(number != NULL && moved != NULL);
     for (int64_t i = 0; i < m->n; ++i) { // points on the surface
         const int32_t c = m->number[i] >= 0 ? cells->of_point[m->number[i]] : -1;
         if (c >= 0 && !(cells->volume[c] > 0.0)) {

@@ -48,12 +48,16 @@ clast_status clx_pair_cells_make(const clx_pair_cells *grid, const double *x, in
                                  clx_pair_cells *cells);
 void clx_pair_cells_free(clx_pair_cells *cells);
 
+/// Stretches of keys first[0 .. n], and what is summed of the cells in each.
+typedef struct clx_pair_blocks {
+    int32_t n;
+    const uint64_t *first;
+    clx_pair_sum *sum;   ///< [n][n_shell], zeros
+    int64_t *n_repeated; ///< [n] ordered pairs at the distance 0
+} clx_pair_blocks;
+
 /// Sums over all pairs closer than radius[n_shell - 1], at most twice the cells' side; shell k
 /// holds distances radius[k - 1] <= r < radius[k]. First points of the cells in the blocks
-/// first[b] <= key < first[b + 1]; their neighbours must be there.
-///
-/// @param first  [n_block + 1]    @param sum  [n_block][n_shell], zeros
-/// @param n_repeated  [n_block] ordered pairs at the distance 0
+/// block.first[b] <= key < block.first[b + 1]; their neighbours must be there.
 clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domain, int32_t n_shell,
-                                const double *radius, int32_t n_block, const uint64_t *first,
-                                clx_pair_sum *sum, int64_t *n_repeated);
+                                const double *radius, clx_pair_blocks block);

@@ -385,16 +385,15 @@ static void measure_safe(int64_t begin, int64_t end, int32_t worker, void *conte
 }
 
 clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domain, int32_t n_shell,
-                                const double *radius, int32_t n_block, const uint64_t *first,
-                                clx_pair_sum *sum, int64_t *n_repeated)
+                                const double *radius, clx_pair_blocks block)
 {
     clast_status status = CLAST_OK;
     job w = {.cells = cells,
              .domain = domain,
              .n_shell = n_shell,
-             .key = first,
-             .sum = sum,
-             .repeated = n_repeated};
+             .key = block.first,
+             .sum = block.sum,
+             .repeated = block.n_repeated};
     for (int32_t k = 0; k < n_shell; ++k) {
         w.square[k] = radius[k] * radius[k];
     }
@@ -402,7 +401,7 @@ clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domai
     fill_table(&w);
     CLX_TRY(clx_alloc(&cells->safe2, cells->n + CLX_PAIR_PAD, sizeof *cells->safe2));
     clx_parallel_for(cells->n, CHUNK, measure_safe, &w);
-    clx_parallel_for(n_block, 1, sum_block, &w);
+    clx_parallel_for(block.n, 1, sum_block, &w);
 done:
     return status;
 }

@@ -110,9 +110,10 @@ static double measure_points(const job *w, double low[3])
     const int32_t d = w->domain->dimension;
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double extent = 0.0;
+    CLAST_ASSERT(d >= 2 && d <= 3);
     low[0] = low[1] = low[2] = INFINITY;
     for (int64_t i = 0; i < w->n; ++i) {
-        double place[3];
+        double place[3] = {0.0};
         find_place(w, w->cloud->x + w->number[i] * d, place);
         for (int32_t j = 0; j < d; ++j) {
             low[j] = fmin(low[j], place[j]);
@@ -263,8 +264,8 @@ static clast_status sum_pairs(int32_t n_shell, job *w, int64_t *n_repeated)
     const int64_t size = n_shell * (int64_t)sizeof *sum;
     status = clx_alloc(&sum, (int64_t)n_block * n_shell, sizeof *sum);
     if (status == CLAST_OK) {
-        status = clx_pair_cells_sum(&w->cells, w->domain, n_shell, w->radius, n_block,
-                                    w->deal.first + w->deal.begin, sum, repeated);
+        const clx_pair_blocks block = {n_block, w->deal.first + w->deal.begin, sum, repeated};
+        status = clx_pair_cells_sum(&w->cells, w->domain, n_shell, w->radius, block);
     }
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     CLX_TRY(clx_comm_share(w->comm, sum, n_block * size, &all));

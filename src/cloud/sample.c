@@ -299,6 +299,7 @@ clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose
                                  clx_sample *sample)
 {
     clast_status status = CLAST_OK;
+    CLAST_ASSERT(sample->domain != NULL);
     if (cloud->weight != NULL) {
         CLX_TRY(thin(cloud, config->seed, sample));
     }

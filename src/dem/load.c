@@ -74,12 +74,13 @@ static void take_contact(const clast_dem *dem, const clx_dem_pair *pair,
                          const clx_pair_force *force, const clx_dem_touch *t, contact *out)
 {
     clx_meeting m;
+    clx_contact_history none = {0};
     *out = (contact){
         .a = pair->touches != 0 ? pair->a : -1, .b = pair->b >= 0 ? pair->b : -1, .is_first = true};
     if (out->a < 0) {
         return;
     }
-    clx_meet_pair(dem, pair, NULL, t, &m);
+    clx_meet_pair(dem, pair, &none, t, &m);
     out->stiffness = clx_law_stiffness(&dem->law, &m);
     v3_copy(out->force, force->force);
     v3_copy(out->normal, t->normal);

@@ -52,6 +52,16 @@ typedef struct {
     int32_t number;  ///< of the shape in the assembly; -1: not yet made
 } row_shape;
 
+static int by_axes(const row_shape *x, const row_shape *y)
+{
+    for (int k = 0; k < 3; ++k) {
+        if (x->axis[k] != y->axis[k]) {
+            return x->axis[k] < y->axis[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
 static int by_shape(const void *a, const void *b)
 {
     const row_shape *x = a;
@@ -59,10 +69,9 @@ static int by_shape(const void *a, const void *b)
     if (x->type != y->type) {
         return x->type < y->type ? -1 : 1;
     }
-    for (int k = 0; k < 3; ++k) {
-        if (x->axis[k] != y->axis[k]) {
-            return x->axis[k] < y->axis[k] ? -1 : 1;
-        }
+    const int axes = by_axes(x, y);
+    if (axes != 0) {
+        return axes;
     }
     return x->row < y->row ? -1 : x->row > y->row ? 1 : 0;
 }
@@ -101,8 +110,7 @@ static clast_status make_shapes(int32_t n, row_shape *rows, bool has_type, clast
         rows[k].number = -1;
         rows[k].n = 0;
         rows[k].head = begins ? k : rows[k - 1].head;
-        first =
-            begins || memcmp(rows[k].axis, rows[k - 1].axis, sizeof rows[k].axis) != 0 ? k : first;
+        first = begins || by_axes(&rows[k], &rows[k - 1]) != 0 ? k : first;
         shape[rows[k].row] = first;
     }
     for (int32_t i = 0; i < n; ++i) {

@@ -25,7 +25,8 @@ CLX_SHARED void clx_run_state_free(clx_run_state *state);
 enum { CLX_RUN_LINE = 1024 };
 
 /// One line about a run that is not whole.
-void clx_run_state_line(const char *folder, const clx_run_state *state, char line[CLX_RUN_LINE]);
+CLX_SHARED void clx_run_state_line(const char *folder, const clx_run_state *state,
+                                   char line[CLX_RUN_LINE]);
 
 /// True for an entry of the run's folder that the run wrote.
 bool clx_run_owns(const clx_run_state *state, const char *name);
