@@ -4155,7 +4155,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'mass': ('number', 1.0, 'kg', 1e-15, 1000000000000000.0, None, 'mass of the packing (m_tot)'),
         'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of sizes, forms, turns, velocities'),
         'material': ('texts', '', '-', None, None, None, "name of the grains' material, one for all shapes or one for each, for contacts"),
-        'contacts': ('texts', '', '-', None, None, None, "what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5e6,2e11Pa (law hertz; one number, or one of either side)"),
+        'contacts': ('texts', '', '-', None, None, None, "what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; one number, or one of either side)"),
         'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
         'start_unit': ('text', '', '-', None, None, None, 'length unit of the start, where it does not say'),
         'start_columns': ('text', '', '-', None, None, None, 'columns of its spheres in their order: id,x,y,z,d'),

@@ -69,7 +69,7 @@ const clast_field clast_pack_fields[] = {
      "what differs where two sides touch, later ones over earlier: two of grains, walls, "
      "materials, "
      "walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, "
-     "restitution 0.5, poisson, collision_time 100us (law linear), young 5e6,2e11Pa (law hertz; "
+     "restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; "
      "one number, or one of either side)",
      ""},
     TEXT(
