@@ -314,7 +314,7 @@ CLAST_API clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n,
 
 /// Material of a shape, before its first grain; of a wall (numbered as clast_dem_wall says).
 ///
-/// @return CLAST_E_USAGE for a shape, wall or material that is not there
+/// @return CLAST_E_USAGE for a shape, wall or material that is not there, or a shape with grains
 CLAST_API clast_status clast_dem_set_material(clast_dem *dem, int32_t shape, int32_t material);
 CLAST_API clast_status clast_dem_set_wall_material(clast_dem *dem, int32_t wall, int32_t material);
 

@@ -78,6 +78,10 @@ clast_status clast_dem_set_material(clast_dem *dem, int32_t shape, int32_t mater
               dem->n_body);
     CLX_CHECK(material >= 0 && material < dem->laws.n, CLAST_E_USAGE,
               "there is no material %d of %d", material, dem->laws.n);
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        CLX_CHECK(dem->grain[i].shape != shape, CLAST_E_USAGE,
+                  "shape %d has grains already: its material is set before", shape);
+    }
     dem->body[shape].material = material;
 done:
     return status;

@@ -146,6 +146,7 @@ static void blocks_stay_or_slide_by_their_own_friction(void **state)
         grain[k].orientation[2] = sin(0.5 * SLOPE);
     }
     CHECK_OK(clast_dem_add_grains(dem, 2, grain));
+    CHECK_STATUS(clast_dem_set_material(dem, 1, 0), CLAST_E_USAGE); /* it has a grain */
     CHECK_OK(clast_dem_step(dem, 100000));
     const double time = clast_dem_time(dem);
     for (int k = 0; k < 2; ++k) {
