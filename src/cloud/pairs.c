@@ -110,7 +110,7 @@ static double measure_points(const job *w, double low[3])
     const int32_t d = w->domain->dimension;
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double extent = 0.0;
-    CLAST_ASSERT(d >= 2 && d <= 3);
+    CLAST_ASSERT(d >= 1 && d <= 3);
     low[0] = low[1] = low[2] = INFINITY;
     for (int64_t i = 0; i < w->n; ++i) {
         double place[3] = {0.0};
