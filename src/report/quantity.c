@@ -151,13 +151,19 @@ void clx_quantity_format(double value, const clx_quantity_scale *scale,
 
 void clx_quantity_put(clx_file *file, double value, const char *si_unit)
 {
+    clx_quantity_put_like(file, value, si_unit, value);
+}
+
+void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, double like)
+{
     char text[CLX_QUANTITY_SIZE];
     if (!isfinite(value)) {
         (void)clx_file_print(file, "<span title=\"%s\">\342\200\223</span>",
                              isnan(value) ? "not known" : "infinite");
         return;
     }
-    const clx_quantity_scale scale = clx_quantity_scale_for(value, si_unit);
+    clx_quantity_scale scale = clx_quantity_scale_for(like, si_unit);
+    scale.has_floor = scale.has_floor && value == like; // a small deviation is no rounding error
     clx_quantity_format(value, &scale, text);
     (void)clx_file_print(file, "<span title=\"%.17g ", value);
     clx_page_text(file, plain_unit(si_unit));

@@ -54,5 +54,8 @@ void clx_quantity_put_name(clx_file *file, const char *key);
 /// Writes value and unit with the full value as a tooltip; nothing but a dash for nan and inf.
 void clx_quantity_put(clx_file *file, double value, const char *si_unit);
 
+/// The same in the unit in which `like` reads best: a row's numbers share one.
+void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, double like);
+
 /// Writes the word of the number, "2" of "no|yes" as the number itself.
 void clx_quantity_put_word(clx_file *file, double value, const char *words);

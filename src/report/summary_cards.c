@@ -25,11 +25,24 @@ static void put_head(clx_file *file, const char *key, const char *place, bool is
     (void)clx_file_print(file, "</th>");
 }
 
+/// A number in the unit in which `like` reads best.
+static void put_like(clx_file *file, const char *key, const char *place, double number, double like)
+{
+    clx_quantity_put_like(file, number, clx_quantity_of(key, place).unit, like);
+}
+
+/// True for the parts of {mean, deviation, low, high}.
+static bool is_of_mean(const char *key)
+{
+    return strcmp(key, "deviation") == 0 || strcmp(key, "low") == 0 || strcmp(key, "high") == 0;
+}
+
 /// A card with a row for each value that is neither object nor list.
 static void put_pairs(clx_file *file, const json_t *object, const char *place)
 {
     const char *key = NULL;
     json_t *value = NULL;
+    const double mean = json_number_value(json_object_get(object, "mean"));
     (void)clx_file_print(file, "<table class=\"pairs\">\n");
     json_object_foreach((json_t *)object, key, value)
     {
@@ -37,7 +50,11 @@ static void put_pairs(clx_file *file, const json_t *object, const char *place)
             (void)clx_file_print(file, "<tr><th>");
             clx_quantity_put_label(file, key, place);
             (void)clx_file_print(file, "</th><td>");
-            clx_value_put(file, key, place, value);
+            if (mean != 0.0 && is_of_mean(key) && json_is_number(value)) {
+                put_like(file, key, place, json_number_value(value), mean);
+            } else {
+                clx_value_put(file, key, place, value);
+            }
             (void)clx_file_print(file, "</td></tr>\n");
         }
     }
@@ -97,18 +114,35 @@ static void put_by_envelope(clx_file *file, const json_t *summary)
     json_decref(names);
 }
 
+/// The first number of a row that is not 0: the row's numbers have the unit in which it reads best.
+static double first_number(const json_t *row)
+{
+    const char *part = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)row, part, value)
+    {
+        if (json_number_value(value) != 0.0) {
+            return json_number_value(value);
+        }
+    }
+    return 0.0;
+}
+
 /// A part of a row; a deviation that is rounding alone is 0.
 static void put_spread_cell(clx_file *file, const char *place, const char *key, const char *part,
                             const json_t *row)
 {
     const double rounding = 1e-12 * fabs(json_number_value(json_object_get(row, "mean")));
-    json_t *value = json_object_get(row, part);
-    json_t *none = json_real(0.0);
-    const bool is_rounding = strcmp(part, "deviation") == 0 && json_is_real(value) &&
-                             fabs(json_real_value(value)) <= rounding;
-    clx_value_put_cell(file, strcmp(part, "pull") == 0 ? part : key, place,
-                       is_rounding ? none : value);
-    json_decref(none);
+    const json_t *value = json_object_get(row, part);
+    const double number = json_number_value(value);
+    const bool is_rounding = strcmp(part, "deviation") == 0 && fabs(number) <= rounding;
+    if (json_is_number(value) && strcmp(part, "pull") != 0) {
+        (void)clx_file_print(file, "<td class=\"n\">");
+        put_like(file, key, place, is_rounding ? 0.0 : number, first_number(row));
+        (void)clx_file_print(file, "</td>");
+    } else {
+        clx_value_put_cell(file, part, place, value);
+    }
 }
 
 /// A row of numbers that share the unit of `key`: {mean, low, ...}; "pull" counts errors.

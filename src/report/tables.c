@@ -17,8 +17,9 @@ typedef struct {
     clx_quantity quantity;
     clx_quantity_scale scale;
     const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
-    const clast_column *of;       ///< numbers that these are errors of, or NULL
-    bool is_name;                 ///< its texts are keys
+    const clast_column *of;       ///< values that errors and limits tell of, or NULL
+    bool is_error;
+    bool is_name; ///< its texts are keys
 } shown;
 
 static bool is_one_of(const char *text, const char *const *names, size_t n)
@@ -88,13 +89,12 @@ static clx_quantity_scale scale_of(const clast_table *table, int32_t c, const ch
     return clx_quantity_scale_for(most, si_unit);
 }
 
-/// The column whose errors a column "error" or "deviation" tells, or NULL.
-static const clast_column *column_of_error(const clast_table *table, const char *name)
+/// The column whose errors and limits others tell, or NULL.
+static const clast_column *column_of_value(const clast_table *table)
 {
-    const bool is_error = strcmp(name, "error") == 0 || strcmp(name, "deviation") == 0;
     const int32_t value = clast_table_find(table, "value");
     const int32_t of = value >= 0 ? value : clast_table_find(table, "mean");
-    return is_error && of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
+    return of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
 }
 
 static shown show(const clast_table *table, int32_t c, bool is_without_unit)
@@ -107,7 +107,8 @@ static shown show(const clast_table *table, int32_t c, bool is_without_unit)
                    table->name);
     shown s = {.column = column, .quantity = clx_quantity_of(column->name, place)};
     s.scale = scale_of(table, c, s.quantity.unit);
-    s.of = column_of_error(table, column->name);
+    s.of = column_of_value(table);
+    s.is_error = strcmp(column->name, "error") == 0 || strcmp(column->name, "deviation") == 0;
     s.is_name = is_one_of(column->name, names, sizeof names / sizeof *names);
     if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
         s.row_unit = units_of(table);
@@ -134,10 +135,10 @@ static void put_number(clx_file *file, const shown *s, int64_t row)
     CLAST_ASSERT(row >= 0);
     char text[CLX_QUANTITY_SIZE];
     const double told = s->column->number[row];
-    const bool is_rounding = s->of != NULL && fabs(told) <= 1e-12 * fabs(s->of->number[row]);
-    const double value = is_rounding ? 0.0 : told;
+    const double of = s->of != NULL ? s->of->number[row] : 0.0;
+    const double value = s->is_error && fabs(told) <= 1e-12 * fabs(of) ? 0.0 : told;
     if (s->row_unit != NULL) {
-        clx_quantity_put(file, value, s->row_unit->text[row]);
+        clx_quantity_put_like(file, value, s->row_unit->text[row], of != 0.0 ? of : value);
     } else if (!isfinite(value)) {
         (void)clx_file_print(file, "\342\200\223");
     } else if (s->quantity.words[0] != '\0') {

@@ -102,14 +102,15 @@ class Report(Case):
 
     def test_means_of_runs_have_the_units_of_what_they_are_of(self):
         # "Bed evaluated to: mean 0.02042" had none, and a deviation of 0 Pa was "0 GPa"
-        spread = {"mean": 0.0204, "deviation": 0.0, "low": 0.0203, "high": 0.0205}
-        self.put("summary.json", json.dumps({"n_run": 2, "z_high": spread, "stress": {"stress_xx": {**spread, "mean": 271.0}}}))
-        self.put("means.csv", "quantity,unit,mean,deviation,low,high\nz_high,m,0.0204,0,0.0203,0.0205\nstress_xx,Pa,271,0,270,272\n")
+        spread = {"mean": 0.0204, "deviation": 1.5e-5, "low": 0.0203, "high": 0.0205}
+        self.put("summary.json", json.dumps({"n_run": 2, "z_high": spread, "stress": {"stress_xx": {**spread, "mean": 271.0, "deviation": 0.0}}}))
+        self.put("means.csv", "quantity,unit,mean,deviation,low,high\nz_high,m,0.0204,1.5e-5,0.0203,0.0205\nstress_xx,Pa,271,0,270,272\n")
         self.assertEqual(clast("report", self.run_path).code, 0)
         page = self.page(os.path.join(self.run_path, "report.html"))
         text = seen(page)
-        self.assertRegex(text, r"Bed evaluated to\s+Mean\s+20\.40\s+mm")
-        self.assertRegex(text, r"(?s)Over|Quantity.*Bed evaluated to\s+20\.40\s+mm\s+0\s+m\s+20\.30\s+mm")
+        # a row's numbers have one unit: "20.40 mm, 15.00 \u00b5m" and "0 kg" beside "97.05 \u00b5g" were read wrongly
+        self.assertRegex(text, r"Bed evaluated to\s+Mean\s+20\.40\s+mm\s+Standard deviation\s+0\.01500\s+mm")
+        self.assertRegex(text, r"Quantity[^|]*Bed evaluated to\s+20\.40\s+mm\s+0\.01500\s+mm\s+20\.30\s+mm")
         self.assertNotIn("GPa", text)
         self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
 
