@@ -30,27 +30,34 @@ bool clx_scene_clip(const clx_scene *scene, const double origin[3], const double
     return *t_low <= *t_high;
 }
 
-/// The ray's interval on the kept side of the cut; false when empty.
-static bool set_out(clx_journey *j, double t_low, double t_high)
+/// Sends the rays through the scene, each in its interval on the kept side of the cut.
+static uint32_t send(clx_journey *j, const clx_scene *scene, int n, double t_low)
 {
-    bool is_entered = false;
-    j->t_low = t_low;
-    j->t_high = t_high;
-    return clx_scene_clip(j->scene, j->origin, j->direction, &j->t_low, &j->t_high, &is_entered);
+    CLAST_ASSERT(n <= CLX_BUNDLE);
+    j->scene = scene;
+    j->active = 0;
+    j->found = 0;
+    for (int r = 0; r < n; ++r) {
+        bool is_entered = false;
+        j->t_low[r] = t_low;
+        j->t_high[r] = INFINITY;
+        if (clx_scene_clip(scene, j->origin[r], j->direction[r], &j->t_low[r], &j->t_high[r],
+                           &is_entered)) {
+            j->active |= 1U << r;
+        }
+    }
+    clx_travel(j);
+    return j->found;
 }
 
-bool clx_scene_blocked(const clx_scene *scene, const double origin[3], const double direction[3],
-                       double t_low, double t_high)
+uint32_t clx_scene_blocked(const clx_scene *scene, int n, double (*origin)[3],
+                           double (*direction)[3], double t_low)
 {
     clx_journey j;
-    j.scene = scene;
     j.origin = origin;
     j.direction = direction;
-    j.found = false;
-    if (set_out(&j, t_low, t_high)) {
-        clx_travel_any(&j);
-    }
-    return j.found;
+    j.best = NULL;
+    return send(&j, scene, n, t_low);
 }
 
 /// Normals of a triangle hit in the shape's frame; `at` is lifted to the smooth surface that the
@@ -119,46 +126,42 @@ static void turn_to_world(const clx_scene_grain *grain, double v[3])
 }
 
 /// Fills point and normals of a hit and turns them towards the viewer.
-static void describe(const clx_journey *j, clx_scene_hit *hit)
+static void describe(const clx_scene *scene, const double origin[3], const double direction[3],
+                     clx_scene_hit *hit)
 {
-    const clx_scene_grain *grain = &j->scene->grain[hit->grain];
+    const clx_scene_grain *grain = &scene->grain[hit->grain];
     double at[3];
     double world[3];
-    v3_axpy(world, j->origin, hit->t, j->direction);
+    v3_axpy(world, origin, hit->t, direction);
     v3_sub(world, world, grain->position);
     to_local(grain, world, at);
-    local_surface(&j->scene->shape[grain->shape], hit, at, hit->face, hit->normal);
+    local_surface(&scene->shape[grain->shape], hit, at, hit->face, hit->normal);
     turn_to_world(grain, at);
     turn_to_world(grain, hit->face);
     turn_to_world(grain, hit->normal);
     v3_axpy(hit->point, grain->position, grain->scale, at);
-    hit->is_lifted = j->scene->shape[grain->shape].normal != NULL;
-    if (v3_dot(hit->face, j->direction) > 0.0) {
+    hit->is_lifted = scene->shape[grain->shape].normal != NULL;
+    if (v3_dot(hit->face, direction) > 0.0) {
         v3_scale(hit->face, -1.0, hit->face);
         v3_scale(hit->normal, -1.0, hit->normal);
-        v3_axpy(hit->point, j->origin, hit->t, j->direction); // the lift is for fronts only
+        v3_axpy(hit->point, origin, hit->t, direction); // the lift is for fronts only
         hit->is_lifted = false;
     }
 }
 
-bool clx_scene_hit_first(const clx_scene *scene, const double origin[3], const double direction[3],
-                         double t_low, double t_high, clx_scene_hit *hit)
+uint32_t clx_scene_hit_first(const clx_scene *scene, int n, double (*origin)[3],
+                             double (*direction)[3], double t_low, clx_scene_hit *hit)
 {
     clx_journey j;
-    j.scene = scene;
     j.origin = origin;
     j.direction = direction;
-    j.found = false;
-    if (!set_out(&j, t_low, t_high)) {
-        return false;
+    j.best = hit;
+    const uint32_t found = send(&j, scene, n, t_low);
+    for (uint32_t rays = found; rays != 0; rays &= rays - 1) {
+        const int r = __builtin_ctz(rays);
+        describe(scene, origin[r], direction[r], &hit[r]);
     }
-    clx_travel_first(&j);
-    if (!j.found) {
-        return false;
-    }
-    *hit = j.best;
-    describe(&j, hit);
-    return true;
+    return found;
 }
 
 static bool holds(const clx_scene *scene, int32_t g, const double point[3])

@@ -9,7 +9,7 @@
 #include <clast/assembly.h>
 #include <string.h>
 
-enum { TILE = 16, BAND = 4 };
+enum { TILE = CLX_SHADE_SIDE, BAND = 64 / TILE };
 
 #define FIELD(type, name) #name, .offset = offsetof(clast_render_config, name), type
 const clast_field clast_render_fields[] = {
@@ -94,16 +94,22 @@ static void store(const double light[4], int32_t background, uint8_t rgba[4])
 static void draw_tiles(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     picture *p = context;
+    const int32_t size[2] = {p->image->width, p->image->height};
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        const int32_t tile = p->first_tile + (int32_t)i;
-        const int32_t x0 = tile % p->tiles_across * TILE;
-        const int32_t y0 = tile / p->tiles_across * TILE;
-        for (int32_t y = y0; y < y0 + TILE && y < p->image->height; ++y) {
-            for (int32_t x = x0; x < x0 + TILE && x < p->image->width; ++x) {
-                double light[4];
-                clx_shade_pixel(p->shader, x, y, light);
-                store(light, p->config->background,
+        const int32_t tile[2] = {(p->first_tile + (int32_t)i) % p->tiles_across,
+                                 (p->first_tile + (int32_t)i) / p->tiles_across};
+        double light[TILE * TILE][4];
+        int32_t low[2];
+        int32_t high[2];
+        for (int k = 0; k < 2; ++k) {
+            low[k] = tile[k] * TILE;
+            high[k] = low[k] + TILE < size[k] ? low[k] + TILE : size[k];
+        }
+        clx_shade_block(p->shader, low, high, light);
+        for (int32_t n = 0, y = low[1]; y < high[1]; ++y) {
+            for (int32_t x = low[0]; x < high[0]; ++x) {
+                store(light[n++], p->config->background,
                       p->image->rgba + 4 * ((ptrdiff_t)y * p->image->width + x));
             }
         }

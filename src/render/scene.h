@@ -71,13 +71,14 @@ clast_status clx_scene_build(const clast_assembly *assembly, clast_render_shadin
                              clx_scene *scene);
 void clx_scene_free(clx_scene *scene);
 
-/// First surface between t_low >= 0 and t_high on the kept side; direction is a unit vector.
-bool clx_scene_hit_first(const clx_scene *scene, const double origin[3], const double direction[3],
-                         double t_low, double t_high, clx_scene_hit *hit);
+/// First surfaces that at most CLX_BUNDLE (render/travel.h) rays meet from t_low >= 0 on, on the
+/// kept side; directions are unit vectors. Bits of the rays that meet one: their hits are filled.
+uint32_t clx_scene_hit_first(const clx_scene *scene, int n, double (*origin)[3],
+                             double (*direction)[3], double t_low, clx_scene_hit *hit);
 
-/// True when anything on the kept side is hit between t_low >= 0 and t_high.
-bool clx_scene_blocked(const clx_scene *scene, const double origin[3], const double direction[3],
-                       double t_low, double t_high);
+/// Bits of those of n rays that meet anything on the kept side from t_low >= 0 on.
+uint32_t clx_scene_blocked(const clx_scene *scene, int n, double (*origin)[3],
+                           double (*direction)[3], double t_low);
 
 /// The grain that holds a point, the lowest-numbered, or -1.
 int32_t clx_scene_holder(const clx_scene *scene, const double point[3]);

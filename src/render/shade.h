@@ -19,5 +19,10 @@ clast_status clx_shader_set(clx_shader *shader, const clx_scene *scene,
                             const clast_render_config *config, const clx_camera *camera);
 void clx_shader_free(clx_shader *shader);
 
-/// Mean of a pixel's samples: linear light times alpha, and alpha.
-void clx_shade_pixel(const clx_shader *shader, int32_t x, int32_t y, double rgba[4]);
+/// Pixels of a block each way, and samples that are on their way at a time (some 140 kB).
+enum { CLX_SHADE_SIDE = 8, CLX_SHADE_LOOKS = 384 };
+
+/// Means of the samples of the pixels from low to before high, row by row, at most CLX_SHADE_SIDE
+/// each way: linear light times alpha, and alpha.
+void clx_shade_block(const clx_shader *shader, const int32_t low[2], const int32_t high[2],
+                     double (*rgba)[4]);

@@ -7,13 +7,8 @@
 #pragma GCC target("avx2,popcnt")
 #include "render/travel_lanes.h"
 
-void clx_avx2_travel_first(clx_journey *journey)
+void clx_avx2_travel(clx_journey *journey)
 {
-    travel(journey, false);
-}
-
-void clx_avx2_travel_any(clx_journey *journey)
-{
-    travel(journey, true);
+    travel(journey);
 }
 #endif

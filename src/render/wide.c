@@ -71,6 +71,7 @@ static int32_t collapse(const collapse_state *s, int32_t at)
     wide->node[self] = (clx_wide_node){0};
     int32_t child[CLX_WIDE_LANES];
     const int n = gather(s, at, child);
+    wide->node[self].used = (1U << n) - 1;
     for (int i = 0; i < CLX_WIDE_LANES; ++i) {
         const clx_tree_node *from = i < n ? &s->tree->node[child[i]] : NULL;
         for (int k = 0; k < 3; ++k) {

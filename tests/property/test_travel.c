@@ -1,5 +1,5 @@
-/* Property: what rays of a picture meet is what the double test of every triangle says, on machines
-   of any kind; and the tree that threads build is whole. */
+/* Property: what bundles of rays meet in a picture is what the double test of every triangle says,
+   on machines of any kind; and the tree that threads build is whole. */
 #include "support.h"
 
 #include "math/rng.h"
@@ -9,7 +9,7 @@
 #include <clast/mesh.h>
 #include <clast/shape.h>
 
-enum { N_RAY = 400 };
+enum { N_BUNDLE = 64 };
 
 /// 20,480 triangles, so many that threads share the tree; bumpy, small, turned and off the origin.
 static void bumpy_grain(clast_assembly *assembly)
@@ -42,41 +42,61 @@ static void make_ray(clx_rng *rng, const clx_scene *scene, int i, double origin[
         v3_axpy(origin, origin, -scene->radius * pow(10.0, i % 4), direction);
     } else if (i % 3 == 2) { // a shadow ray: from the surface
         clx_scene_hit hit;
-        v3_axpy(origin, scene->centre, 3.0 * scene->radius, side);
-        v3_scale(side, -1.0, side);
-        if (clx_scene_hit_first(scene, origin, side, 0.0, INFINITY, &hit)) {
+        double from[1][3];
+        double inwards[1][3];
+        v3_axpy(from[0], scene->centre, 3.0 * scene->radius, side);
+        v3_scale(inwards[0], -1.0, side);
+        v3_copy(origin, from[0]);
+        if (clx_scene_hit_first(scene, 1, from, inwards, 0.0, &hit) != 0) {
             v3_copy(origin, hit.point);
         }
     }
 }
 
-/// The nearest of all triangles, the first in leaf order of equally near ones.
-static bool meet_each(const clx_journey *j, double *t, int32_t *item)
+/// The nearest of all triangles from t_low on, the first in leaf order of equally near ones, or -1.
+static int32_t meet_each(const clx_scene *scene, const double origin[3], const double direction[3],
+                         double t_low, double *t)
 {
-    const clx_scene_grain *grain = &j->scene->grain[0];
-    const clast_bvh *bvh = j->scene->shape[0].bvh;
+    const clx_scene_grain *grain = &scene->grain[0];
+    const clast_bvh *bvh = scene->shape[0].bvh;
     double from[3];
-    double origin[3];
-    double direction[3];
+    double local[3];
+    double along[3];
     clx_ray ray = {0};
-    *t = j->t_high;
-    *item = -1;
-    v3_sub(from, j->origin, grain->position);
+    int32_t item = -1;
+    *t = INFINITY;
+    v3_sub(from, origin, grain->position);
     for (int k = 0; k < 3; ++k) {
-        origin[k] = v3_dot(grain->inverse[k], from);
-        direction[k] = v3_dot(grain->inverse[k], j->direction);
+        local[k] = v3_dot(grain->inverse[k], from);
+        along[k] = v3_dot(grain->inverse[k], direction);
     }
-    assert_true(clx_ray_set(&ray, origin, direction));
+    assert_true(clx_ray_set(&ray, local, along));
     for (int32_t i = 0; i < bvh->tree.n_item; ++i) {
         double at = 0.0;
         double bary[3];
-        if (clx_ray_meets(&ray, bvh->corner[i], j->t_low, *t, &at, bary) &&
-            (*item < 0 || at < *t)) {
+        if (clx_ray_meets(&ray, bvh->corner[i], t_low, *t, &at, bary) && (item < 0 || at < *t)) {
             *t = at;
-            *item = i;
+            item = i;
         }
     }
-    return *item >= 0;
+    return item;
+}
+
+/// Makes n rays: of one kind that start and go alike where `is_alike`, else of all kinds.
+static void make_bundle(clx_rng *rng, const clx_scene *scene, int n, bool is_alike, int kind,
+                        double (*origin)[3], double (*direction)[3])
+{
+    for (int r = 0; r < n; ++r) {
+        make_ray(rng, scene, kind + (is_alike ? 0 : r), origin[r], direction[r]);
+        for (int k = 0; k < 3 && is_alike && r > 0; ++k) {
+            origin[r][k] = origin[0][k] + 1e-2 * scene->radius * (clx_rng_uniform(rng) - 0.5);
+            direction[r][k] = direction[0][k] + 0.1 * (clx_rng_uniform(rng) - 0.5);
+        }
+        (void)v3_unit(direction[r], direction[r]);
+    }
+    if (kind % 5 == 0) { // along an axis, where lanes meet 0 times infinity
+        v3_set(direction[0], 0.0, kind % 2 == 0 ? -0.0 : 0.0, kind % 2 == 0 ? 1.0 : -1.0);
+    }
 }
 
 static void rays_meet_what_every_triangle_says(void **state)
@@ -85,35 +105,69 @@ static void rays_meet_what_every_triangle_says(void **state)
     clast_assembly assembly = {0};
     clx_scene scene = {0};
     clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, 0);
+    int n_ray = 0;
     int n_found = 0;
     bumpy_grain(&assembly);
     CHECK_OK(clx_scene_build(&assembly, CLAST_RENDER_SMOOTH, &scene));
-    for (int i = 0; i < N_RAY; ++i) {
-        double origin[3];
-        double direction[3];
-        double t = 0.0;
-        int32_t item = 0;
-        make_ray(&rng, &scene, i, origin, direction);
-        const clx_journey start = {.scene = &scene,
-                                   .origin = origin,
-                                   .direction = direction,
-                                   .t_low = 1e-6 * scene.radius,
-                                   .t_high = INFINITY};
-        const bool found = meet_each(&start, &t, &item);
-        clx_journey first[2] = {start, start};
-        clx_journey any[2] = {start, start};
-        clx_travel_first(&first[0]); // as this machine is
-        clx_travel_any(&any[0]);
-        travel(&first[1], false); // as any machine is
-        travel(&any[1], true);
-        for (int k = 0; k < 2; ++k) {
-            assert_int_equal(any[k].found, found);
-            assert_int_equal(first[k].found, found);
-            assert_true(!found || (first[k].best.t == t && first[k].best.item == item));
+    for (int i = 0; i < N_BUNDLE; ++i) {
+        double origin[CLX_BUNDLE][3];
+        double direction[CLX_BUNDLE][3];
+        clx_scene_hit hit[4][CLX_BUNDLE];
+        clx_journey journey[4];
+        const int n = 1 + i % CLX_BUNDLE;
+        make_bundle(&rng, &scene, n, i % 3 != 0, i, origin, direction);
+        for (int k = 0; k < 4; ++k) { // first or any, as this machine is or as any is
+            clx_journey *j = &journey[k];
+            *j = (clx_journey){.scene = &scene,
+                               .origin = origin,
+                               .direction = direction,
+                               .active = (1U << n) - 1,
+                               .best = k % 2 == 0 ? hit[k] : NULL};
+            for (int r = 0; r < n; ++r) {
+                j->t_low[r] = 1e-6 * scene.radius;
+                j->t_high[r] = INFINITY;
+            }
+            if (k < 2) {
+                clx_travel(j);
+            } else {
+                travel(j);
+            }
         }
-        n_found += found;
+        for (int r = 0; r < n; ++r) {
+            double t = 0.0;
+            const int32_t item =
+                meet_each(&scene, origin[r], direction[r], 1e-6 * scene.radius, &t);
+            for (int k = 0; k < 4; ++k) {
+                assert_int_equal(journey[k].found >> r & 1, item >= 0);
+                assert_true(item < 0 || k % 2 == 1 || (hit[k][r].t == t && hit[k][r].item == item));
+            }
+            n_found += item >= 0;
+            ++n_ray;
+        }
     }
-    assert_in_range(n_found, N_RAY / 4, 3 * N_RAY / 4);
+    assert_in_range(n_found, n_ray / 4, 3 * n_ray / 4);
+    clx_scene_free(&scene);
+    clast_assembly_free(&assembly);
+}
+
+/// Of two grains in the same place the first is seen, whichever of them a tree has first.
+static void equally_near_grains_are_met_in_order(void **state)
+{
+    (void)state;
+    enum { N = 9 };
+    clast_assembly assembly = {0};
+    clx_scene scene = {0};
+    bumpy_grain(&assembly);
+    for (int i = 1; i < N; ++i) {
+        CHECK_OK(clast_assembly_add_grain(&assembly, 0, assembly.position[0],
+                                          assembly.orientation[0], 1e-3, 1.0));
+    }
+    CHECK_OK(clx_scene_build(&assembly, CLAST_RENDER_SMOOTH, &scene));
+    double origin[1][3] = {{5.0, -3.0, 7.1}};
+    double direction[1][3] = {{0.0, 0.0, -1.0}};
+    clx_scene_hit hit;
+    assert_int_equal(clx_scene_hit_first(&scene, 1, origin, direction, 0.0, &hit), 1);
+    assert_int_equal(hit.grain, 0);
     clx_scene_free(&scene);
     clast_assembly_free(&assembly);
 }
@@ -163,6 +217,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_meet_what_every_triangle_says),
+        cmocka_unit_test(equally_near_grains_are_met_in_order),
         cmocka_unit_test(tree_is_whole_and_the_same_for_any_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
