@@ -78,6 +78,15 @@ class Grow(page.Live):
         self.assertRegex(self.text("grow-error"), "no-such-option")
         self.assertEqual(self.browser.value("[document.getElementById('grow-result').hidden, document.getElementById('grow-moment').disabled]"), [True, True])
 
+    def test_the_first_picture_comes_by_itself(self):
+        """The workers of the rooms that nobody looks at began before it."""
+        self.browser.open("about:blank")
+        self.assertIsNone(self.browser.open(page.PAGE.as_uri()))
+        self.until("Boolean(rooms.grow.view?.renderer) && rooms.grow.view.renderer.info.render.frame > 0", 60)
+        self.assertEqual(self.browser.value("[rooms.pour.engine.worker, rooms.split.engine.worker].map(Boolean)"), [False, False])
+        self.click("#to-split")
+        self.until("rooms.split.engine.isReady", 60)
+
     def test_a_cancelled_run_shows_nothing_later(self):
         """Cancelled while its digest was computed, it was shown, and ended the run that had begun since."""
         self.set(replicate="2", rays="1", orientations="1")
