@@ -48,6 +48,29 @@ RUNS = {
 # Tables wider than their place, all parts open: what stands in the first cell, and by how many pixels.
 WIDE = """[...document.querySelectorAll('table')].map(t => [t, t.scrollWidth - t.closest('.scroll, .card, main').clientWidth])
     .filter(([t, over]) => over > 1).map(([t, over]) => `table "${t.rows[0].innerText.slice(0, 60)}" is ${over} px too wide`)"""
+# Of summaries no table scrolls on a phone; long tables of data, folded lists and keys may.
+SUMMARIES = """[...document.querySelectorAll('.cards > .card:not(details) table')].map(t => [t, t.scrollWidth - t.closest('.scroll, .card').clientWidth])
+    .filter(([t, over]) => over > 1).map(([t, over]) => `table "${t.innerText.slice(0, 60)}" is ${over} px too wide`)"""
+# Legend and scale bar of a view cover each other.
+COVERED = """[...document.querySelectorAll('.view-stage')].filter(s => { const [a, b] = ['.view-legend', '.view-length'].map(c => s.querySelector(c).getBoundingClientRect());
+    return a.right > b.left && b.right > a.left && a.bottom > b.top && b.bottom > a.top; }).map(() => 'legend and scale bar cover each other')"""
+# Views are drawn for paper, all of them and in its shape; and for the screen again.
+PRINTED = """(async () => { if (!document.querySelector('.view')) return [];
+    const out = [], shape = (which) => [...document.querySelectorAll('.view')].map(v => { const c = v.querySelector(which); return c && c.width / c.height; });
+    const inks = (c) => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size;
+    const frames = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+    window.dispatchEvent(new Event('beforeprint'));
+    if (shape('.view-paper').some(s => !(Math.abs(s - 190 / 110) < 0.02))) out.push(`printed: views of shape ${shape('.view-paper').join()} for paper of 190 by 110 mm`);
+    if ([...document.querySelectorAll('.view-paper')].some(c => inks(c) < 50)) out.push('printed: a view is blank');
+    window.dispatchEvent(new Event('afterprint')); await frames();
+    const stages = [...document.querySelectorAll('.view-stage')].map(s => s.clientWidth / s.clientHeight);
+    if (stages.some((s, k) => !(Math.abs(s - shape('canvas')[k]) < 0.02))) out.push('after printing: a view is stretched');
+    if (document.querySelector('.view-paper')) out.push('after printing: the copy for paper stays');
+    return out; })()"""
+# Charts that stand alone in their line, words broken in two.
+BROKEN = """(() => { const charts = [...document.querySelectorAll('.charts')].filter(c => c.children.length > 1 && c.children[0].getBoundingClientRect().top !== c.children[1].getBoundingClientRect().top);
+    const keys = [...document.querySelectorAll('.keys td:first-child code')].filter(c => c.getClientRects().length > 1);
+    return [...charts.map(() => 'charts one below the other'), ...keys.slice(0, 1).map(c => `key ${c.innerText} is broken`)]; })()"""
 BEYOND = """(() => { const limit = document.documentElement.clientWidth + 1;
     return [...document.querySelectorAll('table, figure, .card, .figures, h1, h2, p, .view-box')].filter(e => e.getBoundingClientRect().right > limit)
     .map(e => `${e.tagName} "${e.innerText.slice(0, 50)}" ends ${Math.round(e.getBoundingClientRect().right - limit)} px beyond the paper`); })()"""
@@ -123,12 +146,15 @@ def look(browser, page, axe, pictures):
         faults += browser.value(AXE_RUN)
     if pictures:
         shot(browser, pictures / f"{page.parent.name}.png")
+    faults += browser.value(PRINTED)
     browser.screen(375, 812, False)
     over = browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")
     faults += [f"the page is {over} px wider than a phone"] if over > 1 else []
+    browser.screen(400, 812, False)
+    faults += [f"on a phone: {fault}" for fault in browser.value(SUMMARIES) + browser.value(COVERED)]
     browser.screen(718, 1000, False)  # A4 less its margins, at 96 px an inch
     browser.call("Emulation.setEmulatedMedia", media="print")
-    faults += [f"printed: {fault}" for fault in browser.value(BEYOND)]
+    faults += [f"printed: {fault}" for fault in browser.value(BEYOND) + browser.value(BROKEN)]
     if pictures:
         pdf = browser.call("Page.printToPDF", printBackground=True, paperWidth=8.27, paperHeight=11.69, preferCSSPageSize=True)
         (pictures / f"{page.parent.name}.pdf").write_bytes(base64.b64decode(pdf["data"]))

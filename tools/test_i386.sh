@@ -2,7 +2,9 @@
 # The unit tests in a 32-bit build (gcc -m32, SSE2 arithmetic): sizes, shifts and files where a pointer and a long have four bytes.
 set -eu
 cd "$(dirname "$0")/.."
-echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null || { echo "test-i386: gcc -m32 does not link here (tools/setup.sh i386)" >&2; exit 1; }
+mkdir -p build
+echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o build/probe-i386 2>/dev/null || { echo "test-i386: gcc -m32 does not link here (tools/setup.sh i386)" >&2; exit 1; }
+build/probe-i386 2>/dev/null || { echo "test-i386: the kernel here does not run 32-bit programs (gVisor and some containers do not)" >&2; exit 1; }
 tools/portable.sh i386
 prefix=$PWD/build/portable/i386
 export PKG_CONFIG_LIBDIR=$prefix/lib/pkgconfig

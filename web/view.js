@@ -18,9 +18,11 @@ const MAX_VIEWS = 6; // browsers allow about 16 WebGL contexts
 const BACKGROUND = { light: '#f4f6f8', dark: '#12161b' };
 const SIGHT = new Vector3(0.52, -0.742, 0.423); // as `clast render` looks: z is up
 const MARGIN = 200; // px beyond the window at which a view starts
+const PAPER = { width: 718, height: 416 }; // px: a stage on A4, as in page.css
 
 const sources = []; // {host, element, name}: every view of the page
 const open = []; // views that hold a WebGL context, oldest first
+const waiting = []; // what starts each view that nobody has scrolled to
 
 function addLights(scene, camera) {
   const key = new DirectionalLight('#ffffff', 2.1);
@@ -278,13 +280,14 @@ for (const source of sources) {
   if (box.top < window.innerHeight + MARGIN && box.bottom > -MARGIN) {
     start(source);
   } else {
-    const seen = new IntersectionObserver((entries) => {
-      if (entries.some((e) => e.isIntersecting)) {
-        seen.disconnect();
-        start(source);
-      }
-    }, { rootMargin: `${MARGIN}px` });
+    const first = () => {
+      seen.disconnect();
+      waiting.splice(waiting.indexOf(first), 1);
+      start(source);
+    };
+    const seen = new IntersectionObserver((entries) => { if (entries.some((e) => e.isIntersecting)) first(); }, { rootMargin: `${MARGIN}px` });
     seen.observe(source.host);
+    waiting.push(first);
   }
 }
 
@@ -323,19 +326,34 @@ function replace(view, element) {
   view.paint();
 }
 
-/// Paper is white.
-function dress(view, isDark) {
-  view.stage.classList.toggle('dark', isDark);
-  view.scene.background = new Color(isDark ? BACKGROUND.dark : '#ffffff');
+/// A copy for paper, which is white, in the shape that page.css gives it there: stretched, spheres would be ellipsoids.
+function print(view) {
+  const paper = tag('canvas', 'view-paper');
+  const ratio = view.renderer.getPixelRatio();
+  const width = PAPER.width / (view.stage.closest('.two') ? 2 : 1);
+  view.stage.classList.remove('dark');
+  view.scene.background = new Color('#ffffff');
+  view.renderer.setPixelRatio(2);
+  view.renderer.setSize(width, PAPER.height, false);
+  view.camera.aspect = width / PAPER.height;
   setLevel(view, true);
   view.render();
+  Object.assign(paper, { width: view.renderer.domElement.width, height: view.renderer.domElement.height });
+  paper.getContext('2d').drawImage(view.renderer.domElement, 0, 0);
+  view.stage.append(paper);
+  view.renderer.setPixelRatio(ratio);
+  drawScale(view, PAPER.height);
 }
 
-window.addEventListener('beforeprint', () => open.forEach((view) => dress(view, false)));
+window.addEventListener('beforeprint', () => {
+  waiting.slice(0, Math.max(0, MAX_VIEWS - open.length)).forEach((first) => first());
+  open.forEach(print);
+});
 window.addEventListener('afterprint', () => open.forEach((view) => {
-  dress(view, view.dark);
+  view.stage.querySelector('.view-paper')?.remove();
+  view.stage.classList.toggle('dark', view.dark);
   view.background();
-  view.draw();
+  view.fit();
 }));
 
 /// For tests and for people at the browser's console: what the page shows, and what it can draw.

@@ -177,7 +177,7 @@ static void draw_x_axis(clx_figure *f)
     }
     if (f->chart->x.label != NULL) {
         clx_canvas_text(f->canvas, 0.5 * (f->left + f->right), f->bottom + 34.0, STANDING, CLX_FONT,
-                        f->chart->x.label);
+                        f->x.title);
     }
 }
 
@@ -193,8 +193,7 @@ static void draw_y_axis(clx_figure *f)
         clx_canvas_text(f->canvas, f->left - 7.0, y, RIGHT_MIDDLE, CLX_FONT_TICK, f->y.label[i]);
     }
     if (f->chart->y.label != NULL) {
-        clx_canvas_text_up(f->canvas, 12.0, 0.5 * (f->top + f->bottom), CLX_FONT,
-                           f->chart->y.label);
+        clx_canvas_text_up(f->canvas, 12.0, 0.5 * (f->top + f->bottom), CLX_FONT, f->y.title);
     }
 }
 
@@ -235,5 +234,5 @@ void clx_figure_value_bar(clx_figure *f)
         clx_canvas_text(f->canvas, x + 20.0, y, LEFT_MIDDLE, CLX_FONT_TICK, f->value.label[i]);
     }
     clx_canvas_text_up(f->canvas, x + 20.0 + widest_label(f, &f->value) + 14.0,
-                       0.5 * (f->top + f->bottom), CLX_FONT, f->chart->value_axis.label);
+                       0.5 * (f->top + f->bottom), CLX_FONT, f->value.title);
 }

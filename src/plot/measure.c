@@ -2,6 +2,8 @@
 #include "plot/figure.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 typedef struct {
     double low, high;
@@ -23,7 +25,65 @@ static void widen_all(span *s, const double *values, int64_t n)
     }
 }
 
-static clast_status settle(span *s, const clast_axis *axis, bool pad, int wanted, clx_ticks *ticks)
+static double most_of(const span *s, const clast_axis *axis)
+{
+    return axis->low < axis->high ? fmax(fabs(axis->low), fabs(axis->high))
+                                  : fmax(fabs(s->low), fabs(s->high));
+}
+
+/// Writes the title of an axis "... (m)" with the prefix that a person would write for values up to
+/// `most`, none from 0.01 to 10^4; returns what the values are divided by for it.
+static double use_prefix(const char *label, double most, char title[CLX_AXIS_SIZE])
+{
+    static const struct {
+        const char *unit, *stem;
+        double size; ///< of the stem, in the unit
+        bool is_large_too;
+    } units[] = {{" (m)", "m", 1.0, false}, {" (s)", "s", 1.0, false}, {" (kg)", "g", 1e-3, false},
+                 {" (N)", "N", 1.0, true},  {" (J)", "J", 1.0, true},  {" (Pa)", "Pa", 1.0, true}};
+    static const struct {
+        double size;
+        const char *name;
+    } prefixes[] = {{1e9, "G"},  {1e6, "M"},         {1e3, "k"},  {1.0, ""},
+                    {1e-3, "m"}, {1e-6, "\302\265"}, {1e-9, "n"}, {1e-12, "p"}};
+    const size_t n_unit = sizeof units / sizeof *units;
+    const size_t n_prefix = sizeof prefixes / sizeof *prefixes;
+    const size_t n = label != NULL ? strlen(label) : 0;
+    size_t u = 0;
+    size_t p = 0;
+    (void)snprintf(title, CLX_AXIS_SIZE, "%s", n > 0 ? label : "");
+    while (u < n_unit && !(n > strlen(units[u].unit) &&
+                           strcmp(label + n - strlen(units[u].unit), units[u].unit) == 0)) {
+        ++u;
+    }
+    if (u == n_unit || !(most > 0.0) || !isfinite(most) ||
+        (most >= 0.01 && (most < 1e4 || !units[u].is_large_too))) {
+        return 1.0;
+    }
+    while (p + 1 < n_prefix && most < 0.999999 * units[u].size * prefixes[p].size) {
+        ++p;
+    }
+    (void)snprintf(title, CLX_AXIS_SIZE, "%.*s (%s%s)", (int)(n - strlen(units[u].unit)), label,
+                   prefixes[p].name, units[u].stem);
+    return units[u].size * prefixes[p].size;
+}
+
+/// Ticks at round values of the unit with its prefix.
+static void make_ticks(const span *s, bool pad, int wanted, double unit, clx_ticks *t)
+{
+    clx_ticks_make(s->low / unit, s->high / unit, s->log, pad, wanted, t);
+    for (int i = 0; i < t->n && unit != 1.0; ++i) {
+        t->at[i] *= unit;
+    }
+    for (int i = 0; i < t->n_minor && unit != 1.0; ++i) {
+        t->minor[i] *= unit;
+    }
+    t->low *= unit;
+    t->high *= unit;
+}
+
+static clast_status settle(span *s, const clast_axis *axis, bool pad, int wanted, double most,
+                           clx_ticks *ticks)
 {
     const bool given = axis->low < axis->high;
     if (given) {
@@ -39,7 +99,10 @@ static clast_status settle(span *s, const clast_axis *axis, bool pad, int wanted
         s->low -= more;
         s->high += more;
     }
-    clx_ticks_make(s->low, s->high, s->log, pad && !given, wanted, ticks);
+    char title[CLX_AXIS_SIZE];
+    const double unit = use_prefix(axis->label, most, title);
+    make_ticks(s, pad && !given, wanted, unit, ticks);
+    memcpy(ticks->title, title, sizeof title);
     return CLAST_OK;
 }
 
@@ -119,8 +182,11 @@ clast_status clx_figure_measure(clx_figure *figure)
         widen_heat(&x, &y, &value, c->heat);
     }
     figure->has_value = c->value_axis.label != NULL;
-    CLX_TRY(settle(&x, &c->x, c->heat == NULL, 6, &figure->x));
-    CLX_TRY(settle(&y, &c->y, c->heat == NULL, 5, &figure->y));
+    const double most_x = most_of(&x, &c->x);
+    const double most_y = most_of(&y, &c->y);
+    const double most = fmax(most_x, most_y);
+    CLX_TRY(settle(&x, &c->x, c->heat == NULL, 6, c->equal ? most : most_x, &figure->x));
+    CLX_TRY(settle(&y, &c->y, c->heat == NULL, 5, c->equal ? most : most_y, &figure->y));
     if (c->heat == NULL && !(c->x.low < c->x.high)) {
         clear_frame(c, true, &figure->x);
     }
@@ -128,7 +194,8 @@ clast_status clx_figure_measure(clx_figure *figure)
         clear_frame(c, false, &figure->y);
     }
     if (figure->has_value) {
-        CLX_TRY(settle(&value, &c->value_axis, false, 5, &figure->value));
+        CLX_TRY(settle(&value, &c->value_axis, false, 5, most_of(&value, &c->value_axis),
+                       &figure->value));
     }
 done:
     return status;

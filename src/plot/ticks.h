@@ -3,11 +3,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { CLX_MAX_TICK = 24, CLX_MAX_MINOR = 216 };
+enum { CLX_MAX_TICK = 24, CLX_MAX_MINOR = 216, CLX_AXIS_SIZE = 256 };
 
 typedef struct clx_ticks {
     bool log;
     double low, high; ///< range of the axis; ticks lie inside
+    char title[CLX_AXIS_SIZE];
     int n;
     double at[CLX_MAX_TICK];
     char label[CLX_MAX_TICK][16];

@@ -180,6 +180,54 @@ static const json_t *first_row(const json_t *object)
     return NULL;
 }
 
+/// Few quantities of many parts, the components of tensors: a row for each part, so that no reader
+/// has to scroll sideways.
+static bool is_turned(const json_t *object, const json_t *head)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    size_t n = 0;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (json_is_object(value) && !clx_value_holds_numbers(value)) {
+            return false;
+        }
+        n += clx_value_holds_numbers(value) ? 1 : 0;
+    }
+    return json_object_size(head) > 4 && n <= 3;
+}
+
+static void put_turned(clx_file *file, const char *title, const json_t *object, const json_t *head)
+{
+    const char *key = NULL;
+    const char *part = NULL;
+    json_t *value = NULL;
+    json_t *any = NULL;
+    (void)clx_file_print(file, "<tr><th>Component</th>");
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (clx_value_holds_numbers(value)) {
+            (void)clx_file_print(file, "<th class=\"n\">");
+            clx_quantity_put_label(file, key, title);
+            (void)clx_file_print(file, "</th>");
+        }
+    }
+    (void)clx_file_print(file, "</tr>\n");
+    json_object_foreach((json_t *)head, part, any)
+    {
+        (void)clx_file_print(file, "<tr><td>");
+        clx_quantity_put_label(file, part, NULL);
+        (void)clx_file_print(file, "</td>");
+        json_object_foreach((json_t *)object, key, value)
+        {
+            if (clx_value_holds_numbers(value)) {
+                put_spread_cell(file, title, key, part, value);
+            }
+        }
+        (void)clx_file_print(file, "</tr>\n");
+    }
+}
+
 /// Quantities with parts of the same unit: intervals of repeats, what was observed and grown.
 static void put_spread(clx_file *file, const char *title, const json_t *object)
 {
@@ -194,8 +242,13 @@ static void put_spread(clx_file *file, const char *title, const json_t *object)
     if (json_is_number(level)) {
         (void)clx_file_print(file, ", interval at level %g", json_number_value(level));
     }
-    (void)clx_file_print(file, "</h4><div class=\"scroll\" tabindex=\"0\"><table>\n"
-                               "<tr><th>Quantity</th>");
+    (void)clx_file_print(file, "</h4><div class=\"scroll\" tabindex=\"0\"><table>\n");
+    if (is_turned(object, head)) {
+        put_turned(file, title, object, head);
+        (void)clx_file_print(file, "</table></div></div>\n");
+        return;
+    }
+    (void)clx_file_print(file, "<tr><th>Quantity</th>");
     json_object_foreach((json_t *)head, key, value)
     {
         put_head(file, key, NULL, false);

@@ -273,7 +273,9 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
     const bool is_without_unit = clx_run_is_without_unit(run);
     for (int32_t i = 0; i < run->n_table; ++i) {
         const clast_table *table = &run->table[i];
-        const bool is_open = strcmp(table->name, "history") == 0 || table->n_row == 1;
+        const bool is_open =
+            strcmp(table->name, "history") == 0 || table->n_row == 1 ||
+            (json_object_size(run->summary) == 0 && strcmp(table->name, "results") == 0);
         (void)clx_file_print(file, "<details class=\"card wide\"%s><summary>",
                              is_open ? " open" : "");
         clx_quantity_put_label(file, table->name, "table");

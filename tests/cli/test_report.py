@@ -142,7 +142,7 @@ class Report(Case):
                 text = seen(page)
                 self.assertNotRegex(text, r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
                 if "--load-rate" in words:
-                    self.assertRegex(text, r"Stress, with that of motion\s+[-.\d]+\s+[kM]?Pa")
+                    self.assertRegex(text, r"Stress, with that of motion\s+Fabric\s+xx\s+[-.\d]+\s+[kM]?Pa")
                     self.assertRegex(text, r"Cell along x\s+[.\d]+\s+mm")
 
     def test_frames_are_the_views_moments(self):

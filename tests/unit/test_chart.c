@@ -191,6 +191,50 @@ static void lines_along_the_frame_get_room(void **state)
     CHECK_ABS(f.y.high, 1.0, 1e-12);
 }
 
+/* The energies of a bed stood as 1e-06 J, its stresses as 25000 Pa, sizes of a deposit as 2e-05 m.
+ */
+static void axes_have_the_prefix_that_a_person_writes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *label, *title, *last;
+        double most;
+        bool log;
+    } axes[] = {{"stress (Pa)", "stress (kPa)", "25", 25000.0, false},
+                {"energy (J)", "energy (\302\265J)", "100", 1e-4, true},
+                {"size (m)", "size (\302\265m)", "40", 4e-5, false},
+                {"mass (kg)", "mass (mg)", "5", 5e-6, false},
+                {"time (s)", "time (s)", "0.10", 0.1, false},
+                {"time (s)", "time (s)", "50000", 5e4, false},
+                {"stress (Pa)", "stress (Pa)", "8000", 8000.0, false},
+                {"density (1/m)", "density (1/m)", "0.0005", 5e-4, false}};
+    for (size_t k = 0; k < sizeof axes / sizeof *axes; ++k) {
+        const double x[2] = {0.0, 1.0};
+        const double y[2] = {axes[k].log ? 1e-3 * axes[k].most : 0.0, axes[k].most};
+        const clast_series line = {.kind = CLAST_SERIES_LINE, .x = x, .y = y, .n = 2};
+        const clast_chart chart = {.x = {.label = "x (-)"},
+                                   .y = {.label = axes[k].label, .log = axes[k].log},
+                                   .series = &line,
+                                   .n_series = 1};
+        clx_figure f = {.chart = &chart};
+        CHECK_OK(clx_figure_measure(&f));
+        assert_string_equal(f.y.title, axes[k].title);
+        assert_string_equal(f.y.label[f.y.n - 1], axes[k].last);
+        CHECK_REL(f.y.at[f.y.n - 1], axes[k].most, 1e-12);
+    }
+    const double x[2] = {0.0, 0.05};
+    const double y[2] = {0.0, 0.002};
+    const clast_series line = {.kind = CLAST_SERIES_LINE, .x = x, .y = y, .n = 2};
+    const clast_chart map = {.x = {.label = "x (m)"},
+                             .y = {.label = "y (m)"},
+                             .series = &line,
+                             .n_series = 1,
+                             .equal = true};
+    clx_figure f = {.chart = &map};
+    CHECK_OK(clx_figure_measure(&f)); // one unit for both axes of a map
+    assert_string_equal(f.y.title, "y (m)");
+}
+
 static void heat_maps_have_a_colour_bar(void **state)
 {
     (void)state;
@@ -218,6 +262,7 @@ int main(void)
         cmocka_unit_test(lines_along_the_frame_get_room),
         cmocka_unit_test(charts_come_in_three_formats_with_equal_bytes),
         cmocka_unit_test(points_on_the_frame_are_whole),
+        cmocka_unit_test(axes_have_the_prefix_that_a_person_writes),
         cmocka_unit_test(heat_maps_have_a_colour_bar),
         cmocka_unit_test(empty_axis_and_unknown_format_are_refused),
     };

@@ -78,6 +78,35 @@ class Grow(page.Live):
         self.assertRegex(self.text("grow-error"), "no-such-option")
         self.assertEqual(self.browser.value("[document.getElementById('grow-result').hidden, document.getElementById('grow-moment').disabled]"), [True, True])
 
+    def test_the_first_picture_comes_by_itself(self):
+        """The workers of the rooms that nobody looks at began before it."""
+        self.browser.open("about:blank")
+        self.assertIsNone(self.browser.open(page.PAGE.as_uri()))
+        self.until("Boolean(rooms.grow.view?.renderer) && rooms.grow.view.renderer.info.render.frame > 0", 60)
+        self.assertEqual(self.browser.value("[rooms.pour.engine.worker, rooms.split.engine.worker].map(Boolean)"), [False, False])
+        self.click("#to-split")
+        self.until("rooms.split.engine.isReady", 60)
+
+    def test_a_cancelled_run_shows_nothing_later(self):
+        """Cancelled while its digest was computed, it was shown, and ended the run that had begun since."""
+        self.set(replicate="2", rays="1", orientations="1")
+        self.browser.value("(() => { const real = digestOf; window.digestOf = async (bytes) => { await new Promise((go) => { window.release = go; }); return real(bytes); }; })()")
+        self.click("#grow-run")
+        self.until("Boolean(window.release)", 60)
+        self.browser.value("(async () => { rooms.grow.cancel(); release(); await new Promise((go) => setTimeout(go, 200)); })()")
+        self.assertNotIn("done", self.text("grow-state"))
+        self.assertTrue(self.browser.value("document.getElementById('grow-result').hidden"))
+
+    def test_the_zip_has_the_inputs_of_its_run(self):
+        """A file of the same name that was dropped after the run stood in its zip."""
+        self.drop("core.stl", STL[0].read_bytes())
+        self.set(replicate="2", rays="1", orientations="1")
+        self.run_room()
+        self.drop("core.stl", b"another")
+        with page.Folder() as folder:
+            self.unzipped(folder)
+            self.assertEqual((folder / "core.stl").read_bytes(), STL[0].read_bytes())
+
     def test_cancel_ends_at_once(self):
         self.set(replicate="400", rays="64", orientations="32")
         self.click("#grow-run")

@@ -63,17 +63,21 @@ class GrowRoom extends Room {
 
   async compute() {
     const every = Math.max(1, Math.ceil(this.estimate() / MOST_WATCHED));
+    const { turn } = this;
     this.words = this.wordsNow();
+    this.inputs = this.filesOf(this.words);
     this.history = null;
     this.$('result').hidden = true;
-    const ended = await this.engine.run([...this.words, '--checkpoint-every', String(every), '--json'], this.filesOf(this.words), (name, bytes) => this.hear(name, bytes));
+    const ended = await this.engine.run([...this.words, '--checkpoint-every', String(every), '--json'], this.inputs, (name, bytes) => this.hear(name, bytes));
     const refusal = refusalOf(ended);
     this.latest = null;
     if (refusal) return refusal;
+    const hash = await digestOf(ended.result.files['aggregate/history.csv']);
+    if (turn !== this.turn) return null; // cancelled meanwhile
     this.result = { json: JSON.parse(ended.result.stdout), files: ended.result.files };
     this.watch(this.result.files['aggregate/state.h5']);
     this.showEnd();
-    this.showCommand('aggregate/history.csv', await digestOf(this.result.files['aggregate/history.csv']));
+    this.showCommand('aggregate/history.csv', hash);
     return null;
   }
 

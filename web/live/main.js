@@ -5,6 +5,12 @@ let shown = 'grow';
 /// A module of one function in SIMD128: where it is not valid, clast is not either.
 const SIMD = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
 
+/// The shown room's worker, once clast is compiled; those of the other rooms would delay its first picture.
+function startEngine() {
+  const { engine } = rooms[shown];
+  if (program && !engine.worker) engine.start();
+}
+
 function showRoom(name) {
   shown = name;
   for (const one of Object.keys(rooms)) {
@@ -13,6 +19,7 @@ function showRoom(name) {
     $(`to-${one}`).tabIndex = one === name ? 0 : -1;
   }
   rooms[name].shown?.();
+  startEngine();
   document.title = `clast live: ${$(`to-${name}`).textContent.toLowerCase()}`;
 }
 
@@ -75,7 +82,7 @@ async function begin() {
     const viewer = loadViewer();
     program = await WebAssembly.compile(await unzipped(bytesOf($('clast-wasm').textContent.trim())));
     await viewer;
-    Object.values(rooms).forEach((room) => room.engine.start());
+    startEngine();
     if (!isGiven) rooms.grow.go();
   } catch (fault) {
     failAll(`clast could not be loaded: ${fault.message}`);

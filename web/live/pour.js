@@ -91,12 +91,13 @@ class PourRoom extends Room {
     const text = [this.value('max_steps') || '0', ...given].pop();
     this.limit = Number(text) || Infinity;
     if (/^\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && Number.isInteger(Number(text)) && Number(text) <= 9e15) return null;
-    const ended = await this.engine.run([...this.words, `--max-steps=${text}`, '--json'], this.filesOf(this.words));
+    const ended = await this.engine.run([...this.words, `--max-steps=${text}`, '--json'], this.inputs);
     return refusalOf(ended) ?? `--max-steps ${text}: a whole number of steps is wanted`;
   }
 
   async compute() {
     this.words = this.wordsNow();
+    this.inputs = this.filesOf(this.words);
     this.result = null;
     this.frames = [];
     this.every = 1;
@@ -132,7 +133,7 @@ class PourRoom extends Room {
       const done = this.result?.json.n_step ?? 0;
       const to = Math.min(done + this.slice, this.limit);
       const begun = performance.now();
-      const given = { ...this.filesOf(this.words), ...this.result?.files };
+      const given = { ...this.inputs, ...this.result?.files };
       const ended = await this.engine.run([...words, '--max-steps', String(to), '--json'], given);
       const refusal = refusalOf(ended);
       if (refusal) return refusal;

@@ -6,7 +6,7 @@ const GRAINS = new Map([...document.querySelectorAll('script[data-grain]')].map(
 
 class Room {
   constructor(name) {
-    Object.assign(this, { name, files: new Map(), names: new Map(), past: [], view: null, fixed: null, words: null, result: null });
+    Object.assign(this, { name, files: new Map(), names: new Map(), past: [], turn: 0, inputs: {}, view: null, fixed: null, words: null, result: null });
     this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => this.fail(text));
   }
 
@@ -162,6 +162,8 @@ class Room {
     this.fail('');
     this.note();
     this.running = true;
+    this.turn += 1;
+    const { turn } = this;
     this.result = null;
     this.$('result').hidden = true;
     this.$('moment').disabled = true;
@@ -169,7 +171,7 @@ class Room {
     this.say('computing');
     const begun = performance.now();
     const refusal = this.tooLarge() ?? await this.told(this.compute());
-    this.ended(refusal, (performance.now() - begun) / 1000);
+    if (turn === this.turn) this.ended(refusal, (performance.now() - begun) / 1000);
   }
 
   /// What a run comes to; of one whose answer this page cannot show (to `--help`, say) the command for a terminal.
@@ -204,6 +206,7 @@ class Room {
   cancel() {
     if (!this.running) return;
     this.engine.cancel();
+    this.turn += 1;
     this.running = false;
     this.cancelled?.();
     this.setReady();
@@ -217,7 +220,8 @@ class Room {
     this.$('result').hidden = false;
   }
 
-  outFiles() { return { ...this.filesOf(this.words), ...this.result.files }; }
+  /// The run's folder and the inputs as they were when it began.
+  outFiles() { return { ...this.inputs, ...this.result.files }; }
 
   share() {
     const { values, files } = this.snapshot();

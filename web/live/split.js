@@ -1,9 +1,11 @@
 // The room Split: a table of positions, its cells and events.
 const SIZE = 640; // of the picture, in its own pixels
 const EDGE = 14;
+const FIELDS = ['domain', 'variant', 'mesh', 'beta_dt', 'more'];
 const state = {
   name: null, text: null, columns: [], bounds: null, // the table and what the picture shows of it
   strokes: [], painting: false, result: null, picked: -1, running: false,
+  turn: 0, arrival: 0, past: [], last: null, // runs and tables so far: the newest counts; what undo goes back to
 };
 
 function say(text) { $('state').textContent = text; }
@@ -50,6 +52,7 @@ function boxAround(columns) {
 
 function setPoints(name, text, domain) {
   if (state.running) cancel();
+  state.arrival += 1;
   state.name = name;
   state.text = text;
   state.columns = typeof text === 'string' ? glance(text) : [];
@@ -93,6 +96,7 @@ function make(kind) {
     if (u.every((c) => c > 0 && c < 1)) rows.push(u.map((c) => c.toFixed(5)).join(','));
   }
   setPoints(`${kind}.csv`, `${'x,y,z'.slice(0, 2 * d - 1)}\n${rows.join('\n')}\n`, d === 3 ? 'box:0,0,0,1,1,1' : 'box:0,0,1,1');
+  note();
 }
 
 function paintedText() {
@@ -100,10 +104,48 @@ function paintedText() {
 }
 
 function usePainted() {
-  if (state.running) cancel();
-  $('undo').disabled = state.strokes.length === 0;
   if (state.strokes.length > 0) setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
-  else { Object.assign(state, { text: null, columns: [], result: null }); $('given').textContent = 'no points yet'; setReady(); draw(); }
+  else noPoints();
+  note();
+}
+
+function noPoints() {
+  if (state.running) cancel();
+  state.arrival += 1;
+  Object.assign(state, { name: null, text: null, columns: [], result: null });
+  $('result').hidden = true;
+  $('given').textContent = 'no points yet';
+  setReady();
+  draw();
+}
+
+// Undo: of points, strokes and options.
+
+function snapshot() {
+  return { name: state.name, text: state.text, strokes: [...state.strokes], fields: FIELDS.map((key) => $(key).value) };
+}
+
+function note() {
+  const now = snapshot();
+  if (state.last?.name === now.name && state.last.text === now.text && now.fields.every((value, k) => value === state.last.fields[k])) return;
+  if (state.last) state.past.push(state.last);
+  if (state.past.length > UNDO) state.past.shift();
+  state.last = now;
+  $('undo').disabled = state.past.length === 0;
+}
+
+function undo() {
+  note();
+  const before = state.past.pop();
+  if (!before) return;
+  state.strokes = [...before.strokes];
+  if (before.text === null) noPoints();
+  else if (before.text !== state.text || before.name !== state.name) setPoints(before.name, before.text);
+  FIELDS.forEach((key, k) => { $(key).value = before.fields[k]; });
+  state.last = before;
+  $('undo').disabled = state.past.length === 0;
+  draw();
+  say('undone');
 }
 
 // The picture.
@@ -263,6 +305,8 @@ const splitter = new Engine(() => { say('ready'); setReady(); }, fail);
 
 async function start() {
   fail('');
+  note();
+  state.turn += 1;
   state.words = wordsNow();
   state.begun = performance.now();
   $('run').disabled = true;
@@ -273,24 +317,30 @@ async function start() {
   state.running = true;
   draw();
   try {
-    await finish(await splitter.run(state.words, { [state.name]: state.text }));
+    await finish(await splitter.run(state.words, { [state.name]: state.text }), state.turn);
   } catch (fault) {
+    state.running = false;
+    setReady();
     say('');
     fail(`this page cannot show what clast answered (${fault.message}); in a terminal: ${commandOf(state.words)}`);
   }
 }
 
 function cancel() {
+  state.turn += 1;
   state.running = false;
   splitter.cancel();
   say('cancelled');
 }
 
-async function finish(ended) {
-  state.running = false;
+/// Shows an answer, if nothing has come since that ended its run.
+async function finish(ended, turn) {
   const { result } = ended;
   const refusal = refusalOf(ended);
   const seconds = (performance.now() - state.begun) / 1000;
+  const hash = refusal ? null : await digestOf(result.files['cells/cells.csv']);
+  if (turn !== state.turn) return;
+  state.running = false;
   setReady();
   if (refusal) {
     say('');
@@ -299,15 +349,15 @@ async function finish(ended) {
   }
   say(`done in ${seconds.toFixed(2)} s`);
   const text = (name) => new TextDecoder().decode(result.files[name]);
-  state.result = { json: JSON.parse(result.stdout), files: result.files, cells: columnsOf(text('cells/cells.csv')) };
+  state.result = { json: JSON.parse(result.stdout), hash, files: result.files, cells: columnsOf(text('cells/cells.csv')) };
   state.picked = -1;
   $('colour').querySelector('[value=label]').disabled = !state.result.cells.label;
   if (!state.result.cells.label && $('colour').value === 'label') $('colour').value = 'density';
-  await show();
+  show();
   draw();
 }
 
-async function show() {
+function show() {
   const r = state.result.json;
   const key = r.events === null ? 'pair_integral' : 'events';
   const unit = r.events === null ? ` ${r.pair_integral_unit}` : '';
@@ -321,29 +371,32 @@ async function show() {
   $('passes_card').hidden = !(r.passes?.length > 0);
   fillTable($('passes'), ['bins', 'threshold', 'score', 'expected'], (r.passes ?? []).map((p) => [p.bins.join(' x '), short(p.lambda), short(p.score), short(p.ideal_score)]));
   $('command').textContent = commandOf(state.words);
-  $('hash').textContent = await digestOf(state.result.files['cells/cells.csv']);
+  $('hash').textContent = state.result.hash;
   $('result').hidden = false;
 }
 
 // Files out.
 
 function shared() {
-  const kept = { name: state.name, text: state.text, domain: $('domain').value };
-  for (const key of ['variant', 'mesh', 'beta_dt', 'more']) kept[key] = $(key).value;
-  return packed(kept);
+  return packed({ name: state.name, text: state.text, ...Object.fromEntries(FIELDS.map((key) => [key, $(key).value])) });
 }
 
 function openSplit(kept) {
   setPoints(plainName(String(kept.name), 'points'), String(kept.text), String(kept.domain));
-  for (const key of ['variant', 'mesh', 'beta_dt', 'more']) $(key).value = String(kept[key] ?? '');
+  for (const key of FIELDS.slice(1)) $(key).value = String(kept[key] ?? '');
+  state.last = snapshot();
 }
 
 async function take(file) {
   if (!file) return;
   const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
+  state.arrival += 1;
+  const { arrival } = state;
   try {
     const bytes = await bytesOfFile(file, 'decompose');
+    if (arrival !== state.arrival) return; // other points came while it was read
     setPoints(plainName(file.name, 'points'), isText ? new TextDecoder().decode(bytes) : bytes);
+    note();
   } catch (fault) {
     fail(fault.message);
   }
@@ -359,16 +412,16 @@ function listenSplit() {
     $('paint').setAttribute('aria-pressed', String(state.painting));
     if (state.painting) usePainted();
   });
-  $('undo').addEventListener('click', () => { state.strokes.pop(); usePainted(); });
+  $('undo').addEventListener('click', undo);
   $('clear').addEventListener('click', () => { state.strokes = []; usePainted(); });
   const picture = $('picture');
   picture.addEventListener('pointerdown', (event) => {
     if (!state.painting) return;
     picture.setPointerCapture(event.pointerId);
     state.strokes.push([]);
-    $('undo').disabled = false;
     spray(event);
   });
+  for (const kind of ['pointerup', 'pointercancel']) picture.addEventListener(kind, () => { if (state.painting) note(); });
   picture.addEventListener('pointermove', (event) => {
     if (!state.painting) pickAt(event);
     else if (event.buttons > 0) spray(event);
@@ -378,6 +431,8 @@ function listenSplit() {
     if (step && state.result) { event.preventDefault(); pick(state.picked + step); }
   });
   for (const id of ['colour', 'axes', 'domain']) $(id).addEventListener('change', draw);
+  for (const key of FIELDS) $(key).addEventListener('change', note);
+  state.last = snapshot();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
   $('copy').addEventListener('click', () => copy(commandOf(state.words), 'copied', say));
   $('zip').addEventListener('click', () => save(zipOf({ [state.name]: state.text, ...state.result.files }), 'cells.zip'));

@@ -85,8 +85,8 @@ export function scaleBar(view, height) {
   return { text: length(view.data, round, 3), pixels: round / perPixel };
 }
 
-export function drawScale(view) {
-  const { text, pixels } = scaleBar(view, view.stage.clientHeight);
+export function drawScale(view, height = view.stage.clientHeight) {
+  const { text, pixels } = scaleBar(view, height);
   view.scale.style.width = `${pixels}px`;
   view.scale.textContent = text;
 }
