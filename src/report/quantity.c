@@ -163,7 +163,11 @@ void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, do
         return;
     }
     clx_quantity_scale scale = clx_quantity_scale_for(like, si_unit);
-    scale.has_floor = scale.has_floor && value == like; // a small deviation is no rounding error
+    if (scale.has_floor && value != like) { // what is below the floor is told in its own unit
+        const clx_quantity_scale own = clx_quantity_scale_for(value, si_unit);
+        scale.has_floor = false;
+        scale = value != 0.0 && fabs(value) * own.factor < 1e-3 ? own : scale;
+    }
     clx_quantity_format(value, &scale, text);
     (void)clx_file_print(file, "<span title=\"%.17g ", value);
     clx_page_text(file, plain_unit(si_unit));
