@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "dem/energy.h"
 #include "dem/pair_force.h"
+#include "dem/ranks.h"
 #include "math/lanes.h"
 #include <assert.h>
 #include <math.h>
@@ -70,34 +71,42 @@ void clx_cell_affine(const clx_periodic_cell *cell, const double x[3], double v[
     affine(cell, x, cell->rate, cell->shear, v);
 }
 
-clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear)
+/// Gives every grain the change that belongs to its place.
+static void kick(clast_dem *dem, const clx_periodic_cell *cell, const double rate[3], double shear)
 {
-    CLX_ARGUMENTS(dem, rate);
-    clast_status status = CLAST_OK;
-    clx_periodic_cell *cell = dem->cell;
-    double change[3];
-    CLX_CHECK(cell != NULL, CLAST_E_USAGE, "only domain cell has sides that move");
-    CLX_CHECK(v3_is_finite(rate) && isfinite(shear), CLAST_E_USAGE,
-              "rates of the cell that are not finite");
-    v3_sub(change, rate, cell->rate);
-    const double shear_change = shear - cell->shear;
-    v3_copy(cell->rate, rate);
-    cell->shear = shear;
-    if (v3_norm2(change) == 0.0 && shear_change == 0.0) {
-        return CLAST_OK;
-    }
     double work = 0.0;
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         clx_grain *g = &dem->grain[i];
-        double kick[3];
+        double change[3];
         const double before = v3_norm2(g->velocity);
-        affine(cell, g->position, change, shear_change, kick);
-        v3_add(g->velocity, g->velocity, kick);
+        affine(cell, g->position, rate, shear, change);
+        v3_add(g->velocity, g->velocity, change);
         work +=
             0.5 * g->mass * clx_heavier(dem, &dem->motion[i]) * (v3_norm2(g->velocity) - before);
     }
     if (dem->energy != NULL) {
         dem->energy->sum[CLX_WORK_CELL] += work;
+    }
+}
+
+clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear)
+{
+    CLX_ARGUMENTS(dem, rate);
+    clast_status status = CLAST_OK;
+    clx_periodic_cell *cell = dem->cell;
+    CLX_CHECK(cell != NULL, CLAST_E_USAGE, "only domain cell has sides that move");
+    CLX_CHECK(v3_is_finite(rate) && isfinite(shear), CLAST_E_USAGE,
+              "rates of the cell that are not finite");
+    double change[3];
+    v3_sub(change, rate, cell->rate);
+    const double shear_change = shear - cell->shear;
+    v3_copy(cell->rate, rate);
+    cell->shear = shear;
+    if (v3_norm2(change) != 0.0 || shear_change != 0.0) {
+        kick(dem, cell, change, shear_change);
+        if (dem->ranks != NULL && dem->ranks->has_begun) { // the grains that are stepped
+            kick(dem->ranks->local, cell, change, shear_change);
+        }
     }
 done:
     return status;
@@ -125,10 +134,13 @@ void clx_cell_begin_step(clast_dem *dem)
 {
     const double dt = dem->config.time_step;
     const double path = dt * image_speed(dem->cell);
+    int n_due = 0;
     dem->cell->path += path;
     for (int32_t i = 0; i < dem->n_grain && path > 0.0; ++i) {
         dem->travel[i] += 0.5 * path;
+        n_due += !dem->inner.is_due && dem->travel[i] > dem->inner.until[i] ? 1 : 0;
     }
+    dem->inner.is_due = dem->inner.is_due || n_due > 0;
 }
 
 /// Shifts a grain, its items and where their neighbours were searched.
