@@ -16,6 +16,13 @@
 #define CLX_FOR_EACH_MACHINE
 #endif
 
+/// Inlines all that a function calls, so that it shares in the function's clones.
+#if defined(__GNUC__)
+#define CLX_FLATTEN __attribute__((flatten))
+#else
+#define CLX_FLATTEN
+#endif
+
 /// Whether the compiler can make what only a machine with vectors of eight doubles runs, in files
 /// of their own (CLX_WIDE of math/lanes.h).
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \

@@ -379,6 +379,12 @@ static bool hulls(const clx_pair *pair, double max_gap, clx_warm_start *warm_sta
     return add_rounding(pair, max_gap, contact);
 }
 
+bool clx_hulls_contact_anew(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
+                            clx_contact *contact)
+{
+    return hulls(pair, max_gap, warm_start, contact);
+}
+
 bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                       clx_contact *contact)
 {

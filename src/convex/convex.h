@@ -72,6 +72,10 @@ typedef struct clx_warm_start {
 bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                       clx_contact *contact);
 
+/// The same of two hulls where the warm start's facet is known not to do (clx_facet_again).
+bool clx_hulls_contact_anew(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
+                            clx_contact *contact);
+
 /// A shape before a wall.
 typedef struct clx_placed {
     const clx_convex *shape;

@@ -6,6 +6,7 @@
 // witness to the other) falls inside its sides. Work is in world axes about a's position.
 #include "convex/facet.h"
 
+#include "base/machine.h"
 #include "math/least.h"
 #include "math/vec3.h"
 
@@ -371,8 +372,8 @@ static bool settle(const clx_pair *pair, const body both[2], clx_facet *facet, v
     }
     list[0] = *facet;
     for (int i = 0; i < n; ++i) {
-        view at = {0};
-        if (!look(both, &list[i], &at) || !at.is_facet) {
+        view at = *best; // of list[0]
+        if (i > 0 && (!look(both, &list[i], &at) || !at.is_facet)) {
             return false;
         }
         if (at.gap > best->gap) {
@@ -397,7 +398,8 @@ static bool settle(const clx_pair *pair, const body both[2], clx_facet *facet, v
     return best->margin >= 0.0;
 }
 
-bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact, double *margin)
+CLX_FOR_EACH_MACHINE CLX_FLATTEN bool clx_facet_follow(const clx_pair *pair, clx_facet *facet,
+                                                       clx_contact *contact, double *margin)
 {
     CLAST_ASSERT(pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL);
     const body both[2] = {

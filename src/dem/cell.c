@@ -8,7 +8,13 @@
 #include "base/alloc.h"
 #include "dem/energy.h"
 #include "dem/pair_force.h"
+#include "dem/ranks.h"
+#include "math/lanes.h"
+#include <assert.h>
 #include <math.h>
+#include <stddef.h>
+
+enum { ALL_INSIDE = (1 << CLX_LANES) - 1 };
 
 clast_status clx_cell_make(clast_dem *dem)
 {
@@ -65,34 +71,42 @@ void clx_cell_affine(const clx_periodic_cell *cell, const double x[3], double v[
     affine(cell, x, cell->rate, cell->shear, v);
 }
 
-clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear)
+/// Gives every grain the change that belongs to its place.
+static void kick(clast_dem *dem, const clx_periodic_cell *cell, const double rate[3], double shear)
 {
-    CLX_ARGUMENTS(dem, rate);
-    clast_status status = CLAST_OK;
-    clx_periodic_cell *cell = dem->cell;
-    double change[3];
-    CLX_CHECK(cell != NULL, CLAST_E_USAGE, "only domain cell has sides that move");
-    CLX_CHECK(v3_is_finite(rate) && isfinite(shear), CLAST_E_USAGE,
-              "rates of the cell that are not finite");
-    v3_sub(change, rate, cell->rate);
-    const double shear_change = shear - cell->shear;
-    v3_copy(cell->rate, rate);
-    cell->shear = shear;
-    if (v3_norm2(change) == 0.0 && shear_change == 0.0) {
-        return CLAST_OK;
-    }
     double work = 0.0;
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         clx_grain *g = &dem->grain[i];
-        double kick[3];
+        double change[3];
         const double before = v3_norm2(g->velocity);
-        affine(cell, g->position, change, shear_change, kick);
-        v3_add(g->velocity, g->velocity, kick);
+        affine(cell, g->position, rate, shear, change);
+        v3_add(g->velocity, g->velocity, change);
         work +=
             0.5 * g->mass * clx_heavier(dem, &dem->motion[i]) * (v3_norm2(g->velocity) - before);
     }
     if (dem->energy != NULL) {
         dem->energy->sum[CLX_WORK_CELL] += work;
+    }
+}
+
+clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear)
+{
+    CLX_ARGUMENTS(dem, rate);
+    clast_status status = CLAST_OK;
+    clx_periodic_cell *cell = dem->cell;
+    CLX_CHECK(cell != NULL, CLAST_E_USAGE, "only domain cell has sides that move");
+    CLX_CHECK(v3_is_finite(rate) && isfinite(shear), CLAST_E_USAGE,
+              "rates of the cell that are not finite");
+    double change[3];
+    v3_sub(change, rate, cell->rate);
+    const double shear_change = shear - cell->shear;
+    v3_copy(cell->rate, rate);
+    cell->shear = shear;
+    if (v3_norm2(change) != 0.0 || shear_change != 0.0) {
+        kick(dem, cell, change, shear_change);
+        if (dem->ranks != NULL && dem->ranks->has_begun) { // the grains that are stepped
+            kick(dem->ranks->local, cell, change, shear_change);
+        }
     }
 done:
     return status;
@@ -120,10 +134,13 @@ void clx_cell_begin_step(clast_dem *dem)
 {
     const double dt = dem->config.time_step;
     const double path = dt * image_speed(dem->cell);
+    int n_due = 0;
     dem->cell->path += path;
     for (int32_t i = 0; i < dem->n_grain && path > 0.0; ++i) {
         dem->travel[i] += 0.5 * path;
+        n_due += !dem->inner.is_due && dem->travel[i] > dem->inner.until[i] ? 1 : 0;
     }
+    dem->inner.is_due = dem->inner.is_due || n_due > 0;
 }
 
 /// Shifts a grain, its items and where their neighbours were searched.
@@ -155,14 +172,9 @@ static void wrap_grain(clast_dem *dem, int32_t i)
     const double *x = dem->grain[i].position;
     double by[3] = {0.0, 0.0, 0.0};
     double velocity[3] = {0.0, 0.0, 0.0};
-    const double at[3] = {x[0] * cell->inverse[0] + 0.5, x[1] * cell->inverse[1] + 0.5,
-                          x[2] * cell->inverse[2]};
-    if (at[2] >= 0.0 && at[2] < 1.0 && at[0] >= 0.0 && at[0] < 1.0 && at[1] >= 0.0 &&
-        at[1] < 1.0) { // most: no floor is asked for
-        return;
-    }
-    const double z = -floor(at[2]);
-    const double n[2] = {-floor((x[0] + z * cell->shift) * cell->inverse[0] + 0.5), -floor(at[1])};
+    const double z = -floor(x[2] * cell->inverse[2]);
+    const double n[2] = {-floor((x[0] + z * cell->shift) * cell->inverse[0] + 0.5),
+                         -floor(x[1] * cell->inverse[1] + 0.5)};
     if (z == 0.0 && n[0] == 0.0 && n[1] == 0.0) {
         return;
     }
@@ -187,6 +199,23 @@ void clx_cell_wrap(const clx_periodic_cell *cell, double x[3])
     }
 }
 
+/// Grains that have left come back: most have not, which one comparison of a row tells.
+CLX_FOR_EACH_MACHINE
+static void wrap_grains(clast_dem *dem)
+{
+    const clx_periodic_cell *cell = dem->cell;
+    const clx_lanes inverse = {cell->inverse[0], cell->inverse[1], cell->inverse[2], 0.0};
+    const clx_lanes middle = {0.5, 0.5, 0.0, 0.5}; // the fourth, of a radius, is inside
+    static_assert(offsetof(clx_grain, position) == 0 && offsetof(clx_grain, radius) == 24, "a row");
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        const clx_lanes at =
+            lanes_load((const double *)(const void *)&dem->grain[i]) * inverse + middle;
+        if (lanes_bits((at >= 0.0) & (at < 1.0)) != ALL_INSIDE) {
+            wrap_grain(dem, i);
+        }
+    }
+}
+
 void clx_cell_end_step(clast_dem *dem)
 {
     clx_periodic_cell *cell = dem->cell;
@@ -203,7 +232,5 @@ void clx_cell_end_step(clast_dem *dem)
         cell->shear -= copysign(1.0, cell->shift) * cell->rate[0];
         cell->shift -= copysign(cell->side[0], cell->shift);
     }
-    for (int32_t i = 0; i < dem->n_grain; ++i) {
-        wrap_grain(dem, i);
-    }
+    wrap_grains(dem);
 }

@@ -52,10 +52,13 @@ struct clast_dem;
 /// The cell of a domain that is one, as configured.
 clast_status clx_cell_make(struct clast_dem *dem);
 
-/// Before a step: grains are charged with what images may move. After it: sides move, grains come
-/// back into the cell.
+/// Before a step and its inner list: grains are charged with what images may move. After it: sides
+/// move, grains come back into the cell.
 void clx_cell_begin_step(struct clast_dem *dem);
 void clx_cell_end_step(struct clast_dem *dem);
+
+/// Refuses a cell that has become too narrow for its grains.
+clast_status clx_cell_check_room(const struct clast_dem *dem);
 
 /// A place, moved into the cell; the velocity there of the cell's even motion.
 void clx_cell_wrap(const clx_periodic_cell *cell, double x[3]);

@@ -30,12 +30,16 @@ static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_dem_pair 
 }
 
 /// Contact of lane k by scalar code.
-static void find_one(clast_dem *dem, clx_batch *p, int k)
+static void find_one(clast_dem *dem, clx_batch *p, clx_batch_kind kind, int k)
 {
     clx_dem_touch t = {0};
     clx_dem_pair *pair = p->pair[k];
     clx_warm_start *warm_start = clx_inner_warm_start(dem, pair);
-    clx_dem_touch_find(dem, pair, warm_start, &t);
+    if (kind == CLX_BATCH_FACES || kind == CLX_BATCH_EDGES) {
+        clx_touch_hulls_anew(dem, pair, warm_start, &t); // lanes have tried the warm start's facet
+    } else {
+        clx_dem_touch_find(dem, pair, warm_start, &t);
+    }
     if (warm_start != NULL) {
         pair->kind = warm_start->kind & 3U;
     }
@@ -71,12 +75,12 @@ static int reuse_normals(const clast_dem *dem, clx_batch *p)
 }
 
 /// Contacts of the lanes that were not answered, by scalar code.
-static void find_rest(clast_dem *dem, clx_batch *p, int answered)
+static void find_rest(clast_dem *dem, clx_batch *p, clx_batch_kind kind, int answered)
 {
     const int last = p->n - 1;
     for (int k = 0; k < p->n; ++k) {
         if ((answered >> k & 1) == 0) {
-            find_one(dem, p, k);
+            find_one(dem, p, kind, k);
         }
     }
     for (int k = p->n; k < CLX_BATCH; ++k) {
@@ -114,7 +118,7 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
     const int all = (1 << p->n) - 1;
     if ((answered & all) != all) {
-        find_rest(dem, p, answered);
+        find_rest(dem, p, kind, answered);
     }
 }
 

@@ -238,6 +238,9 @@ clast_status clx_dem_step_packed(clast_dem *dem, int64_t n_step)
             clx_inner_unpack(dem);
             CLX_TRY(clx_neighbour_list_refresh(dem));
         }
+        if (dem->cell != NULL) { // after the list, which holds from before its images move
+            clx_cell_begin_step(dem);
+        }
         if (dem->inner.is_due) {
             CLX_TRY(clx_inner_find(dem));
         }
@@ -245,9 +248,6 @@ clast_status clx_dem_step_packed(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_check_starts(dem));
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
-        if (dem->cell != NULL) { // after the lists, which hold from before its images move
-            clx_cell_begin_step(dem);
-        }
         clx_walls_begin_step(dem);
         CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
         clx_walls_end_step(dem);

@@ -8,6 +8,9 @@
 #include "base/alloc.h"
 #include "dem/cell.h"
 #include "dem/pair_force.h"
+#include "dem/ranks.h"
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,7 +126,8 @@ bool clx_dem_stress_is_fast(const clast_dem *dem)
     return dem->item == NULL && dem->container == NULL && dem->laws.n == 0 && !dem->law.has_history;
 }
 
-/// Pairs that touched in the last step, in the order of the list: the inner list has them all.
+/// Pairs that touched in the last step, in the order of the list: the inner list has them all. A
+/// rank's: those whose first grain it moves.
 static clast_status list_touching(work *w)
 {
     clast_status status = CLAST_OK;
@@ -134,9 +138,48 @@ static clast_status list_touching(work *w)
     for (int64_t k = 0; k < n; ++k) {
         const clx_dem_pair *pair = is_packed ? &dem->inner.packed[k].pair : &dem->list.pair[k];
         w->pair[w->n] = pair;
-        w->n += pair->touches;
+        w->n += pair->touches != 0 && !clx_are_ghosts(dem, pair->a, pair->a);
     }
 done:
+    return status;
+}
+
+/// Contacts of all ranks, by the whole's numbers, in the order of its list: each rank has those of
+/// its own grains in that order.
+static clast_status share_rows(const clx_ranks *r, clast_status status, contact **row, int64_t *n)
+{
+    clx_gathered all = {0};
+    contact *sorted = NULL;
+    int64_t *next = NULL;
+    CLX_TRY(clast_comm_agree(r->comm, status, NULL));
+    for (int64_t k = 0; k < *n; ++k) {
+        contact *c = &(*row)[k];
+        c->a = r->number[c->a];
+        c->b = c->b >= 0 ? r->number[c->b] : -1;
+    }
+    CLX_TRY(clx_comm_share(r->comm, *row, *n * (int64_t)sizeof **row, &all));
+    const contact *from = (const contact *)(const void *)all.bytes;
+    const int64_t m = all.n / (int64_t)sizeof *from;
+    status = clx_alloc(&sorted, m, sizeof *sorted);
+    status = status == CLAST_OK ? clx_alloc(&next, r->n_synced + 2, sizeof *next) : status;
+    CLX_TRY(clast_comm_agree(r->comm, status, NULL));
+    for (int64_t k = 0; k < m; ++k) {
+        ++next[from[k].a + 1];
+    }
+    for (int32_t i = 0; i < r->n_synced; ++i) {
+        next[i + 1] += next[i];
+    }
+    for (int64_t k = 0; k < m; ++k) {
+        sorted[next[from[k].a]++] = from[k];
+    }
+    clx_free(*row);
+    *row = sorted;
+    *n = m;
+    sorted = NULL;
+done:
+    clx_free(sorted);
+    clx_free(next);
+    clx_gathered_free(&all);
     return status;
 }
 
@@ -335,14 +378,18 @@ static clast_status measure_load(const clast_dem *dem, bool is_whole, bool is_ba
                                  clast_dem_load *load)
 {
     clast_status status = CLAST_OK;
+    const clx_ranks *r =
+        is_whole || dem->ranks == NULL || !dem->ranks->has_begun ? NULL : dem->ranks;
     contact *row = NULL;
     int64_t n = 0;
     clast_dem_load made = {0};
-    CLX_TRY(find(dem, &row, &n));
+    status = find(r != NULL ? r->local : dem, &row, &n);
+    CLX_TRY(r != NULL ? share_rows(r, status, &row, &n) : status);
     sum_contacts(n, row, &made);
     sum_motion(dem, &made);
     if (is_balanced) {
-        CLX_TRY(measure_balance(dem, n, row, &made));
+        status = measure_balance(dem, n, row, &made);
+        CLX_TRY(r != NULL ? clast_comm_agree(r->comm, status, NULL) : status);
     }
     if (is_whole) {
         CLX_TRY(count_rattlers(dem, n, row, &made));

@@ -394,12 +394,14 @@ done:
     return status;
 }
 
-/// Refuses a cell that has become too narrow for its grains.
-static clast_status check_room(const clast_dem *dem)
+clast_status clx_cell_check_room(const clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     const clx_periodic_cell *cell = dem->cell;
     double most = 0.0;
+    if (cell == NULL) {
+        return CLAST_OK;
+    }
     const double narrow = fmin(cell->side[0], fmin(cell->side[1], cell->side[2]));
     for (int32_t i = 0; i < dem->n_item; ++i) {
         most = fmax(most, clx_item_radius(dem, i));
@@ -431,9 +433,7 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
-    if (dem->cell != NULL) {
-        CLX_TRY(check_room(dem));
-    }
+    CLX_TRY(clx_cell_check_room(dem));
     clx_neighbour_list_mark(dem);
     CLX_TRY(clx_neighbour_list_search(dem));
 done:

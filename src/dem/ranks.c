@@ -20,6 +20,9 @@ static const double MOST_IMBALANCE = 1.15;
 /// The same over what the last partition left, where it could do no better.
 static const double WORSE = 1.1;
 
+/// Strain of a cell since the last partition after which grains are distributed anew.
+static const double MOST_STRAIN = 0.1;
+
 clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
 {
     clast_status status = CLAST_OK;
@@ -30,9 +33,8 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLAST_ASSERT(dem->ranks == NULL);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "%s: these ranks cannot exchange bytes",
               __func__);
-    CLX_CHECK(dem->cell == NULL && dem->energy == NULL, CLAST_E_CONFIG,
-              "a cell that repeats in three directions and the energy book are of one process: run "
-              "it on one rank");
+    CLX_CHECK(dem->energy == NULL, CLAST_E_CONFIG,
+              "the energy book is of one process: run it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
@@ -95,6 +97,9 @@ static void share_setting(clast_dem *whole)
     local->laws = whole->laws;
     local->body = whole->body;
     local->n_body = whole->n_body;
+    if (whole->cell != NULL) {
+        *local->cell = *whole->cell;
+    }
     local->has_items = whole->has_items;
     local->has_parts = whole->has_parts;
     local->all_round = whole->all_round;
@@ -153,6 +158,26 @@ done:
     return status;
 }
 
+/// Whether the cell has strained by so much since the last partition that the ranks' parts, which
+/// strain with it, are no boxes along its sides any more: each would have ghosts of all.
+static bool has_strained(clx_ranks *r)
+{
+    const clx_periodic_cell *cell = r->local->cell;
+    if (cell == NULL) {
+        return false;
+    }
+    double now[4] = {0.0, 0.0, 0.0, cell->sheared};
+    bool has = false;
+    for (int k = 0; k < 4; ++k) {
+        now[k] = k < 3 ? log(cell->first[k] * cell->inverse[k]) : now[k];
+        has = has || fabs(now[k] - r->strain[k]) > MOST_STRAIN;
+    }
+    if (has) {
+        memcpy(r->strain, now, sizeof now);
+    }
+    return has;
+}
+
 /// The first distribution: rank 0 has all, grains and pairs.
 static clast_status begin(clast_dem *whole)
 {
@@ -169,6 +194,7 @@ static clast_status begin(clast_dem *whole)
     r->n_synced = whole->n_grain;
     r->has_begun = true;
     r->is_current = true;
+    (void)has_strained(r);
     CLX_TRY(clx_ranks_connect(whole));
 done:
     return status;
@@ -212,6 +238,9 @@ static clast_status look_at_balance(clast_dem *whole)
 {
     clx_ranks *r = whole->ranks;
     double cost = 0.0;
+    if (has_strained(r)) {
+        return balance(whole);
+    }
     if (r->local->list.n_refresh % LOOK_EVERY != 0) {
         return CLAST_OK;
     }
@@ -236,20 +265,22 @@ done:
     return status;
 }
 
-/// Contacts and motion of the rank's own simulation.
+/// Contacts and motion of the rank's own simulation; a rank without grains moves the cell alone.
 static clast_status work(clast_dem *local, bool *is_fine)
 {
     clast_status status = CLAST_OK;
-    if (local->n_grain == 0) {
-        return CLAST_OK;
+    if (local->cell != NULL) {
+        clx_cell_begin_step(local);
     }
-    if (local->inner.is_due) {
+    if (local->n_grain > 0 && local->inner.is_due) {
         CLX_TRY(clx_inner_find(local));
     }
     if (local->n_started < local->n_grain) {
         CLX_TRY(clx_check_starts(local));
     }
-    CLX_TRY(clx_contacts_and_motion(local, is_fine));
+    if (local->n_grain > 0) {
+        CLX_TRY(clx_contacts_and_motion(local, is_fine));
+    }
 done:
     return status;
 }
@@ -308,6 +339,10 @@ static clast_status step(clast_dem *whole)
     clx_walls_begin_step(local);
     status = work(local, &is_fine);
     clx_walls_end_step(local);
+    if (local->cell != NULL) {
+        clx_cell_end_step(local);
+        *whole->cell = *local->cell;
+    }
     whole->step = ++local->step;
     whole->n_started = whole->n_grain;
     r->is_current = false;

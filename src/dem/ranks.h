@@ -62,7 +62,8 @@ typedef struct clx_ranks {
     clast_dem *local; ///< the rank's own simulation
     bool has_begun, is_current;
     int32_t n_synced; ///< the whole's grains that have been distributed
-    double middle[2]; ///< of the rank's grains, in the period about the origin
+    double middle[3]; ///< of the rank's grains, in the period about the origin
+    double strain[4]; ///< of a cell's sides, and shear, when its parts were last cut
     // [n_grain of the whole]
     int32_t *owner;    ///< rank that moves it
     int32_t *next;     ///< the same after the partition

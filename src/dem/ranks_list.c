@@ -23,8 +23,37 @@ static const double SLACK = 1e-9;
 /// A coordinate in the period about a point.
 static double wrap(const clast_dem *dem, int c, double x, double about)
 {
-    const double period = c < 2 ? dem->period[c] : 0.0;
+    const double period = dem->cell != NULL ? dem->cell->side[c] : c < 2 ? dem->period[c] : 0.0;
     return period > 0.0 ? x - period * floor((x - about) / period + 0.5) : x;
+}
+
+/// The image of a place about a point: the upper ones of a cell are shifted along x.
+static void wrap_place(const clast_dem *dem, const double x[3], const double about[3],
+                       double out[3])
+{
+    out[2] = wrap(dem, 2, x[2], about[2]);
+    const double shift =
+        dem->cell != NULL ? dem->cell->shift * round((out[2] - x[2]) * dem->cell->inverse[2]) : 0.0;
+    out[0] = wrap(dem, 0, x[0] + shift, about[0]);
+    out[1] = wrap(dem, 1, x[1], about[1]);
+}
+
+/// Whether some image of a place `off` away is within `most` along x, y and z. A cell's nearest
+/// image in z, above and below of it are all that are.
+static bool is_within(const clast_dem *dem, const double off[3], const double most[3])
+{
+    static const double here[3] = {0.0, 0.0, 0.0};
+    const int beyond = dem->cell != NULL ? 1 : 0;
+    bool is = false;
+    double at[3];
+    wrap_place(dem, off, here, at);
+    for (int n = -beyond; n <= beyond && !is; ++n) {
+        const double up = beyond != 0 ? n * dem->cell->side[2] : 0.0;
+        const double along = beyond != 0 ? n * dem->cell->shift : 0.0;
+        is = fabs(at[2] + up) <= most[2] && fabs(wrap(dem, 0, at[0] + along, 0.0)) <= most[0] &&
+             fabs(at[1]) <= most[1];
+    }
+    return is;
 }
 
 static box box_of_own(const clx_ranks *r)
@@ -37,10 +66,11 @@ static box box_of_own(const clx_ranks *r)
         }
         const clx_anchor *at = &dem->list.anchor[i];
         const double reach = clx_item_radius(dem, i) + at->margin;
+        double x[3];
+        wrap_place(dem, at->position, r->middle, x);
         for (int c = 0; c < 3; ++c) {
-            const double x = c < 2 ? wrap(dem, c, at->position[c], r->middle[c]) : at->position[c];
-            b.low[c] = fmin(b.low[c], x - reach);
-            b.high[c] = fmax(b.high[c], x + reach);
+            b.low[c] = fmin(b.low[c], x[c] - reach);
+            b.high[c] = fmax(b.high[c], x[c] + reach);
         }
     }
     return b;
@@ -48,28 +78,26 @@ static box box_of_own(const clx_ranks *r)
 
 static bool meets(const clast_dem *dem, const clx_anchor *at, double reach, const box *b)
 {
+    double off[3], most[3];
     for (int c = 0; c < 3; ++c) {
         const double half = 0.5 * (b->high[c] - b->low[c]);
-        const double off = wrap(dem, c, at->position[c] - 0.5 * (b->low[c] + b->high[c]), 0.0);
-        if (!(fabs(off) <= half + reach + SLACK * (half + reach + fabs(at->position[c])))) {
-            return false;
-        }
+        off[c] = at->position[c] - 0.5 * (b->low[c] + b->high[c]);
+        most[c] = half + reach + SLACK * (half + reach + fabs(at->position[c]));
     }
-    return true;
+    return is_within(dem, off, most);
 }
 
 /// Whether any sphere within the box a may meet the box b.
 static bool boxes_meet(const clast_dem *dem, const box *a, const box *b)
 {
+    double off[3], most[3];
     for (int c = 0; c < 3; ++c) {
         const double middle = 0.5 * (a->low[c] + a->high[c]);
         const double reach = 0.5 * (a->high[c] - a->low[c] + b->high[c] - b->low[c]);
-        const double off = wrap(dem, c, middle - 0.5 * (b->low[c] + b->high[c]), 0.0);
-        if (!(fabs(off) <= reach + 4.0 * SLACK * (reach + fabs(middle)))) {
-            return false;
-        }
+        off[c] = middle - 0.5 * (b->low[c] + b->high[c]);
+        most[c] = reach + 4.0 * SLACK * (reach + fabs(middle));
     }
-    return true;
+    return is_within(dem, off, most);
 }
 
 static bool grain_meets(const clast_dem *dem, int32_t g, const box *b)
@@ -286,11 +314,12 @@ done:
 static void find_middle(clx_ranks *r)
 {
     const clast_dem *dem = r->local;
-    for (int c = 0; c < 2; ++c) {
+    for (int c = 0; c < 3; ++c) {
         double low = INFINITY;
         double high = -INFINITY;
-        for (int32_t g = 0; g < dem->n_grain; ++g) {
-            const double x = wrap(dem, c, dem->grain[g].position[c], 0.0);
+        for (int32_t g = 0; g < dem->n_grain; ++g) { // those of a cell are in it
+            const double x = dem->cell != NULL ? dem->grain[g].position[c]
+                                               : wrap(dem, c, dem->grain[g].position[c], 0.0);
             low = r->is_ghost[g] != 0 ? low : fmin(low, x);
             high = r->is_ghost[g] != 0 ? high : fmax(high, x);
         }
@@ -441,6 +470,7 @@ clast_status clx_ranks_refresh(clast_dem *whole)
     clx_gathered in = {0};
     clx_arrivals a = {0};
     clx_inner_unpack(r->local);
+    CLX_TRY(clx_cell_check_room(whole));
     CLX_TRY(clast_comm_agree(r->comm, clx_neighbour_list_reserve(&r->local->list, r->local->n_item),
                              NULL));
     clx_neighbour_list_mark(r->local);

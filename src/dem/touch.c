@@ -4,8 +4,9 @@
 /// Gaps beyond this share of the smaller radius need no digits: a lower bound serves as budget.
 static const double FAR = 0.1;
 
-void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
-                      clx_dem_touch *t)
+/// @param is_new  the warm start's facet, of hulls, is known not to do
+static void touch(const clast_dem *dem, const clx_dem_pair *pair, bool is_new,
+                  clx_warm_start *warm_start, clx_dem_touch *t)
 {
     CLAST_ASSERT(pair->a >= 0 && pair->b > pair->a && pair->b < dem->n_item);
     clx_contact contact;
@@ -17,11 +18,24 @@ void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_s
     const double ra = clx_item_radius(dem, pair->a);
     const double rb = clx_item_radius(dem, pair->b);
     const double far = FAR * (ra < rb ? ra : rb);
-    if (clx_pair_contact(&shapes, far, warm_start, &contact)) {
+    if (is_new ? clx_hulls_contact_anew(&shapes, far, warm_start, &contact)
+               : clx_pair_contact(&shapes, far, warm_start, &contact)) {
         clx_touch_from_contact(&contact, shapes.offset, t);
     } else {
         t->distance = contact.gap;
     }
+}
+
+void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
+                      clx_dem_touch *t)
+{
+    touch(dem, pair, false, warm_start, t);
+}
+
+void clx_touch_hulls_anew(const clast_dem *dem, const clx_dem_pair *pair,
+                          clx_warm_start *warm_start, clx_dem_touch *t)
+{
+    touch(dem, pair, true, warm_start, t);
 }
 
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,

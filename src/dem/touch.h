@@ -82,6 +82,10 @@ static inline void clx_touch_from_contact(const clx_contact *c, const double off
 void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
                       clx_dem_touch *t);
 
+/// Two whole grains, hulls, whose warm start's facet is known not to do.
+void clx_touch_hulls_anew(const clast_dem *dem, const clx_dem_pair *pair,
+                          clx_warm_start *warm_start, clx_dem_touch *t);
+
 /// An item that is no sphere at a wall.
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
                            clx_warm_start *warm_start, clx_dem_touch *t);

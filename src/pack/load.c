@@ -13,6 +13,7 @@
 #include "dem/cell.h"
 #include "dem/dem.h"
 #include "dem/load.h"
+#include "dem/ranks.h"
 #include <math.h>
 #include <string.h>
 
@@ -250,6 +251,7 @@ clast_status clx_pack_load_look(clast_pack *p)
     if (!clx_dem_stress_is_fast(p->dem)) {
         clx_inner_unpack(p->dem);
     }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     CLX_TRY(clx_stage_read(&p->config, p->load.stage, &s));
     const bool is_balanced = s.end == CLX_END_REST || stage_time(p) >= p->config.max_load_time;
     CLX_TRY(clx_dem_stress(p->dem, is_balanced, &load));

@@ -209,6 +209,35 @@ class Beds(Case):
         self.assertEqual(code, 0, err)
         self.assertEqual(self.files(parts), self.files(whole))
 
+    def test_a_cell_is_pressed_and_sheared(self):
+        cell = ("pack", "--curve", "4mm", "--shapes", "ellipsoid:1,0.8,0.7", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--no-floor",
+                "--gravity", "0", "--fluid-density", "0", "--mass", "7g", "--load-rate", "20/s", "--series-time", "2ms", "-q",
+                "--stages", "isotropic 20/s until stress 3kPa", "--stages", "isotropic 3kPa until time 2ms",
+                "--stages", "shear 20/s 3kPa until strain 0.2")
+        whole = self.folder / "whole"
+        alone = clast(*cell, "-o", whole)
+        self.assertEqual(alone.code, 0, alone.err)
+        for n in (1, 2, 4):
+            run = self.folder / f"ranks{n}"
+            code, _, err = ranks(n, *cell, "-o", run)
+            self.assertEqual(code, 0, err)
+            self.assertEqual(self.files(run), self.files(whole), f"{n} ranks")
+        parts = self.folder / "parts" # a checkpoint of three ranks goes on with one, then two
+        code, _, err = ranks(3, *cell, "--max-steps", 500, "-o", parts)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
+        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 0, "-q")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(self.files(parts), self.files(whole))
+
+    def test_a_cell_that_gets_too_narrow_is_said_once(self):
+        cell = ("pack", "--curve", "4mm", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--no-floor", "--gravity", "0",
+                "--fluid-density", "0", "--mass", "0.5g", "--load-rate", "20/s", "--stages", "isotropic 20/s until strain 1", "-q")
+        alone = clast(*cell)
+        self.assertIn("narrowest side", alone.err)
+        code, _, err = ranks(3, *cell)
+        self.assertEqual((code, own_lines(err)), (alone.code, alone.err.splitlines()))
+
     def test_what_is_of_one_rank(self):
         code, _, err = ranks(2, *SMALL, "--mass", "1g", "--height", "40mm", "--energy")
         self.assertEqual((code, len(own_lines(err))), (2, 1), err)

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "dem/dem.h"
+#include "dem/load.h"
 #include "dem/ranks.h"
 #include "dem/saved.h"
 #include "math/rng.h"
@@ -50,6 +51,9 @@ static const bed_case cases[] = {
     {"clumps in a periodic box", SCENE_CLUMP, CLAST_DEM_PERIODIC, true, NULL},
     {"bricks in a box, compared", SCENE_BRICKS, CLAST_DEM_BOX, false, verify},
     {"gems in a cylinder", SCENE_GEMS, CLAST_DEM_CYLINDER, true, NULL},
+    {"balls in a cell, rolling springs", SCENE_BALL, CLAST_DEM_CELL, false, roll},
+    {"octahedra in a cell", SCENE_OCTAHEDRON, CLAST_DEM_CELL, true, NULL},
+    {"clumps in a cell", SCENE_CLUMP, CLAST_DEM_CELL, true, NULL},
 };
 
 enum {
@@ -100,6 +104,11 @@ static clast_status make(const bed_case *c, clast_dem **dem)
     config.height = 0.2;
     config.floor = true;
     config.gravity = 2000.0; // a bed within few steps
+    if (c->domain == CLAST_DEM_CELL) {
+        config.height = 0.076;
+        config.floor = false;
+        config.gravity = 0.0;
+    }
     if (c->change != NULL) {
         c->change(&config);
     }
@@ -116,6 +125,31 @@ static clast_status make(const bed_case *c, clast_dem **dem)
     return status;
 }
 
+/// A cell that is pressed and sheared, the faster the more stress it has: a bit that differs shows.
+static clast_status strain(clast_dem *dem)
+{
+    enum { LOOKS = 8 };
+    const double time = STEPS * dem->config.time_step;
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < LOOKS && status == CLAST_OK; ++k) {
+        clast_dem_load load = {0};
+        clast_dem_cell cell;
+        status = clx_dem_gather_grains(dem);
+        status = status == CLAST_OK ? clx_dem_stress(dem, true, &load) : status;
+        clast_dem_read_cell(dem, &cell);
+        double rate[3];
+        for (int i = 0; i < 3; ++i) {
+            const double pressure = load.stress[i] + load.kinetic_stress[i];
+            rate[i] = -cell.side[i] * (i < 2 ? 0.01 : 0.05) * (1.0 - 1e-7 * pressure) / time;
+        }
+        status = status == CLAST_OK
+                     ? clast_dem_set_cell_rate(dem, rate, 0.008 * (1.0 + load.unbalanced) / time)
+                     : status;
+        status = status == CLAST_OK ? clast_dem_step(dem, STEPS / LOOKS) : status;
+    }
+    return status;
+}
+
 /// Goes to a mark: a boulder falls on the bed, and shaking sets in.
 static clast_status go(const bed_case *c, clast_dem *dem, int mark)
 {
@@ -124,6 +158,9 @@ static clast_status go(const bed_case *c, clast_dem *dem, int mark)
     clast_status status = CLAST_OK;
     if (mark == 2) {
         status = add_layer(c, dem, BOULDER, 0.06);
+    }
+    if (c->domain == CLAST_DEM_CELL) {
+        return status == CLAST_OK ? strain(dem) : status;
     }
     clast_dem_set_drive(dem, mark < 3 ? &damp : &drive);
     return status == CLAST_OK ? clast_dem_step(dem, STEPS) : status;
@@ -148,6 +185,7 @@ static uint64_t digest(const clast_dem *dem)
                 {s.id, 4 * CLX_SAVED_ID * s.n_pair},
                 {s.pair, 8 * CLX_SAVED_PAIR * s.n_pair},
                 {s.warm_start, s.warm_start != NULL ? s.warm_start_width * s.n_pair : 0},
+                {s.cell, s.cell != NULL ? 8 * CLX_SAVED_CELL : 0},
                 {&s.n_refresh, 8},
                 {&s.is_due, 1},
                 {s.verified, sizeof s.verified}};
@@ -203,7 +241,7 @@ static void bed_is_the_same_on_ranks(void **state)
         clast_dem_measure(dem, &m);
         print_message("%s: %d contacts, %d at walls, %d refreshes\n", e.one->name, (int)m.n_contact,
                       (int)m.n_wall_contact, (int)m.n_refresh);
-        assert_true(m.n_contact > 15);
+        assert_true(m.n_contact > 10);
         clast_dem_destroy(dem);
         support_run_ranks(2 + c % 3, run_rank, &e);
     }
