@@ -235,6 +235,7 @@ int64_t clx_first_of_sorted(const clast_comm *comm, uint64_t *key, int64_t n, in
 /// [n_rank][VALUES + 1] is room for it.
 static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_t *count)
 {
+    CLAST_ASSERT(count != NULL);
     const int32_t n = comm->n_rank - 1;
     int64_t *number = count + (int64_t)n * VALUES;
     for (int32_t k = 0; k < n; ++k) {
