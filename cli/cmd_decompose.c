@@ -169,14 +169,12 @@ done:
     return status;
 }
 
-/// Refuses what several ranks do not make.
+/// What needs a folder has one.
 static clast_status check(const cli_common *common, const config *c)
 {
     clast_status status = CLAST_OK;
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");
-    CLI_CHECK(c->n_size == 0 || common->comm->n_rank == 1, CLAST_E_USAGE,
-              "--sizes decomposes parts of one cloud: run it without mpirun");
 done:
     return status;
 }
@@ -227,8 +225,9 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(read_input(common, c, &domain, &cloud, &f));
     CLI_TRY(decompose(common, c, &domain, &cloud, &result, &f));
     if (c->n_size > 0) {
+        const clast_decompose_parts parts = {c->n_size, c->regular};
         CLI_TRY(
-            clast_decompose_sizes(&domain, &cloud, c->n_size, c->regular, &c->decompose, &sizes));
+            clast_decompose_sizes(common->comm, &domain, &cloud, &parts, &c->decompose, &sizes));
     }
     cli_decompose_job j = {.domain = &domain,
                            .cloud = &cloud,
@@ -281,7 +280,7 @@ const cli_command cli_decompose = {
         "volume, beta_dt, seed.\n"
         "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
         "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
-        "-o without points.vtp and charts.",
+        "-o without points.vtp and charts of points.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

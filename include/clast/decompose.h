@@ -345,21 +345,6 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
                                           const clast_decompose_config *config,
                                           clast_decomposition *result);
 
-/// Events against the number of points: random parts of n, n/2, n/4, ... points of a cloud without
-/// weights and variable, decomposed each by itself.
-///
-/// @param n_size   parts, 1 to 40; the smallest has 5 points at least
-/// @param regular  a regular mesh of so many cells an axis beside, to 200; 0: none
-/// @param table    out, a row a part, smallest first: n, events, events_low, events_high, n_cell,
-/// and the events scaled by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events
-/// and scaled_regular. Without beta dt they are pair_integral, ... [1/m^d]
-/// @return CLAST_E_CONFIG for counts out of range, weights or a variable, a regular mesh in a mesh
-/// domain; what clast_decompose_in returns
-CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
-                                             int32_t n_size, int32_t regular,
-                                             const clast_decompose_config *config,
-                                             clast_table *table);
-
 /// The same of one cloud of which each rank has a part; points stay where they are. Called by all
 /// ranks with the same domain and configuration. Cells, tests, events and all numbers are those of
 /// all points together, on every rank, and the same bytes for any number of ranks, any first
@@ -368,14 +353,38 @@ CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const c
 ///
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param cloud  the points of this rank
-/// @return on several ranks CLAST_E_CONFIG for what one process alone does: a variable, ghost
-/// samples, cross-fitting; CLAST_E_ARGUMENT where points of some ranks have weights and of others
+/// @return CLAST_E_ARGUMENT where points of some ranks have weights, or a variable, and of others
 /// none. The status is the same on every rank, and an error names the rank
 /// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
 CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
                                              const clast_cloud *cloud,
                                              const clast_decompose_config *config,
                                              clast_decomposition *result);
+
+/// What clast_decompose_sizes makes.
+typedef struct clast_decompose_parts {
+    int32_t n_size;  ///< parts, 1 to 40; the smallest has 5 points at least
+    int32_t regular; ///< a regular mesh of so many cells an axis beside, to 200; 0: none
+} clast_decompose_parts;
+
+/// Events against the number of points: random parts of n, n/2, n/4, ... points of a cloud without
+/// weights and variable, decomposed each by itself. Of several ranks each gives its points, as to
+/// clast_decompose_ranks; a hash of the seed and of the positions draws the parts, so they are the
+/// same for any ranks and any order of the points.
+///
+/// @param comm   of clast_mpi_create; NULL: the only rank
+/// @param table  out, a row a part, smallest first: n, events, events_low, events_high, n_cell,
+/// and the events scaled by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events
+/// and scaled_regular. Without beta dt they are pair_integral, ... [1/m^d]
+/// @return CLAST_E_CONFIG for counts out of range, weights or a variable, a regular mesh in a mesh
+/// domain; what clast_decompose_ranks returns
+/// @note on each rank some 70 bytes a point, and 8 a cell of the regular mesh, beside the
+/// decomposition
+CLAST_API clast_status clast_decompose_sizes(const clast_comm *comm, const clast_domain *domain,
+                                             const clast_cloud *cloud,
+                                             const clast_decompose_parts *sizes,
+                                             const clast_decompose_config *config,
+                                             clast_table *table);
 
 /// Whether label and pass mean something: of bins, not of a tree or a single cell.
 CLAST_API bool clast_cells_are_labelled(const clast_cells *cells);

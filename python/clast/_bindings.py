@@ -188,6 +188,10 @@ class clast_within_cells(Structure):
     """What pairs show within the cells, whose points the cells take as even."""
 
 
+class clast_decompose_parts(Structure):
+    """What clast_decompose_sizes makes."""
+
+
 class clast_dem_config(Structure):
     """Physics of a run."""
 
@@ -1181,6 +1185,10 @@ clast_within_cells._fields_ = [
     ('g_low', c_double),
     ('g_high', c_double),
     ('length', c_double),
+]
+clast_decompose_parts._fields_ = [
+    ('n_size', c_int32),
+    ('regular', c_int32),
 ]
 clast_dem_config._fields_ = [
     ('law', c_int32),
@@ -2822,6 +2830,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pass': (72, {'nb': (0, 12), 'n_lambda': (12, 4), 'lambda_count': (16, 4), 'lambda': (24, 8), 'n_lower': (32, 4), 'lower': (40, 8), 'score': (48, 8), 'ideal': (56, 8), 'fallback': (64, 1)}),
     'clast_cells': (128, {'n': (0, 4), 'low': (8, 8), 'high': (16, 8), 'volume': (24, 8), 'count': (32, 8), 'label': (40, 8), 'pass': (48, 8), 'weight': (56, 8), 'events': (64, 8), 'of_point': (72, 8), 'is_box': (80, 1), 'nb': (84, 12), 'bin_count': (96, 8), 'of_bin': (104, 8), 'key': (112, 8), 'group': (120, 8)}),
     'clast_within_cells': (72, {'is_structured': (0, 1), 'cell': (8, 8), 'even': (16, 8), 'radius': (24, 8), 'n_pair': (32, 8), 'g': (40, 8), 'g_low': (48, 8), 'g_high': (56, 8), 'length': (64, 8)}),
+    'clast_decompose_parts': (8, {'n_size': (0, 4), 'regular': (4, 4)}),
     'clast_dem_config': (208, {'law': (0, 4), 'contact_scheme': (4, 4), 'restitution': (8, 8), 'collision_time': (16, 8), 'poisson': (24, 8), 'young': (32, 8), 'friction': (40, 8), 'wall_friction': (48, 8), 'rolling_friction': (56, 8), 'rolling_model': (64, 4), 'cohesion': (68, 4), 'cohesion_energy': (72, 8), 'surface_energy': (80, 8), 'clip': (88, 1), 'normal_torque': (89, 1), 'gyroscopic': (90, 1), 'clump_contacts': (92, 4), 'time_step': (96, 8), 'gravity': (104, 8), 'fluid_density': (112, 8), 'fluid_viscosity': (120, 8), 'sphere_drag': (128, 4), 'hindrance': (132, 1), 'added_mass': (136, 8), 'wet_restitution': (144, 1), 'domain': (148, 4), 'width': (152, 8), 'depth': (160, 8), 'height': (168, 8), 'floor': (176, 1), 'lid': (177, 1), 'rounding': (184, 8), 'skin': (192, 8), 'verify': (200, 4)}),
     'clast_dem_grain': (128, {'shape': (0, 4), 'scale': (8, 8), 'density': (16, 8), 'position': (24, 24), 'orientation': (48, 32), 'velocity': (80, 24), 'angular_velocity': (104, 24)}),
     'clast_dem_drive': (24, {'shake_amplitude': (0, 8), 'shake_period': (8, 8), 'damping': (16, 8)}),
@@ -3514,8 +3523,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
-    'clast_decompose_sizes': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), c_int32, c_int32, POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
     'clast_decompose_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], 'The same of one cloud of which each rank has a part; points stay where they are.'),
+    'clast_decompose_sizes': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_parts), POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),

@@ -223,8 +223,8 @@ def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
     """Events of random parts of n, n/2, n/4, ... points."""
     domain, table = Owner(c.clast_domain(), "clast_domain_free"), Owner(c.clast_table(), "clast_table_free")
     check(call("clast_domain_parse")(config.domain, ctypes.byref(domain.struct)))
-    check(call("clast_decompose_sizes")(ctypes.byref(domain.struct), ctypes.byref(cloud._struct()), sizes, regular, ctypes.byref(config),
-                                        ctypes.byref(table.struct)))
+    check(call("clast_decompose_sizes")(None, ctypes.byref(domain.struct), ctypes.byref(cloud._struct()),
+                                        ctypes.byref(c.clast_decompose_parts(sizes, regular)), ctypes.byref(config), ctypes.byref(table.struct)))
     return table_of(table)
 
 

@@ -213,6 +213,12 @@ double clx_comm_least(const clast_comm *comm, double value)
     return value;
 }
 
+bool clx_comm_is_same(const clast_comm *comm, int64_t value)
+{
+    const int64_t least = comm->least(comm->context, value);
+    return least == -comm->least(comm->context, -value);
+}
+
 clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const int64_t *n_out,
                                clx_gathered *in)
 {

@@ -34,6 +34,9 @@ clast_status clx_comm_before(const clast_comm *comm, int64_t value, int64_t *bef
 /// Least of all ranks' numbers, which are not NAN.
 double clx_comm_least(const clast_comm *comm, double value);
 
+/// Whether the number is the same on all ranks.
+bool clx_comm_is_same(const clast_comm *comm, int64_t value);
+
 /// Sends n_out [n_rank] bytes of `out`, one after another, to each rank; what comes, by rank.
 clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const int64_t *n_out,
                                clx_gathered *in);

@@ -99,50 +99,7 @@ static double constant_part(const clx_depth_law *law, double g, double a, double
     return below + above;
 }
 
-typedef struct {
-    const clx_depth_law *law;
-    const double *z;
-    int64_t n;
-    double *part; ///< one per block, added in order
-} distance_context;
-
-enum { STEPS_A_BLOCK = 16384, N_PART = 64, POINTS_A_BLOCK = 16384 };
-
-/// Steps of G_n that share a part: fixed by n alone.
-static int64_t steps_a_part(int64_t n)
-{
-    const int64_t even = (n + N_PART) / N_PART;
-    return even > STEPS_A_BLOCK ? even : STEPS_A_BLOCK;
-}
-
-static void sum_steps(int64_t begin, int64_t end, int32_t worker, void *context)
-{
-    const distance_context *c = context;
-    double sum = 0.0;
-    double from = begin > 0 ? c->z[begin - 1] : 0.0;
-    (void)worker;
-    for (int64_t k = begin; k < end; ++k) {
-        const double to = k < c->n ? c->z[k] : 1.0;
-        if (to > from) {
-            sum += constant_part(c->law, (double)k / (double)c->n, from, to);
-            from = to;
-        }
-    }
-    c->part[begin / steps_a_part(c->n)] = sum;
-}
-
-double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
-{
-    CLAST_ASSERT(n > 0);
-    double part[N_PART + 1] = {0.0};
-    double sum = 0.0;
-    distance_context context = {law, z, n, part};
-    clx_parallel_for(n + 1, steps_a_part(n), sum_steps, &context);
-    for (int k = 0; k <= N_PART; ++k) {
-        sum += part[k];
-    }
-    return sum;
-}
+enum { POINTS_A_BLOCK = 16384 };
 
 enum { KINK_LIMIT = 4096, KINK_EDGE = 512, N_PANEL = 64 };
 
@@ -237,7 +194,15 @@ typedef struct {
     uint64_t *key;
 } key_context;
 
-/// Numbers >= 0 and their bits have one order.
+uint64_t clx_depth_key(double z)
+{
+    uint64_t key = 0;
+    const double own = z + 0.0; // no -0
+    CLAST_ASSERT(own >= 0.0 && own <= 1.0);
+    memcpy(&key, &own, sizeof key);
+    return key;
+}
+
 static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const key_context *c = context;
@@ -245,9 +210,7 @@ static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const double *u = clx_part_point(c->part, i, held);
-        const double z = (c->axis < 0 ? clx_depth_of(c->law, u) : u[c->axis]) + 0.0; // no -0
-        CLAST_ASSERT(z >= 0.0 && z <= 1.0);
-        memcpy(&c->key[i], &z, sizeof z);
+        c->key[i] = clx_depth_key(c->axis < 0 ? clx_depth_of(c->law, u) : u[c->axis]);
     }
 }
 
@@ -270,22 +233,31 @@ done:
     return status;
 }
 
+clast_status clx_depths_of_keys(const clast_comm *comm, uint64_t **key, int64_t n,
+                                clx_depths *depths)
+{
+    clast_status status = CLAST_OK;
+    const uint64_t limit = UINT64_C(0x3ff0000000000001); // 1.0, and one more
+    clx_depths made = {{0}, 0.0};
+    CLX_TRY(clx_ranked_sort(comm, key, n, limit, &made.ranked));
+    CLX_TRY(find_before(comm, &made));
+    *depths = made;
+    made = (clx_depths){{0}, 0.0};
+done:
+    clx_depths_free(&made);
+    return status;
+}
+
 clast_status clx_depths_sort(const clx_depth_law *law, const clx_part *part, int32_t axis,
                              clx_depths *depths)
 {
     clast_status status = CLAST_OK;
-    const uint64_t limit = UINT64_C(0x3ff0000000000001); // 1.0, and one more
     key_context c = {law, part, axis, NULL};
-    clx_depths made = {{0}, 0.0};
     CLX_TRY(clast_comm_agree(part->comm, clx_alloc(&c.key, part->n, sizeof *c.key), NULL));
     clx_parallel_for(part->n, POINTS_A_BLOCK, take_keys, &c);
-    CLX_TRY(clx_ranked_sort(part->comm, &c.key, part->n, limit, &made.ranked));
-    CLX_TRY(find_before(part->comm, &made));
-    *depths = made;
-    made = (clx_depths){{0}, 0.0};
+    CLX_TRY(clx_depths_of_keys(part->comm, &c.key, part->n, depths));
 done:
     clx_free(c.key);
-    clx_depths_free(&made);
     return status;
 }
 
@@ -339,14 +311,14 @@ static void sum_steps_here(int64_t begin, int64_t end, int32_t worker, void *con
     }
 }
 
-static clast_status sum_terms(const clx_depth_law *law, const clx_part *part,
+static clast_status sum_terms(const clx_depth_law *law, const clast_comm *comm,
                               const clx_depths *depths, step_term term, double *value)
 {
     clast_status status = CLAST_OK;
     const clx_ranked *r = &depths->ranked;
     const int32_t n_worker = clx_parallel_workers();
     step_context c = {law, depths, term, NULL};
-    CLX_TRY(clast_comm_agree(part->comm, clx_alloc(&c.sum, n_worker, sizeof *c.sum), NULL));
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&c.sum, n_worker, sizeof *c.sum), NULL));
     clx_parallel_for(r->n, POINTS_A_BLOCK, sum_steps_here, &c);
     if (r->n > 0 && r->before + r->n == r->n_all) {
         const double z[2] = {depth_at(depths, r->n - 1), 1.0};
@@ -355,23 +327,23 @@ static clast_status sum_terms(const clx_depth_law *law, const clx_part *part,
     for (int32_t w = 1; w < n_worker; ++w) {
         clx_exact_merge(&c.sum[0], &c.sum[w]);
     }
-    clx_exact_over(part->comm, c.sum, 1);
+    clx_exact_over(comm, c.sum, 1);
     *value = clx_exact_value(&c.sum[0]);
 done:
     clx_free(c.sum);
     return status;
 }
 
-clast_status clx_depths_distance(const clx_depth_law *law, const clx_part *part,
+clast_status clx_depths_distance(const clx_depth_law *law, const clast_comm *comm,
                                  const clx_depths *depths, double *distance)
 {
-    return sum_terms(law, part, depths, distance_term, distance);
+    return sum_terms(law, comm, depths, distance_term, distance);
 }
 
-clast_status clx_depths_trapezoid(const clx_depth_law *law, const clx_part *part,
+clast_status clx_depths_trapezoid(const clx_depth_law *law, const clast_comm *comm,
                                   const clx_depths *depths, double *distance)
 {
-    return sum_terms(law, part, depths, trapezoid_term, distance);
+    return sum_terms(law, comm, depths, trapezoid_term, distance);
 }
 
 clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, const double *side,
@@ -390,13 +362,13 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
     const clx_part part = clx_part_whole(u, n, d);
     const clx_depth_law law = clx_depth_law_of_box(d, side);
     CLX_TRY(clx_depths_sort(&law, &part, -1, &depths));
-    CLX_TRY(clx_depths_distance(&law, &part, &depths, &made.score));
-    CLX_TRY(clx_depths_trapezoid(&law, &part, &depths, &made.trapezoid));
+    CLX_TRY(clx_depths_distance(&law, part.comm, &depths, &made.score));
+    CLX_TRY(clx_depths_trapezoid(&law, part.comm, &depths, &made.trapezoid));
     made.ideal = clx_depth_ideal(&law, (double)n);
     for (int32_t j = 0; j < d; ++j) {
         clx_depths_free(&depths);
         CLX_TRY(clx_depths_sort(&line, &part, j, &depths));
-        CLX_TRY(clx_depths_distance(&line, &part, &depths, &made.projected_axis[j]));
+        CLX_TRY(clx_depths_distance(&line, part.comm, &depths, &made.projected_axis[j]));
         made.projected += made.projected_axis[j];
     }
     *result = made;

@@ -18,10 +18,7 @@ double clx_depth_quantile(const clx_depth_law *law, double p);
 /// Depth of a point of the unit cube over half the shortest side, in [0, 1].
 double clx_depth_of(const clx_depth_law *law, const double *u);
 
-/// Integral over [0, 1] of |G_n - H| for n sorted depths, exact.
-double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n);
-
-/// Its expectation for n uniform points.
+/// Expectation of the integral over [0, 1] of |G_n - H| for n uniform points.
 double clx_depth_ideal(const clx_depth_law *law, double n);
 
 /// All ranks' depths, or coordinates along an axis, in ascending order.
@@ -35,12 +32,19 @@ clast_status clx_depths_sort(const clx_depth_law *law, const clx_part *part, int
                              clx_depths *depths);
 void clx_depths_free(clx_depths *depths);
 
-/// clx_depth_distance of all ranks' depths, on every rank.
-clast_status clx_depths_distance(const clx_depth_law *law, const clx_part *part,
+/// Bits of a depth: numbers >= 0 and their bits have one order.
+uint64_t clx_depth_key(double z);
+
+/// The depths whose keys these are; *key, from clx_alloc, is taken over.
+clast_status clx_depths_of_keys(const clast_comm *comm, uint64_t **key, int64_t n,
+                                clx_depths *depths);
+
+/// Integral over [0, 1] of |G_n - H| of all ranks' depths, at least one, exact; on every rank.
+clast_status clx_depths_distance(const clx_depth_law *law, const clast_comm *comm,
                                  const clx_depths *depths, double *distance);
 
 /// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
-clast_status clx_depths_trapezoid(const clx_depth_law *law, const clx_part *part,
+clast_status clx_depths_trapezoid(const clx_depth_law *law, const clast_comm *comm,
                                   const clx_depths *depths, double *distance);
 
 /// Side lengths of the box that the unit cube stands for in boundary scores: a box's own, 1 for

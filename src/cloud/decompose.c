@@ -13,9 +13,11 @@
 #include "cloud/part.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
+#include "cloud/shuffle.h"
 #include "cloud/surface.h"
 #include "cloud/uniformity.h"
 #include "cloud/uniformity_tree.h"
+#include "math/fixed_sum.h"
 #include <clast/machine.h>
 #include <math.h>
 #include <string.h>
@@ -207,7 +209,8 @@ static clast_status take_variable(const clast_cloud *cloud, const clx_sample *m,
     }
     CLX_TRY(clx_alloc(variable, m->n, sizeof **variable));
     for (int64_t i = 0; i < m->n; ++i) {
-        (*variable)[i] = m->number[i] >= 0 ? cloud->variable[m->number[i]] : (double)NAN;
+        const int64_t number = clx_sample_number(m, i);
+        (*variable)[i] = number >= 0 ? cloud->variable[number] : (double)NAN;
     }
 done:
     return status;
@@ -247,7 +250,7 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
     const clx_uniformity_tree_config limits = {config->tree_level, config->tree_root_level,
                                                config->tree_least, config->variable_tolerance,
                                                config->tree_refine};
-    CLX_TRY(take_variable(cloud, m, &variable));
+    CLX_TRY(clast_comm_agree(m->comm, take_variable(cloud, m, &variable), NULL));
     const clx_part part = clx_sample_part(m, m->n);
     const clx_uniformity_tree_points points = {&part, m->n_test, variable,
                                                is_uneven(&result->before, config)};
@@ -319,7 +322,8 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     CLX_TRY(clx_passes_run(&part, m->domain, config, result, &passes));
     CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&cell, passes.bins.n_bin, sizeof *cell), NULL));
     const int32_t kind = config->mesh == CLAST_CELLS_AUTO ? CLAST_CELLS_BOXES : config->mesh;
-    CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)kind, passes.tag, cell, &n_cell));
+    status = clx_cells_make(&passes.bins, (clx_cells_kind)kind, passes.tag, cell, &n_cell);
+    CLX_TRY(clast_comm_agree(m->comm, status, NULL));
     status = alloc_cells(&result->cells, n_cell);
     if (status == CLAST_OK) {
         status = clx_alloc(&of_sample, m->n, sizeof *of_sample);
@@ -391,49 +395,49 @@ static void to_domain(const clast_domain *domain, clast_cells *cells)
     }
 }
 
-/// Every second point, from `first` on.
-static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *half)
+/// Weights [n] of all ranks' points in each of the cells, added without rounding.
+static clast_status weigh_cells(const clast_comm *comm, const clast_domain *domain,
+                                const clast_cloud *cloud, const clast_cells *cells, double *weight)
 {
-    CLAST_ASSERT(first == 0 || first == 1);
     clast_status status = CLAST_OK;
-    const int32_t d = cloud->dimension;
-    CLX_TRY(clast_cloud_alloc((cloud->n - first + 1) / 2, d, half));
-    if (cloud->weight != NULL) {
-        CLX_TRY(clx_alloc(&half->weight, half->n, sizeof *half->weight));
+    clx_fixed_sum *sum = NULL;
+    double most = cloud->weight != NULL ? 0.0 : 1.0;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&sum, cells->n, sizeof *sum), NULL));
+    for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
+        most = fmax(most, cloud->weight[i]);
     }
-    if (cloud->variable != NULL) {
-        CLX_TRY(clx_alloc(&half->variable, half->n, sizeof *half->variable));
+    most = -clx_comm_least(comm, -most);
+    const clx_fixed_scale scale = clx_fixed_scale_of(most, clx_comm_total(comm, cloud->n));
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        const int32_t c = clast_cells_locate(cells, domain, cloud->x + i * cloud->dimension);
+        if (c >= 0) {
+            clx_fixed_sum term;
+            clx_fixed_powers(&scale, cloud->weight != NULL ? cloud->weight[i] : 1.0, 1, &term);
+            clx_fixed_add(&sum[c], &term);
+        }
     }
-    for (int64_t i = 0; i < half->n; ++i) {
-        memcpy(half->x + i * d, cloud->x + (2 * i + first) * d, (size_t)d * sizeof *half->x);
-        if (cloud->weight != NULL) {
-            half->weight[i] = cloud->weight[2 * i + first];
-        }
-        if (cloud->variable != NULL) {
-            half->variable[i] = cloud->variable[2 * i + first];
-        }
+    clx_comm_sum(comm, sum->word, (int64_t)2 * cells->n);
+    for (int32_t c = 0; c < cells->n; ++c) {
+        weight[c] = clx_fixed_value(&scale, &sum[c], 1);
     }
 done:
+    clx_free(sum);
     return status;
 }
 
 /// Events with the cells of one half and the weights of both: 2 W_A W_B beta dt / V, whose mean is
 /// that of W^2 / 2 without the bias of cells that were chosen by these points.
-static clast_status cross_events(const clast_cloud *half, const clast_decompose_config *config,
-                                 const clast_domain *domain, double *events)
+static clast_status cross_events(const clast_comm *comm, const clast_cloud half[2],
+                                 const clast_decompose_config *config, const clast_domain *domain,
+                                 double *events)
 {
     clast_status status = CLAST_OK;
     clast_decomposition a = {0};
     double *weight = NULL;
     double sum = 0.0;
-    CLX_TRY(clast_decompose_in(domain, &half[0], config, &a));
-    CLX_TRY(clx_alloc(&weight, a.cells.n, sizeof *weight));
-    for (int64_t i = 0; i < half[1].n; ++i) {
-        const int32_t c = clast_cells_locate(&a.cells, domain, half[1].x + i * half[1].dimension);
-        if (c >= 0) {
-            weight[c] += half[1].weight != NULL ? half[1].weight[i] : 1.0;
-        }
-    }
+    CLX_TRY(clast_decompose_ranks(comm, domain, &half[0], config, &a));
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&weight, a.cells.n, sizeof *weight), NULL));
+    CLX_TRY(weigh_cells(comm, domain, &half[1], &a.cells, weight));
     for (int32_t c = 0; c < a.cells.n; ++c) {
         const double both = a.cells.weight[c] + weight[c];
         const double pairs = 2.0 * a.cells.weight[c] * weight[c] / a.cells.volume[c];
@@ -446,26 +450,38 @@ done:
     return status;
 }
 
-/// Mean over the swap of the halves.
-static clast_status crossfit(const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clast_domain *domain, double *events)
+/// Points from number `begin` on, borrowed.
+static clast_cloud points_from(const clast_cloud *cloud, int64_t begin)
+{
+    clast_cloud part = {.n = cloud->n - begin, .dimension = cloud->dimension};
+    part.x = cloud->x + begin * cloud->dimension;
+    part.weight = cloud->weight != NULL ? cloud->weight + begin : NULL;
+    part.variable = cloud->variable != NULL ? cloud->variable + begin : NULL;
+    return part;
+}
+
+/// Mean over the swap of two random halves.
+static clast_status crossfit(const clast_comm *comm, const clast_cloud *cloud,
+                             const clast_decompose_config *config, const clast_domain *domain,
+                             double *events)
 {
     clast_status status = CLAST_OK;
-    clast_cloud half[2] = {{0}, {0}};
+    clx_shuffled all = {0};
     double found[2] = {0};
     clast_decompose_config plain = *config;
     plain.crossfit = false;
     plain.pairs = false;
     plain.estimator = CLAST_ESTIMATOR_CELLS;
-    for (int k = 0; k < 2; ++k) {
-        CLX_TRY(take_half(cloud, k, &half[k]));
-    }
-    CLX_TRY(cross_events((const clast_cloud[2]){half[0], half[1]}, &plain, domain, &found[0]));
-    CLX_TRY(cross_events((const clast_cloud[2]){half[1], half[0]}, &plain, domain, &found[1]));
+    CLX_TRY(clx_shuffle(comm, cloud, config->seed, &all));
+    const int64_t n = clx_shuffled_first(&all, (all.n_all + 1) / 2);
+    clast_cloud first = points_from(&all.cloud, 0);
+    const clast_cloud second = points_from(&all.cloud, n);
+    first.n = n;
+    CLX_TRY(cross_events(comm, (const clast_cloud[2]){first, second}, &plain, domain, &found[0]));
+    CLX_TRY(cross_events(comm, (const clast_cloud[2]){second, first}, &plain, domain, &found[1]));
     *events = 0.5 * (found[0] + found[1]);
 done:
-    clast_cloud_free(&half[0]);
-    clast_cloud_free(&half[1]);
+    clx_shuffled_free(&all);
     return status;
 }
 
@@ -569,41 +585,25 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
-        CLX_TRY(crossfit(cloud, config, sample->domain, &result->events_cross));
+        CLX_TRY(crossfit(sample->comm, cloud, config, sample->domain, &result->events_cross));
     }
 done:
     return status;
 }
 
-/// Whether the points of all ranks have weights; `none` stands for those of a rank without points.
-static clast_status agree_on_weights(const clast_comm *comm, double *none, clast_cloud *cloud)
+/// Whether the points of all ranks have what `column` holds, weights or a variable; `none` stands
+/// for that of a rank without points.
+static clast_status agree_on(const clast_comm *comm, const char *what, int64_t n, double *none,
+                             double **column)
 {
     clast_status status = CLAST_OK;
-    const int64_t n = clx_comm_total(comm, cloud->n);
-    const int64_t n_with = clx_comm_total(comm, cloud->weight != NULL ? cloud->n : 0);
-    CLX_CHECK(n_with == 0 || n_with == n, CLAST_E_ARGUMENT,
-              "%lld of %lld points have weights: some ranks give them, others do not",
-              (long long)n_with, (long long)n);
+    const int64_t n_all = clx_comm_total(comm, n);
+    const int64_t n_with = clx_comm_total(comm, *column != NULL ? n : 0);
+    CLX_CHECK(n_with == 0 || n_with == n_all, CLAST_E_ARGUMENT,
+              "%lld of %lld points have %s: some ranks give them, others do not", (long long)n_with,
+              (long long)n_all, what);
     if (comm->n_rank > 1) {
-        cloud->weight = n_with == 0 ? NULL : cloud->weight != NULL ? cloud->weight : none;
-    }
-done:
-    return status;
-}
-
-/// What needs all points in one place, or sums whose order is that of the points.
-static clast_status check_ranks(const clast_cloud *cloud, const clast_decompose_config *config)
-{
-    clast_status status = CLAST_OK;
-    const struct {
-        bool is_asked;
-        const char *what;
-    } single[] = {{cloud->variable != NULL, "a variable"},
-                  {config->ghost_samples > 0, "expected scores by sampling (--ghost-samples)"},
-                  {config->crossfit, "cross-fitting"}};
-    for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
-        CLX_CHECK(!single[k].is_asked, CLAST_E_CONFIG, "%s: not over ranks; run it as one process",
-                  single[k].what);
+        *column = n_with == 0 ? NULL : *column != NULL ? *column : none;
     }
 done:
     return status;
@@ -616,9 +616,6 @@ static clast_status check_call(const clast_comm *comm, const clast_domain *domai
     CLX_NEED(config);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
     CLX_TRY(clx_decompose_check(domain, cloud, config));
-    if (comm->n_rank > 1) {
-        CLX_TRY(check_ranks(cloud, config));
-    }
 done:
     return status;
 }
@@ -637,7 +634,8 @@ clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *d
     CLX_NEED(result);
     CLX_TRY(clast_comm_agree(all, check_call(all, domain, cloud, config), NULL));
     own = *cloud;
-    CLX_TRY(agree_on_weights(all, &none, &own));
+    CLX_TRY(agree_on(all, "weights", own.n, &none, &own.weight));
+    CLX_TRY(agree_on(all, "a variable", own.n, &none, &own.variable));
     CLX_TRY(clx_sample_make(all, &own, config, domain, &m));
     CLX_TRY(clx_decompose_test(&m, config, &made.before));
     CLX_TRY(clx_decompose_cells(&own, &m, config, &made));

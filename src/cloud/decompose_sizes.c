@@ -3,10 +3,10 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
-#include "base/status.h"
-#include "math/rng.h"
-#include "math/sort.h"
-#include <clast/cloud.h>
+#include "base/comm.h"
+#include "cloud/decompose_steps.h"
+#include "cloud/shuffle.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,29 +20,11 @@ static const char *const column_name[2][N_COLUMN] = {
      "scaled_pair_integral", "scaled_low", "scaled_high", "regular_pair_integral",
      "scaled_regular"}};
 
-/// The cloud's points in an order fixed by the seed, so that the first m are a random part.
-static clast_status shuffle_points(const clast_cloud *cloud, uint64_t seed, clast_cloud *out)
-{
-    const int32_t d = cloud->dimension;
-    clx_keyed *order = NULL;
-    clast_status status = CLAST_OK;
-    CLX_TRY(clast_cloud_alloc(cloud->n, d, out));
-    CLX_TRY(clx_alloc(&order, cloud->n, sizeof *order));
-    for (int64_t i = 0; i < cloud->n; ++i) {
-        order[i] = (clx_keyed){clx_mix(clx_mix(seed) ^ (uint64_t)i), (uint64_t)i};
-    }
-    CLX_TRY(clx_sort_keyed(order, cloud->n));
-    for (int64_t i = 0; i < cloud->n; ++i) {
-        memcpy(out->x + i * d, cloud->x + (int64_t)order[i].item * d, (size_t)d * sizeof *out->x);
-    }
-done:
-    clx_free(order);
-    return status;
-}
-
-/// Pairs in the cells of a regular mesh of the unit cube, capped as the events of cells are.
-static clast_status regular_events(const clast_domain *domain, const clast_cloud *cloud, int32_t m,
-                                   double beta_dt, double *events)
+/// Pairs of all ranks' points in the cells of a regular mesh of the unit cube, m an axis, capped as
+/// the events of cells are.
+static clast_status regular_events(const clast_comm *comm, const clast_domain *domain,
+                                   const clast_cloud *cloud, int32_t m, double beta_dt,
+                                   double *events)
 {
     clast_status status = CLAST_OK;
     int64_t *count = NULL;
@@ -51,7 +33,7 @@ static clast_status regular_events(const clast_domain *domain, const clast_cloud
     for (int32_t j = 0; j < cloud->dimension; ++j) {
         n_cell *= m;
     }
-    CLX_TRY(clx_alloc(&count, n_cell, sizeof *count));
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&count, n_cell, sizeof *count), NULL));
     for (int64_t i = 0; i < cloud->n; ++i) {
         double u[3];
         int64_t cell = 0;
@@ -63,6 +45,7 @@ static clast_status regular_events(const clast_domain *domain, const clast_cloud
             ++count[cell];
         }
     }
+    clx_comm_sum(comm, count, n_cell);
     const double density = (double)n_cell / clast_domain_volume(domain);
     for (int64_t c = 0; c < n_cell; ++c) {
         const double n = (double)count[c];
@@ -75,20 +58,21 @@ done:
     return status;
 }
 
-static clast_status one_size(const clast_domain *domain, const clast_cloud *all, int64_t n,
+static clast_status one_size(const clast_domain *domain, const clx_shuffled *all, int64_t n,
                              const clast_decompose_config *config, int32_t regular,
                              double row[N_COLUMN])
 {
-    CLAST_ASSERT(n >= LEAST && n <= all->n);
+    CLAST_ASSERT(n >= LEAST && n <= all->n_all);
     clast_decomposition r = {0};
-    clast_cloud part = *all;
-    part.n = n;
+    clast_cloud part = all->cloud;
+    part.n = clx_shuffled_first(all, n);
     clast_status status = CLAST_OK;
-    CLX_TRY(clast_decompose_in(domain, &part, config, &r));
+    CLX_TRY(clast_decompose_ranks(all->comm, domain, &part, config, &r));
     if (regular > 0) {
-        CLX_TRY(regular_events(domain, &part, regular, config->beta_dt, &row[8]));
+        CLX_TRY(regular_events(all->comm, domain, &part, regular, config->beta_dt, &row[8]));
     }
-    const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
+    const double factor = (double)all->n_all / (double)n;
+    const double scale = factor * factor;
     const double high = r.resolved ? r.events_high : (double)NAN;
     const double made[8] = {
         (double)n,         r.events,         r.events_low,         high,
@@ -100,46 +84,62 @@ done:
     return status;
 }
 
-static clast_status check_sizes(const clast_domain *domain, const clast_cloud *cloud,
-                                int32_t n_size, int32_t regular)
+/// @param n  points on all ranks
+static clast_status check_sizes(const clast_domain *domain, const clast_cloud *cloud, int64_t n,
+                                const clast_decompose_parts *sizes)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(n_size >= 1 && n_size <= MOST_SIZES, CLAST_E_CONFIG, "sizes: %d is not in 1 .. %d",
-              n_size, MOST_SIZES);
-    CLX_CHECK(regular >= 0 && regular <= MOST_CELLS, CLAST_E_CONFIG,
-              "regular: %d is not in 0 .. %d", regular, MOST_CELLS);
+    CLX_CHECK(sizes->n_size >= 1 && sizes->n_size <= MOST_SIZES, CLAST_E_CONFIG,
+              "sizes: %d is not in 1 .. %d", sizes->n_size, MOST_SIZES);
+    CLX_CHECK(sizes->regular >= 0 && sizes->regular <= MOST_CELLS, CLAST_E_CONFIG,
+              "regular: %d is not in 0 .. %d", sizes->regular, MOST_CELLS);
     CLX_CHECK(cloud->weight == NULL && cloud->variable == NULL, CLAST_E_CONFIG,
               "sizes: takes parts of equal points: leave out the weight and variable columns");
-    CLX_CHECK(regular == 0 || domain->kind != CLAST_DOMAIN_MESH, CLAST_E_CONFIG,
+    CLX_CHECK(sizes->regular == 0 || domain->kind != CLAST_DOMAIN_MESH, CLAST_E_CONFIG,
               "regular: has no volumes for the cells of mesh:FILE; see --fixed of clast "
               "agglomerate");
-    CLX_CHECK(cloud->n >> (n_size - 1) >= LEAST, CLAST_E_CONFIG,
-              "sizes: %d of %lld points end below %d points; ask for fewer", n_size,
-              (long long)cloud->n, LEAST);
+    CLX_CHECK(n >> (sizes->n_size - 1) >= LEAST, CLAST_E_CONFIG,
+              "sizes: %d of %lld points end below %d points; ask for fewer", sizes->n_size,
+              (long long)n, LEAST);
 done:
     return status;
 }
 
-clast_status clast_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
-                                   int32_t n_size, int32_t regular,
+static clast_status make_table(bool is_regular, int32_t n_size, bool is_timed, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    const int n_column = is_regular ? N_COLUMN : N_COLUMN - 2;
+    CLX_TRY(clast_table_init(table, "sizes", n_size));
+    for (int k = 0; k < n_column; ++k) {
+        CLX_TRY(clast_table_add_number(table, column_name[is_timed ? 0 : 1][k], "-", NULL));
+    }
+done:
+    return status;
+}
+
+clast_status clast_decompose_sizes(const clast_comm *comm, const clast_domain *domain,
+                                   const clast_cloud *cloud, const clast_decompose_parts *sizes,
                                    const clast_decompose_config *config, clast_table *table)
 {
     clast_status status = CLAST_OK;
-    clast_cloud all = {0};
+    const clast_comm *ranks = clx_comm_or_one(comm);
+    clx_shuffled all = {0};
     clast_table made = {0};
-    CLX_ARGUMENTS(domain, cloud, config, table);
-    CLX_GUARD(check_sizes(domain, cloud, n_size, regular));
-    CLX_TRY(shuffle_points(cloud, config->seed, &all));
-    CLX_TRY(clast_table_init(&made, "sizes", n_size));
-    const int n_column = regular > 0 ? N_COLUMN : N_COLUMN - 2;
-    for (int k = 0; k < n_column; ++k) {
-        CLX_TRY(clast_table_add_number(&made, column_name[config->beta_dt > 0.0 ? 0 : 1][k], "-",
-                                       NULL));
-    }
-    for (int32_t i = 0; i < n_size; ++i) {
+    int64_t before = 0;
+    int64_t n = 0;
+    CLX_ARGUMENTS(domain, cloud, sizes, config, table);
+    CLX_CHECK(clx_comm_has_sums(ranks), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
+    CLX_TRY(clast_comm_agree(ranks, clx_decompose_check(domain, cloud, config), NULL));
+    CLX_TRY(clx_comm_before(ranks, cloud->n, &before, &n));
+    CLX_TRY(clast_comm_agree(ranks, check_sizes(domain, cloud, n, sizes), NULL));
+    CLX_TRY(clast_comm_agree(ranks, clx_points_check(cloud, before), NULL));
+    CLX_TRY(clx_shuffle(ranks, cloud, config->seed, &all));
+    status = make_table(sizes->regular > 0, sizes->n_size, config->beta_dt > 0.0, &made);
+    CLX_TRY(clast_comm_agree(ranks, status, NULL));
+    for (int32_t i = 0; i < sizes->n_size; ++i) {
         double row[N_COLUMN] = {0};
-        CLX_TRY(one_size(domain, &all, all.n >> (n_size - 1 - i), config, regular, row));
-        for (int k = 0; k < n_column; ++k) {
+        CLX_TRY(one_size(domain, &all, n >> (sizes->n_size - 1 - i), config, sizes->regular, row));
+        for (int k = 0; k < made.n_column; ++k) {
             made.column[k].number[i] = row[k];
         }
     }
@@ -147,6 +147,6 @@ clast_status clast_decompose_sizes(const clast_domain *domain, const clast_cloud
     made = (clast_table){0};
 done:
     clast_table_free(&made);
-    clast_cloud_free(&all);
+    clx_shuffled_free(&all);
     return status;
 }

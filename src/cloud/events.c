@@ -63,12 +63,20 @@ static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t
     return half;
 }
 
-/// Sums of powers of weights, in integers, of the cells and behind them of the halves.
+/// Sums of powers of weights, in integers, of the cells where points have weights, and behind them
+/// of the halves.
 typedef struct {
     clx_fixed_scale scale;
     clx_fixed_sum (*power)[N_POWER];
-    int64_t n;
+    int64_t n_cell, n;
 } weight_sums;
+
+static void add_power(const weight_sums *sums, int64_t at, const clx_fixed_sum power[N_POWER])
+{
+    for (int k = 0; k < N_POWER; ++k) {
+        clx_fixed_add(&sums->power[at][k], &power[k]);
+    }
+}
 
 static void add_point(const count *n, int64_t i, const weight_sums *sums)
 {
@@ -82,19 +90,17 @@ static void add_point(const count *n, int64_t i, const weight_sums *sums)
     }
     const int32_t c = n->cells->of_point[number];
     const int32_t k = halved(n->cells, c);
-    if (k < 0 && n->cloud->weight == NULL) { // counted already
+    if (k < 0 && sums->n_cell == 0) { // counted already
         return;
     }
     const double w = n->cloud->weight != NULL ? n->cloud->weight[number] : 1.0;
     clx_fixed_powers(&sums->scale, w, N_POWER, power);
-    for (int j = 0; j < N_POWER; ++j) {
-        clx_fixed_add(&sums->power[c][j], &power[j]);
+    if (sums->n_cell > 0) {
+        add_power(sums, c, power);
     }
     if (k >= 0) {
-        const int64_t h = k << d | half_of(n->cells, c, clx_sample_point(m, i, held), d);
-        for (int j = 0; j < N_POWER; ++j) {
-            clx_fixed_add(&sums->power[n->cells->n + h][j], &power[j]);
-        }
+        const int half = half_of(n->cells, c, clx_sample_point(m, i, held), d);
+        add_power(sums, sums->n_cell + (k << d | half), power);
     }
 }
 
@@ -111,16 +117,17 @@ static clast_status fill_parts(count *n)
     clast_status status = CLAST_OK;
     const clx_sample *m = n->sample;
     const bool is_weighted = n->cloud->weight != NULL;
-    weight_sums sums = {.n = n->cells->n + n->n_half};
+    weight_sums sums = {.n_cell = is_weighted ? n->cells->n : 0};
+    sums.n = sums.n_cell + n->n_half;
     CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&sums.power, sums.n, sizeof *sums.power), NULL));
     sums.scale = clx_sample_scale(m, n->cloud->weight);
-    for (int64_t i = 0; i < m->n && (is_weighted || n->n_half > 0); ++i) {
+    for (int64_t i = 0; i < m->n && sums.n > 0; ++i) {
         add_point(n, i, &sums);
     }
     const int64_t n_word = (int64_t)(sizeof *sums.power / sizeof(clx_fixed_sum)) * 2;
     clx_comm_sum(m->comm, sums.power[0][0].word, sums.n * n_word);
     for (int64_t h = 0; h < n->n_half; ++h) {
-        set_part(&sums, n->cells->n + h, &n->half[h]);
+        set_part(&sums, sums.n_cell + h, &n->half[h]);
     }
     for (int32_t c = 0; c < n->cells->n; ++c) {
         n->cell[c].volume = n->scale * n->cells->volume[c];
@@ -367,15 +374,14 @@ static clx_resolution scaled(clx_resolution shown, double factor)
     return shown;
 }
 
-/// About `most` of the points, by a hash of their places: a sample that does not depend on their
-/// order.
-static clast_status thin_out(const clast_cloud *cloud, int64_t most, clast_cloud *some)
+/// About this share of the points, by a hash of their places: a sample that does not depend on
+/// their order.
+static clast_status thin_out(const clast_cloud *cloud, double share, clast_cloud *some)
 {
     clast_status status = CLAST_OK;
     const int32_t d = cloud->dimension;
-    const double share = (double)most / (double)cloud->n;
-    const uint64_t limit = (uint64_t)(share * 0x1p64); // share < 1
-    CLAST_ASSERT(most < cloud->n && cloud->weight == NULL);
+    const uint64_t limit = (uint64_t)(share * 0x1p64);
+    CLAST_ASSERT(share < 1.0 && cloud->weight == NULL);
     CLX_TRY(clast_cloud_alloc(cloud->n, d, some));
     some->n = 0;
     for (int64_t i = 0; i < cloud->n; ++i) {
@@ -388,14 +394,15 @@ done:
 }
 
 /// Puts what pairs of all distances show in the place of cells that do not resolve the cloud. The
-/// interval is of Poisson points, whose number is one more thing that varies.
+/// interval is of Poisson points, whose number is one more thing that varies. Called by all ranks.
 static clast_status ask_pairs(const count *n, const clx_ladder *ladder, int64_t most,
                               clx_resolution *shown, clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
     clast_pairs pairs = {0};
     clast_cloud some = {0};
-    const bool is_part = most > 0 && n->cloud->n > most && !n->config->pairs;
+    const int64_t n_all = r->n + r->n_outside; // of all ranks: each takes the same branch
+    const bool is_part = most > 0 && n_all > most && !n->config->pairs;
     clast_pairs_config how;
     const double own = (double)r->n;
     const double factor = own * (own - 1.0);
@@ -403,8 +410,9 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, int64_t 
     how.radius = n->config->pairs_radius;
     how.outside = n->config->outside;
     if (is_part) {
-        CLX_TRY(thin_out(n->cloud, most, &some));
+        status = thin_out(n->cloud, (double)most / (double)n_all, &some);
     }
+    CLX_TRY(clast_comm_agree(n->sample->comm, status, NULL));
     CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, is_part ? &some : n->cloud, &how,
                             is_part ? NULL : ladder, &pairs));
     clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
@@ -477,8 +485,11 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
     }
     CLX_TRY(clx_ladder_count(n->sample->comm, n->sample, n->cloud->weight, &ladder));
     found->relative = found->cells = clx_resolution_of(&ladder);
-    if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
-        !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {
+    const bool asks = n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain &&
+                      n->cloud->weight == NULL && !found->cells.resolved &&
+                      !found->cells.is_repeated && r->n >= 2;
+    CLAST_ASSERT(clx_comm_is_same(n->sample->comm, asks)); // what follows is done by all or none
+    if (asks) {
         if (cached == NULL || n->config->pairs || !carry_over(cached, &ladder, &found->relative)) {
             const int64_t most = cached != NULL ? cached->pairs_most : 0;
             CLX_TRY(ask_pairs(n, &ladder, most, &found->relative, r));

@@ -432,7 +432,8 @@ done:
     return status;
 }
 
-static clast_status check(const clast_domain *domain, const clast_cloud *cloud,
+/// @param before  points of the ranks before this one
+static clast_status check(const clast_domain *domain, const clast_cloud *cloud, int64_t before,
                           const clast_pairs_config *config)
 {
     clast_status status = CLAST_OK;
@@ -446,11 +447,7 @@ static clast_status check(const clast_domain *domain, const clast_cloud *cloud,
     CLX_CHECK(cloud->weight == NULL, CLAST_E_CONFIG,
               "pairs of points with weights are not counted: g(r) of parcels is not that of the "
               "particles they stand for; leave the weight column out");
-    for (int64_t i = 0; i < cloud->n * cloud->dimension; ++i) {
-        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
-                  "point %lld has a coordinate that is not finite",
-                  (long long)(i / cloud->dimension + 1));
-    }
+    CLX_TRY(clx_points_check(cloud, before));
 done:
     return status;
 }
@@ -463,8 +460,11 @@ clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
     clast_pairs made = {0};
     clx_ladder own = {0};
     job w = {.comm = comm, .domain = domain, .cloud = cloud};
-    CLX_NEED(pairs);
-    CLX_TRY(clast_comm_agree(comm, check(domain, cloud, config), NULL));
+    int64_t before = 0;
+    int64_t n = 0;
+    CLX_ARGUMENTS(cloud, pairs);
+    CLX_TRY(clx_comm_before(comm, cloud->n, &before, &n));
+    CLX_TRY(clast_comm_agree(comm, check(domain, cloud, before, config), NULL));
     CLX_TRY(select_points(config, &w));
     CLX_TRY(make_cells(config, &w));
     status = clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error);

@@ -198,29 +198,50 @@ static int64_t first_from(const uint64_t *sorted, int64_t n, uint64_t key)
 
 enum { DIGIT = 4, VALUES = 1 << DIGIT };
 
-/// Splits the order of all keys evenly: first[k] is the key number n_all k / n_rank. Radix
-/// selection, all ranks' splitters at once, four bits a round.
-static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_t *count)
+/// Keys of all ranks' sorted ones by their numbers [m], from 0: radix selection, all at once, four
+/// bits a round. `count` [m][VALUES] is room for it.
+static void select_keys(const clast_comm *comm, const clx_ranked *r, const int64_t *number,
+                        int32_t m, int64_t *count, uint64_t *found)
 {
-    const int32_t n_rank = comm->n_rank;
-    CLAST_ASSERT(count != NULL && r->first != NULL);
+    CLAST_ASSERT(count != NULL && found != NULL);
+    memset(found, 0, (size_t)m * sizeof *found);
     for (int shift = 64 - DIGIT; shift >= 0; shift -= DIGIT) {
-        for (int32_t k = 1; k < n_rank; ++k) { // keys below each candidate
+        for (int32_t k = 0; k < m; ++k) { // keys below each candidate
             for (uint64_t v = 0; v < VALUES; ++v) {
-                count[(k - 1) * VALUES + (int64_t)v] =
-                    first_from(r->key, r->n, r->first[k] | v << shift);
+                count[k * VALUES + (int64_t)v] = first_from(r->key, r->n, found[k] | v << shift);
             }
         }
-        clx_comm_sum(comm, count, (int64_t)(n_rank - 1) * VALUES);
-        for (int32_t k = 1; k < n_rank; ++k) {
-            const int64_t rank = r->n_all * k / n_rank; // that many lie below the one looked for
+        clx_comm_sum(comm, count, (int64_t)m * VALUES);
+        for (int32_t k = 0; k < m; ++k) {
             uint64_t v = VALUES - 1;
-            while (v > 0 && count[(k - 1) * VALUES + (int64_t)v] > rank) {
+            while (v > 0 && count[k * VALUES + (int64_t)v] > number[k]) {
                 --v;
             }
-            r->first[k] |= v << shift;
+            found[k] |= v << shift;
         }
     }
+}
+
+int64_t clx_first_of_sorted(const clast_comm *comm, uint64_t *key, int64_t n, int64_t m)
+{
+    const clx_ranked here = {.key = key, .n = n};
+    int64_t count[VALUES];
+    uint64_t limit = 0;
+    select_keys(comm, &here, &m, 1, count, &limit);
+    return first_from(key, n, limit);
+}
+
+/// Splits the order of all keys evenly: first[k] is the key number n_all k / n_rank. `count`
+/// [n_rank][VALUES + 1] is room for it.
+static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_t *count)
+{
+    CLAST_ASSERT(count != NULL);
+    const int32_t n = comm->n_rank - 1;
+    int64_t *number = count + (int64_t)n * VALUES;
+    for (int32_t k = 0; k < n; ++k) {
+        number[k] = r->n_all * (k + 1) / comm->n_rank;
+    }
+    select_keys(comm, r, number, n, count, r->first + 1);
 }
 
 /// Sorts this rank's keys, with their items where there are any.
@@ -294,7 +315,7 @@ static clast_status sort_over(const clast_comm *comm, uint64_t limit, const clx_
     int64_t *count = NULL;
     status = clx_alloc(&made->first, (int64_t)n_rank + 1, sizeof *made->first);
     if (status == CLAST_OK) {
-        status = clx_alloc(&count, (int64_t)n_rank * VALUES, sizeof *count);
+        status = clx_alloc(&count, (int64_t)n_rank * (VALUES + 1), sizeof *count);
     }
     if (status == CLAST_OK) {
         status = sort_here(made);

@@ -82,6 +82,10 @@ clast_status clx_ranked_follow(const clast_comm *comm, uint64_t **key, int64_t n
 /// The same of keys that are in order already and all here.
 clast_status clx_ranked_of_sorted(uint64_t **key, int64_t n, uint64_t limit, clx_ranked *ranked);
 
+/// How many of this rank's sorted keys [n] are among the first m of all ranks', m below their
+/// number; of keys equal to number m, from 0, none is.
+int64_t clx_first_of_sorted(const clast_comm *comm, uint64_t *key, int64_t n, int64_t m);
+
 /// First of this rank's keys that is at least `key`: its place.
 int64_t clx_ranked_from(const clx_ranked *ranked, uint64_t key);
 

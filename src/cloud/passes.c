@@ -8,7 +8,6 @@
 #include "cloud/levels.h"
 #include "cloud/uniformity.h"
 #include "math/rng.h"
-#include "math/sort.h"
 #include <clast/machine.h>
 #include <clast/status.h>
 #include <math.h>
@@ -115,16 +114,27 @@ static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan
     *plan = clx_ghosts_plan(w->passes->bins.count, label, w->passes->bins.n_bin);
     const clx_ghost_sample sample = {&w->passes->bins, label,    &w->law, *plan,
                                      w->depth_count,   w->n_grid};
-    return clx_ghosts_expected_score(&sample, score);
+    return clast_comm_agree(w->comm, clx_ghosts_expected_score(&sample, score), NULL);
 }
 
-/// Depths of one ghost sample in the bins that `label` selects, behind the kept ones in z [room].
+/// Bins [range[0], range[1]) into which this rank draws ghosts.
+static void own_bins(const work *w, int64_t range[2])
+{
+    const int64_t n_bin = w->passes->bins.n_bin;
+    range[0] = n_bin * w->comm->rank / w->comm->n_rank;
+    range[1] = n_bin * (w->comm->rank + 1) / w->comm->n_rank;
+}
+
+/// Keys of the depths of one ghost sample in this rank's bins that `label` selects, put into key
+/// [capacity]; returns their number.
 static int64_t draw_depths(const work *w, const uint8_t *label, double per_bin, uint64_t sample,
-                           int64_t room, double *z)
+                           int64_t capacity, uint64_t *key)
 {
     int64_t n = 0;
+    int64_t range[2];
     const double whole = floor(per_bin);
-    for (int64_t b = 0; b < w->passes->bins.n_bin; ++b) {
+    own_bins(w, range);
+    for (int64_t b = range[0]; b < range[1]; ++b) {
         double low[3];
         double high[3];
         double u[3];
@@ -134,14 +144,47 @@ static int64_t draw_depths(const work *w, const uint8_t *label, double per_bin, 
         clx_rng rng = clx_rng_at(w->config->seed, CLX_STREAM_GHOST, sample | (uint64_t)b);
         clx_bins_box(&w->passes->bins, b, low, high);
         const int64_t here = (int64_t)whole + (clx_rng_uniform(&rng) < per_bin - whole ? 1 : 0);
-        for (int64_t k = 0; k < here && n < room; ++k) {
+        CLAST_ASSERT(n + here <= capacity);
+        for (int64_t k = 0; k < here && n < capacity; ++k) {
             for (int32_t j = 0; j < w->passes->bins.d; ++j) {
                 u[j] = low[j] + (high[j] - low[j]) * clx_rng_uniform(&rng);
             }
-            z[n++] = clx_depth_of(&w->law, u);
+            key[n++] = clx_depth_key(clx_depth_of(&w->law, u));
         }
     }
     return n;
+}
+
+/// Distance from the law of the points that stay and the ghosts of one sample, of all ranks.
+static clast_status one_sample(const work *w, const uint8_t *label, const clx_ghost_plan *plan,
+                               uint64_t sample, double *distance)
+{
+    clast_status status = CLAST_OK;
+    int64_t range[2];
+    int64_t n = 0;
+    int64_t n_ghost = 0;
+    uint64_t *key = NULL;
+    clx_depths depths = {{0}, 0.0};
+    own_bins(w, range);
+    for (int64_t b = range[0]; b < range[1]; ++b) {
+        n_ghost += label[b] != 0 ? (int64_t)floor(plan->per_bin) + 1 : 0;
+    }
+    CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&key, w->n + n_ghost, sizeof *key), NULL));
+    for (int64_t i = 0; i < w->n; ++i) {
+        if (label[w->bin_of[i]] == 0) {
+            key[n++] = clx_depth_key(clx_depth_of(&w->law, w->u + i * w->passes->bins.d));
+        }
+    }
+    n += draw_depths(w, label, plan->per_bin, sample, n_ghost, key + n);
+    CLX_TRY(clx_depths_of_keys(w->comm, &key, n, &depths));
+    *distance = 1.0;
+    if (depths.ranked.n_all > 0) {
+        CLX_TRY(clx_depths_distance(&w->law, w->comm, &depths, distance));
+    }
+done:
+    clx_free(key);
+    clx_depths_free(&depths);
+    return status;
 }
 
 /// Mean score of config->ghost_samples synthetic samples; their draws are common to thresholds.
@@ -149,29 +192,15 @@ static clast_status sampled_score(const work *w, const uint8_t *label, const clx
                                   int32_t pass, double *score)
 {
     clast_status status = CLAST_OK;
-    double *kept = NULL;
-    double *z = NULL;
     double sum = 0.0;
-    int64_t n_kept = 0;
-    const int64_t room = plan->n_replaced * ((int64_t)floor(plan->per_bin) + 1);
-    CLX_TRY(clx_alloc(&kept, plan->n_kept, sizeof *kept));
-    CLX_TRY(clx_alloc(&z, plan->n_kept + room, sizeof *z));
-    for (int64_t i = 0; i < w->n; ++i) {
-        if (label[w->bin_of[i]] == 0) {
-            kept[n_kept++] = clx_depth_of(&w->law, w->u + i * w->passes->bins.d);
-        }
-    }
     for (int32_t m = 0; m < w->config->ghost_samples; ++m) {
         const uint64_t sample = (uint64_t)(m + 1) << 47 | (uint64_t)pass << 40;
-        memcpy(z, kept, (size_t)n_kept * sizeof *z);
-        const int64_t n = n_kept + draw_depths(w, label, plan->per_bin, sample, room, z + n_kept);
-        CLX_TRY(clx_sort_doubles(z, n));
-        sum += n > 0 ? clx_depth_distance(&w->law, z, n) : 1.0;
+        double distance = 0.0;
+        CLX_TRY(one_sample(w, label, plan, sample, &distance));
+        sum += distance;
     }
     *score = sum / w->config->ghost_samples;
 done:
-    clx_free(kept);
-    clx_free(z);
     return status;
 }
 
@@ -222,13 +251,14 @@ static clast_status try_cut(work *w, const clx_label_cut *cut, bool is_lower, in
     const int64_t n_bin = w->passes->bins.n_bin;
     clx_ghost_plan here;
     double score[2] = {0};
-    CLX_TRY(clx_levels_label(w->passes->bins.count, w->active, n_bin, cut, w->label));
+    status = clx_levels_label(w->passes->bins.count, w->active, n_bin, cut, w->label);
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     CLX_TRY(score_of(w, w->label, &here, &score[0]));
     if (w->config->ghost_samples > 0) {
         CLX_TRY(sampled_score(w, w->label, &here, number, &score[0]));
     }
     score[1] = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
-    CLX_TRY(note_search(w, number, cut, is_lower, score));
+    CLX_TRY(clast_comm_agree(w->comm, note_search(w, number, cut, is_lower, score), NULL));
     if (here.n_ambient > 0 && fabs(score[0] - score[1]) / score[1] < best->nearest) {
         best->nearest = fabs(score[0] - score[1]) / score[1];
         best->cut = *cut;
@@ -298,9 +328,9 @@ static clast_status replace_here(work *w, const clx_ghost_plan *plan, int32_t pa
         }
     }
     w->n = kept;
-    const int64_t n_bin = w->passes->bins.n_bin;
-    const int64_t end = n_bin * (w->comm->rank + 1) / w->comm->n_rank;
-    for (int64_t b = n_bin * w->comm->rank / w->comm->n_rank; b < end; ++b) {
+    int64_t range[2];
+    own_bins(w, range);
+    for (int64_t b = range[0]; b < range[1]; ++b) {
         if (w->best[b] == 0) {
             continue;
         }
@@ -339,7 +369,8 @@ static clast_status one_pass(work *w, int32_t number, clast_pass *pass, bool *se
     clx_ghost_plan plan = {0};
     *selected = false;
     CLX_TRY(classify(w));
-    CLX_TRY(clx_levels_find(w->passes->bins.count, w->active, w->passes->bins.n_bin, &levels));
+    status = clx_levels_find(w->passes->bins.count, w->active, w->passes->bins.n_bin, &levels);
+    CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     memcpy(pass->nb, w->passes->bins.nb, sizeof pass->nb);
     pass->n_lambda = levels.n_lambda;
     pass->fallback = levels.fallback;

@@ -61,8 +61,7 @@ clx_fixed_scale clx_sample_scale(const clx_sample *sample, const double *weight)
     return clx_fixed_scale_of(-clx_comm_least(sample->comm, -most), n);
 }
 
-/// `before`: points of the ranks before this one, for messages.
-static clast_status check_points(const clast_cloud *cloud, int64_t before)
+clast_status clx_points_check(const clast_cloud *cloud, int64_t before)
 {
     clast_status status = CLAST_OK;
     for (int64_t i = 0; i < cloud->n * cloud->dimension; ++i) {
@@ -76,8 +75,9 @@ static clast_status check_points(const clast_cloud *cloud, int64_t before)
                   (long long)(before + i + 1), cloud->radius[i]);
     }
     for (int64_t i = 0; i < cloud->n && cloud->variable != NULL; ++i) { // NAN: not known
-        CLX_CHECK(!isinf(cloud->variable[i]), CLAST_E_FORMAT,
-                  "the variable of point %lld is infinite", (long long)(before + i + 1));
+        CLX_CHECK(isnan(cloud->variable[i]) || fabs(cloud->variable[i]) <= 1e150, CLAST_E_FORMAT,
+                  "the variable of point %lld is %g; it must lie within 1e150 of 0", // squares
+                  (long long)(before + i + 1), cloud->variable[i]);
     }
     for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
         const double w = cloud->weight[i];
@@ -137,7 +137,7 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
     int64_t before = 0;
     int64_t total = 0;
     CLX_TRY(clx_comm_before(s->comm, cloud->n, &before, &total));
-    status = check_points(cloud, before);
+    status = clx_points_check(cloud, before);
     if (status == CLAST_OK && (s->comm->n_rank == 1 || s->domain->kind == CLAST_DOMAIN_MESH)) {
         status = clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u);
     }

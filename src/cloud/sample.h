@@ -37,6 +37,10 @@ clx_part clx_sample_part(const clx_sample *sample, int64_t n);
 /// @param weight  of all points of the cloud here, or NULL (1)
 clx_fixed_scale clx_sample_scale(const clx_sample *sample, const double *weight);
 
+/// Coordinates are finite, weights and radii are > 0; the numbers of points in messages follow
+/// those of the ranks before.
+clast_status clx_points_check(const clast_cloud *cloud, int64_t before);
+
 /// Maps a cloud's points, the part of this rank; called by all ranks. With a mesh domain
 /// round(n (V_box / V - 1)) uniform ghosts fill the rest of the box, a stretch of their numbers on
 /// each rank; of weighted points one is tested with chance w / w_max, so that those tested are a

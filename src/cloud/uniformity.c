@@ -141,8 +141,8 @@ static clast_status measure_score(const clx_part *part, const double side[3], bo
     clx_depths depths = {{0}, 0.0};
     const clx_depth_law law = clx_depth_law_of_box(part->d, side);
     CLX_TRY(clx_depths_sort(&law, part, -1, &depths));
-    CLX_TRY(paper ? clx_depths_trapezoid(&law, part, &depths, &r->score)
-                  : clx_depths_distance(&law, part, &depths, &r->score));
+    CLX_TRY(paper ? clx_depths_trapezoid(&law, part->comm, &depths, &r->score)
+                  : clx_depths_distance(&law, part->comm, &depths, &r->score));
     r->ideal = clx_depth_ideal(&law, (double)part->n_all);
 done:
     clx_depths_free(&depths);

@@ -29,7 +29,8 @@ typedef struct {
 /// Of a cell that a border between ranks cuts.
 typedef struct {
     uint64_t key;
-    int depth, levels;
+    int depth, levels; ///< levels 0: not counted, but looked at for the variable
+    bool is_varied;
     block_counts count;
 } shared_cell;
 
@@ -140,11 +141,19 @@ static bool is_own(const growth *g, const node *cell)
                                  cell->key < g->ranked.first[comm->rank + 1]);
 }
 
+static clast_status add_shared(growth *g, const shared_cell *cell)
+{
+    clast_status status = clx_grow(&g->shared, &g->shared_capacity, g->n_shared + 1, sizeof *cell);
+    CLX_TRY(clast_comm_agree(g->part->comm, status, NULL));
+    g->shared[g->n_shared++] = *cell;
+done:
+    return status;
+}
+
 /// Points of all ranks in the blocks of a cell that is cut: known from the survey, or added up now,
 /// when all ranks ask.
 static clast_status count_shared(growth *g, const node *cell, int levels, block_counts *count)
 {
-    clast_status status = CLAST_OK;
     for (int64_t k = 0; k < g->n_shared; ++k) {
         const shared_cell *known = &g->shared[k];
         if (known->key == cell->key && known->depth == cell->depth && known->levels == levels) {
@@ -152,14 +161,9 @@ static clast_status count_shared(growth *g, const node *cell, int levels, block_
             return CLAST_OK;
         }
     }
-    CLAST_ASSERT(g->is_survey);
-    CLX_TRY(clast_comm_agree(
-        g->part->comm,
-        clx_grow(&g->shared, &g->shared_capacity, g->n_shared + 1, sizeof *g->shared), NULL));
+    CLAST_ASSERT(g->is_survey && levels > 0);
     clx_comm_sum(g->part->comm, count->all, (int64_t)2 * MAX_BLOCK);
-    g->shared[g->n_shared++] = (shared_cell){cell->key, cell->depth, levels, *count};
-done:
-    return status;
+    return add_shared(g, &(shared_cell){cell->key, cell->depth, levels, .count = *count});
 }
 
 /// Points of each block of the cell, `levels` halvings down, on all ranks; start as find_blocks.
@@ -231,36 +235,76 @@ static double critical(double level, double freedom)
     return high;
 }
 
+/// The variable of a point in the order of the codes; over ranks its bits came with the code.
+static double variable_at(const growth *g, int64_t i)
+{
+    double value = 0.0;
+    if (g->point != NULL) {
+        return g->points->variable[g->point[i].item];
+    }
+    memcpy(&value, &g->ranked.item[i], sizeof value);
+    return value;
+}
+
+enum { MOST_HALF = 8, N_VARIED = MOST_HALF + 1 };
+
+/// Sums over the points of a cell, in any order, on all ranks where a border between them cuts it.
+typedef struct {
+    clx_exact_sum sum[N_VARIED]; ///< by half; the last of squares
+    int64_t n[MOST_HALF];        ///< points whose variable is known
+} varied;
+
+static void add_ranks(const growth *g, const node *cell, varied *v)
+{
+    if (is_shared(g, cell)) {
+        clx_exact_over(g->part->comm, v->sum, N_VARIED);
+        clx_comm_sum(g->part->comm, v->n, MOST_HALF);
+    }
+}
+
+/// Mean of the variable in the cell; NAN where it is known nowhere.
+static double mean_of(const growth *g, const node *cell)
+{
+    varied v = {.n = {0}};
+    for (int64_t i = cell->begin; i < cell->end; ++i) {
+        const double value = variable_at(g, i);
+        if (!isnan(value)) {
+            clx_exact_add(&v.sum[0], value);
+            ++v.n[0];
+        }
+    }
+    add_ranks(g, cell, &v);
+    return v.n[0] > 0 ? clx_exact_value(&v.sum[0]) / (double)v.n[0] : (double)NAN;
+}
+
 /// Whether the variable's means in the 2^d halves differ: analysis of variance, sums about the mean
 /// of the cell.
-static bool is_varied(const growth *g, const node *cell)
+static bool find_varied(const growth *g, const node *cell)
 {
-    double sum[MAX_BLOCK] = {0};
-    double n[MAX_BLOCK] = {0};
-    double mean = 0.0;
+    varied v = {.n = {0}};
     double known = 0.0;
-    double square = 0.0;
     double between = 0.0;
     int n_filled = 0;
     const int shift = bits_below(g, cell->depth + 1);
+    const double mean = mean_of(g, cell);
     for (int64_t i = cell->begin; i < cell->end; ++i) {
-        const double v = g->points->variable[g->point[i].item];
-        known += isnan(v) ? 0.0 : 1.0;
-        mean += isnan(v) ? 0.0 : (v - mean) / known;
-    }
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        const double off = g->points->variable[g->point[i].item] - mean;
+        const double off = variable_at(g, i) - mean;
         if (!isnan(off)) {
-            const uint64_t b = (g->point[i].key - cell->key) >> shift;
-            sum[b] += off;
-            n[b] += 1.0;
-            square += off * off;
+            const uint64_t b = (code_at(g, i) - cell->key) >> shift;
+            clx_exact_add(&v.sum[b], off);
+            clx_exact_add(&v.sum[MOST_HALF], off * off);
+            ++v.n[b];
         }
     }
+    add_ranks(g, cell, &v);
     for (int b = 0; b < 1 << g->d; ++b) {
-        between += n[b] > 0.0 ? sum[b] * sum[b] / n[b] : 0.0;
-        n_filled += n[b] > 0.0 ? 1 : 0;
+        const double n = (double)v.n[b];
+        const double sum = clx_exact_value(&v.sum[b]);
+        between += n > 0.0 ? sum * sum / n : 0.0;
+        n_filled += n > 0.0 ? 1 : 0;
+        known += n;
     }
+    const double square = clx_exact_value(&v.sum[MOST_HALF]);
     const double within = square - between;
     const double freedom = known - n_filled;
     if (known < (double)g->config->least || n_filled < 2 || freedom < 1.0 ||
@@ -269,6 +313,27 @@ static bool is_varied(const growth *g, const node *cell)
     }
     return within <= 1e-12 * square || clx_fisher_sf(between / (n_filled - 1) / (within / freedom),
                                                      n_filled - 1, freedom) < g->config->level;
+}
+
+/// The same; of a cell that is cut as the survey found it, in which all ranks ask.
+static clast_status is_varied(growth *g, const node *cell, bool *found)
+{
+    clast_status status = CLAST_OK;
+    const bool is_cut = is_shared(g, cell);
+    for (int64_t k = 0; k < g->n_shared && is_cut; ++k) {
+        const shared_cell *known = &g->shared[k];
+        if (known->key == cell->key && known->depth == cell->depth && known->levels == 0) {
+            *found = known->is_varied;
+            return CLAST_OK;
+        }
+    }
+    CLAST_ASSERT(!is_cut || g->is_survey);
+    *found = find_varied(g, cell);
+    if (is_cut) {
+        CLX_TRY(add_shared(g, &(shared_cell){cell->key, cell->depth, .is_varied = *found}));
+    }
+done:
+    return status;
 }
 
 /// Halvings down to blocks in which n points leave at least so many.
@@ -380,6 +445,7 @@ static clast_status grow(growth *g, const node *cell)
     clast_status status = CLAST_OK;
     int levels = 0;
     bool uneven = false;
+    bool is_split = false; // for its variable
     const bool is_here = is_own(g, cell);
     if (!is_shared(g, cell) && (g->is_survey || !is_here)) {
         return CLAST_OK;
@@ -390,7 +456,10 @@ static clast_status grow(growth *g, const node *cell)
         split.is_of_uneven = true;
         return each_block(g, &split, 1, grow);
     }
-    if (g->points->variable != NULL && cell->depth < CLX_MORTON_LEVELS && is_varied(g, cell)) {
+    if (g->points->variable != NULL && cell->depth < CLX_MORTON_LEVELS) {
+        CLX_TRY(is_varied(g, cell, &is_split));
+    }
+    if (is_split) {
         return each_block(g, cell, 1, grow);
     }
     if (g->config->refine && cell->is_of_uneven && levels > 0) {
@@ -425,6 +494,7 @@ typedef struct {
     const growth *g;
     int64_t first;
     uint64_t *code; ///< of points from `first` on
+    uint64_t *item; ///< bits of their variable, or NULL
 } code_context;
 
 static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -435,6 +505,9 @@ static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context
     for (int64_t i = begin; i < end; ++i) {
         const double *u = clx_part_point(c->g->part, c->first + i, held);
         c->code[i] = clx_morton_of(u, c->g->d);
+        if (c->item != NULL) {
+            memcpy(&c->item[i], &c->g->points->variable[c->first + i], sizeof *c->item);
+        }
     }
 }
 
@@ -443,7 +516,7 @@ static clast_status order_untested(growth *g, const clx_ranked *leader)
 {
     clast_status status = CLAST_OK;
     const clast_comm *comm = g->part->comm;
-    code_context c = {g, g->points->n_test, NULL};
+    code_context c = {g, g->points->n_test, NULL, NULL};
     const int64_t n = g->part->n - g->points->n_test;
     if (clx_comm_total(comm, n) == 0) {
         return CLAST_OK;
@@ -488,14 +561,20 @@ done:
 static clast_status order_codes(growth *g)
 {
     clast_status status = CLAST_OK;
-    code_context c = {g, 0, NULL};
+    code_context c = {g, 0, NULL, NULL};
     const clx_part *p = g->part;
-    CLX_TRY(clast_comm_agree(p->comm, clx_alloc(&c.code, p->n, sizeof *c.code), NULL));
+    const uint64_t limit = UINT64_C(1) << bits_below(g, 0);
+    status = clx_alloc(&c.code, p->n, sizeof *c.code);
+    if (status == CLAST_OK && g->points->variable != NULL) {
+        status = clx_alloc(&c.item, p->n, sizeof *c.item);
+    }
+    CLX_TRY(clast_comm_agree(p->comm, status, NULL));
     clx_parallel_for(p->n, POINTS_A_BLOCK, take_codes, &c);
-    CLX_TRY(clx_ranked_sort(p->comm, &c.code, p->n, UINT64_C(1) << bits_below(g, 0), &g->ranked));
+    CLX_TRY(clx_ranked_sort_items(p->comm, &c.code, &c.item, p->n, limit, &g->ranked));
     CLX_TRY(order_untested(g, &g->ranked));
 done:
     clx_free(c.code);
+    clx_free(c.item);
     return status;
 }
 
@@ -557,7 +636,6 @@ static void locate_points(int64_t begin, int64_t end, int32_t worker, void *cont
 static clast_status grow_over_ranks(growth *g)
 {
     clast_status status = CLAST_OK;
-    CLAST_ASSERT(g->points->variable == NULL);
     CLX_TRY(order_codes(g));
     const node root = {.end = g->ranked.n, .n = g->ranked.n_all};
     g->is_survey = true;

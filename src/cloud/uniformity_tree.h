@@ -29,7 +29,7 @@ typedef struct clx_uniformity_tree_points {
     const clx_part *part;   ///< borrowed
     int64_t n_test;         ///< the first so many are tested, the others only put into cells
     const double *variable; ///< [part->n] cells shall be uniform in it too; NAN: not known; or
-                            ///< NULL, as with ranks
+                            ///< NULL, on all ranks
     bool is_uneven;         ///< all points together are known to be
 } clx_uniformity_tree_points;
 

@@ -93,6 +93,30 @@ class Cloud(Case):
         self.both(3, path, *columns, "--mesh", "boxes", "--beta-dt", "1e-6")
         self.both(4, self.write("two.csv", "x,y,z,w\n" + rows4(weighted[:2])), *columns)  # ranks without a parcel
 
+    def test_cross_fitting_a_variable_and_ghost_samples_are_the_same_bytes(self):
+        draw = random.Random(13)
+        hot = [(*p, 300 if p[0] < 0.5 else draw.gauss(400, 5)) for p in cloud(2000, 14)]
+        path = self.write("hot.csv", "x,y,z,T\n" + rows4(hot))
+        other = self.write("toh.csv", "x,y,z,T\n" + rows4(hot[::-1]))
+        crossed = ("--crossfit", "--variable-column", "T", *BOX)
+        self.assertEqual(self.both(3, path, *crossed), self.both(2, other, *crossed))
+        self.both(2, path, "--columns", "x,y", "--domain", "box:0,0,1,1", "--mesh", "boxes", "--ghost-samples", "2", "--variant", "fast")
+
+    def test_events_by_number_are_the_same_bytes(self):
+        points = cloud(1500, 15)
+        more = (*BOX, "--sizes", "3", "--regular", "6", "-q")
+        tables = set()
+        for n, order in ((1, points), (2, points[::-1]), (4, sorted(points))):
+            folder = self.folder / f"sizes{n}"
+            path = self.write(f"sizes{n}.csv", "x,y,z\n" + rows(order))
+            code, _, err = ranks(n, "decompose", path, *more, "-o", folder)
+            self.assertEqual(code, 0, err)
+            tables.add((folder / "events_by_n.csv").read_bytes())
+            self.assertTrue((folder / "events_by_n.svg").exists())
+        alone = clast("decompose", self.folder / "sizes4.csv", *more, "-o", self.folder / "alone")
+        self.assertEqual(alone.code, 0, alone.err)
+        self.assertEqual(tables, {(self.folder / "alone/events_by_n.csv").read_bytes()})
+
     def test_a_closed_surface_is_the_same_bytes(self):
         surface = self.write("octahedron.obj", octahedron())
         path = self.write("around.csv", "x,y,z\n" + rows(cloud(2500, 11)))
@@ -178,12 +202,11 @@ class Cloud(Case):
                 (self.folder / "absent.csv", (), 3, "No such file"),
                 (good, ("--columns", "x,y,w"), 3, "no column of numbers named 'w'"),
                 (pathlib.Path("data/scarlet/stl/27sk21_shape_fine.stl"), (), 3, "27sk21"),
-                (good, ("--mesh", "boxes", "--ghost-samples", "3"), 2, "--ghost-samples"),
                 (good, ("--weight-column", "x", "--pairs"), 2, "weights"),
                 (bad("light.csv", 3005, "0,0.2,0.3"), ("--weight-column", "x"), 3, "the weight of point 3004 is 0"),
-                (good, ("--variable-column", "x"), 2, "variable"),
-                (good, ("--crossfit",), 2, "cross-fitting"),
-                (good, ("--sizes", "3", "-o", self.folder / "s"), 2, "without mpirun")):
+                (bad("hot.csv", 3006, "0.1,0.2,1e200"), ("--columns", "x,y", "--domain", "box:0,0,1,1", "--variable-column", "z"), 3,
+                 "the variable of point 3005 is 1e+200"),
+                (good, ("--sizes", "12", "-o", self.folder / "s"), 2, "sizes: 12 of 4280 points end below 5 points")):
             got, out, err = ranks(3, "decompose", path, *BOX, *more)
             self.assertEqual(got, code, err)
             self.assertEqual(out, "")

@@ -60,11 +60,13 @@ static int compare(const clast_comm *comm, const clast_domain *domain, clast_clo
         }
     }
     CHECK(clast_fields_default(clast_decompose_fields, &config) == CLAST_OK);
+    config.crossfit = whole->weight != NULL;
     CHECK(clast_decompose_in(domain, whole, &config, &alone) == CLAST_OK);
     CHECK(clast_decompose_ranks(comm, domain, &part, &config, &shared) == CLAST_OK);
     CHECK(shared.n == N && shared.n_here == part.n && shared.n_test == alone.n_test);
     CHECK(shared.cells.n == alone.cells.n && alone.cells.n > 8);
     CHECK(memcmp(&shared.events, &alone.events, 3 * sizeof(double)) == 0);
+    CHECK(memcmp(&shared.events_cross, &alone.events_cross, sizeof(double)) == 0);
     CHECK(memcmp(shared.cells.events, alone.cells.events, (size_t)alone.cells.n * 8) == 0);
     CHECK(memcmp(shared.cells.weight, alone.cells.weight, (size_t)alone.cells.n * 8) == 0);
     for (int64_t i = 0; i < part.n; ++i) {

@@ -2,6 +2,7 @@
  */
 #include "support.h"
 
+#include "cloud/shuffle.h"
 #include "math/rng.h"
 #include "oracle.h"
 #include <clast/decompose.h>
@@ -315,6 +316,37 @@ static void crossfit_has_no_bias_on_uniform_points(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
+/* 3000 points, each of them three times: in half of the points drawn a place keeps 3/2 of its
+ * copies on average and none or all three in a quarter, as drawn without regard to each other;
+ * drawn by place alone, all or none stayed. */
+static void copies_of_a_point_are_drawn_each_for_itself(void **state)
+{
+    (void)state;
+    enum { PLACES = 3000, N = 3 * PLACES };
+    static double x[N];
+    static int kept[PLACES];
+    const clast_cloud cloud = {.n = N, .dimension = 1, .x = x};
+    clx_shuffled all = {0};
+    int n_place[4] = {0};
+    for (int i = 0; i < N; ++i) {
+        x[i] = (i % PLACES + 0.5) / PLACES;
+    }
+    CHECK_OK(clx_shuffle(clast_comm_one(), &cloud, 5, &all));
+    assert_int_equal(clx_shuffled_first(&all, N), N);
+    assert_int_equal(clx_shuffled_first(&all, N / 2), N / 2);
+    for (int i = 0; i < N / 2; ++i) {
+        ++kept[(int)(all.cloud.x[i] * PLACES)];
+    }
+    for (int i = 0; i < PLACES; ++i) {
+        ++n_place[kept[i]];
+    }
+    for (int k = 0; k < 4; ++k) {
+        const double mean = PLACES * (k == 0 || k == 3 ? 0.125 : 0.375);
+        CHECK_ABS(n_place[k], mean, 4.0 * sqrt(mean));
+    }
+    clx_shuffled_free(&all);
+}
+
 /* Halves of a cloud that is even but hot on one side are split by the temperature as the whole is:
  * they lost the variable, and were one cell each. */
 static void crossfit_keeps_the_variable(void **state)
@@ -326,6 +358,7 @@ static void crossfit_keeps_the_variable(void **state)
     double count[2][4] = {{0}};
     double expected = 0.0;
     clast_decomposition d = {0};
+    clx_shuffled all = {0};
     clast_decompose_config c = config_of(square);
     set(&c, "mesh", "tree");
     set(&c, "crossfit", "true");
@@ -337,12 +370,18 @@ static void crossfit_keeps_the_variable(void **state)
         x[2 * i] = clx_rng_uniform(&rng);
         x[2 * i + 1] = clx_rng_uniform(&rng);
         temperature[i] = x[2 * i] < 0.5 ? 300.0 : 400.0;
-        count[i % 2][(x[2 * i] < 0.5 ? 0 : 2) + (x[2 * i + 1] < 0.5 ? 0 : 1)] += 1.0;
     }
+    const clast_cloud cloud = {.n = N, .dimension = 2, .x = x, .variable = temperature};
+    CHECK_OK(clx_shuffle(clast_comm_one(), &cloud, c.seed, &all));
+    for (int i = 0; i < N; ++i) {
+        const double *u = all.cloud.x + (ptrdiff_t)2 * i;
+        assert_true(all.cloud.variable[i] == (u[0] < 0.5 ? 300.0 : 400.0));
+        count[i < N / 2 ? 0 : 1][(u[0] < 0.5 ? 0 : 2) + (u[1] < 0.5 ? 0 : 1)] += 1.0;
+    }
+    clx_shuffled_free(&all);
     for (int k = 0; k < 4; ++k) {
         expected += 2e-6 * count[0][k] * count[1][k] / 0.25;
     }
-    const clast_cloud cloud = {.n = N, .dimension = 2, .x = x, .variable = temperature};
     CHECK_OK(clast_decompose(&cloud, &c, &d));
     assert_int_equal(d.cells.n, 4);
     CHECK_REL(d.events_cross, expected, 1e-12);
@@ -586,6 +625,7 @@ int main(void)
         cmocka_unit_test(paper_prints_what_the_paper_printed),
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
         cmocka_unit_test(crossfit_keeps_the_variable),
+        cmocka_unit_test(copies_of_a_point_are_drawn_each_for_itself),
         cmocka_unit_test(a_stop_is_what_happened),
         cmocka_unit_test(a_lower_threshold_is_searched_like_the_upper_one),
         cmocka_unit_test(both_thresholds_are_searched_jointly),

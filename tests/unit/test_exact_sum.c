@@ -114,6 +114,38 @@ static void fixed_sums_know_no_order(void **state)
     }
 }
 
+/* Parcels below one unit of the first word, 2^-52 of the heaviest one's power, are carried by the
+   second word alone; those below one of its units, 2^-104, are lost: the sum is low by less than
+   one unit of it a parcel. */
+static void the_lightest_parcels_count_in_the_second_word(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    const clx_fixed_scale scale = clx_fixed_scale_of(1.0, N);
+    assert_int_equal(scale.bits, 52);
+    const double light = ldexp(1.0, -60);
+    const double dust = ldexp(1.0, -104); // half a unit: the heaviest is half of what fits
+    clx_fixed_sum power[2];
+    clx_fixed_sum own[2] = {{{0}}};
+    for (int i = 0; i < N; ++i) {
+        clx_fixed_powers(&scale, light, 2, power);
+        assert_true(power[0].word[0] == 0 && power[0].word[1] == INT64_C(1) << 43);
+        assert_true(power[1].word[0] == 0 && power[1].word[1] == 0); // its square, 2^-120
+        clx_fixed_add(&own[0], &power[0]);
+        clx_fixed_add(&own[1], &power[1]);
+    }
+    assert_true(clx_fixed_value(&scale, &own[0], 1) == N * light);
+    assert_true(clx_fixed_value(&scale, &own[1], 2) == 0.0);
+    clx_fixed_powers(&scale, dust, 1, power);
+    assert_true(power[0].word[0] == 0 && power[0].word[1] == 0);
+    clx_fixed_powers(&scale, 2.0 * dust, 1, power);
+    assert_true(power[0].word[0] == 0 && power[0].word[1] == 1);
+    clx_fixed_powers(&scale, 1.0, 1, power); // the heaviest beside them: all of the light ones stay
+    clx_fixed_add(&own[0], &power[0]);
+    assert_true(own[0].word[0] == INT64_C(1) << 51);
+    assert_true(own[0].word[1] == N * (INT64_C(1) << 43));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -121,6 +153,7 @@ int main(void)
         cmocka_unit_test(the_value_is_rounded_once),
         cmocka_unit_test(any_order_on_any_ranks_is_the_same_sum),
         cmocka_unit_test(fixed_sums_know_no_order),
+        cmocka_unit_test(the_lightest_parcels_count_in_the_second_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
