@@ -37,8 +37,11 @@ static const double most_doubt = 0.3;   ///< half width of the profile's interva
 static const double fewer = 0.2;        ///< share of the points that must show the same width
 static const double most_hidden = 0.05; ///< most that a pole may add to the value, as a logarithm,
                                         ///< where they do not
-static const double most_size = 0.125;  ///< of the domain's: pairs closer than that and than the
-                                        ///< narrowest s must be so many
+static const double most_unseen = 10.0; ///< the same where they do, over the sampling error
+                                        ///< 2 / sqrt(n) of n^2
+static const double most_between = 0.12; ///< of the families' values, as a logarithm
+static const double most_size = 0.125;   ///< of the domain's: pairs closer than that and than the
+                                         ///< narrowest s must be so many
 static const double least_pairs = 500.0;
 static const double least_even = 1000.0;  ///< the same where nothing narrower than that size shows
 static const double most_repeated = 0.05; ///< share of repeated points' pairs in the window
@@ -339,18 +342,21 @@ static double pairs_within(const clx_pair_shells *in, double r)
     return r > before ? sum * pow(r / before, in->d) : sum;
 }
 
-/// Whether a part of the points would show the same widths, or else a pole can add but little.
+/// Whether a part of the points would show the same widths, or else a pole can add but little. With
+/// many points it may not add much in any case: to fewer the limit is none.
 static bool is_steady(const clx_pair_shells *in, const answer *smooth, const answer *kinked,
                       double value, clx_mixture_fit *f)
 {
     const int32_t least = smooth->moved < kinked->moved ? smooth->moved : kinked->moved;
     const int32_t most = smooth->moved > kinked->moved ? smooth->moved : kinked->moved;
-    if (least <= STAYS && most <= MOST_MOVED) {
+    const bool is_near = least <= STAYS && most <= MOST_MOVED;
+    const double limit = is_near ? most_unseen * 2.0 / sqrt(in->n) : most_hidden;
+    if (limit > most_doubt) {
         return true;
     }
     clx_mixture_prepare(in, CLX_FAMILY_POLED, 1.0, f);
     const answer poled = ask(f);
-    return log(poled.most / value) <= most_hidden;
+    return log(poled.most / value) <= limit;
 }
 
 /// The families' mean by their likelihoods, and the hull of their intervals.
@@ -392,7 +398,8 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const double close = pairs_within(in, fmin(smooth.s, size));
     const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
     e->resolved = is_seen && is_allowed && doubt <= most_doubt && close >= least;
-    const bool is_chance = e->resolved && !is_steady(in, &smooth, &kinked, e->value, f);
+    const bool is_chance = e->resolved && (fabs(log(kinked.value / smooth.value)) > most_between ||
+                                           !is_steady(in, &smooth, &kinked, e->value, f));
     e->resolved = e->resolved && !is_chance;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);

@@ -156,7 +156,10 @@ static void pairs_resolve_what_cells_do_not(void **state)
     CHECK_ABS(1.0 - (double)n_excluded / n_resolved, 0.95, 0.02 + 3.0 * 0.22 / root);
 }
 
-/* Densities with poles, or with structure in all sizes, and too few points for any. */
+/* Densities with poles, or with structure in all sizes, and too few points for any. One cloud of a
+ * cascade with 1e5 points: 11 of 17 of them were called resolved, 4 to 10 % low. A third in a wide
+ * blob: smooth and kinked shapes fit alike and differ by 15 %; half of these clouds, those that
+ * came out strong, were called resolved. */
 static void pairs_do_not_resolve_what_nothing_can(void **state)
 {
     (void)state;
@@ -165,13 +168,16 @@ static void pairs_do_not_resolve_what_nothing_can(void **state)
         density_place place;
         int32_t d;
         double n;
-    } rows[] = {{"power_40", PLACE_BOX, 3, 1000},     {"power_40", PLACE_CYLINDER, 3, 1000},
-                {"cascade_6", PLACE_SURFACE, 3, 300}, {"inertia_01", PLACE_BOX, 3, 1000},
-                {"uniform", PLACE_BOX, 3, 100},       {"sheet_02", PLACE_BOX, 3, 300}};
+        int n_cloud, most; ///< resolved
+    } rows[] = {
+        {"power_40", PLACE_BOX, 3, 1000, 24, 2},      {"cascade_6", PLACE_BOX, 3, 1e5, 1, 0},
+        {"cascade_6", PLACE_SURFACE, 3, 300, 24, 0},  {"inertia_01", PLACE_BOX, 3, 1000, 24, 2},
+        {"blob_third_12", PLACE_BOX, 3, 1000, 24, 6}, {"sheet_02", PLACE_BOX, 3, 300, 24, 2}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
-        const outcome o = run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d,
-                              rows[k].n, clouds_in(rows[k].place, 24), 91000 + 1000 * k);
-        assert_true(12 * o.n_resolved <= o.n);
+        const outcome o =
+            run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d, rows[k].n,
+                clouds_in(rows[k].place, rows[k].n_cloud), 91000 + 1000 * k);
+        assert_true(o.n_resolved <= rows[k].most);
         assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= (o.n + 7) / 8);
     }
 }
