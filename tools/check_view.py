@@ -6,7 +6,7 @@ ball's colour; the grain under a point is the nearest one that the cut left, its
 as many as summary.json says, each grain's too; a PNG has the size that was asked for and shows what the stage shows; linked cameras
 agree; every key does its thing; the time slider puts each grain where the frame for ParaView has it, and grains that the end does not have are
 neither counted nor coloured as its own; colours are told apart by people who lack a kind of cone; dots, the coarse level of detail, cover
-the pixels of the surfaces in their colours; pictures are those of tests/view within a tolerance (--renew makes them anew); memory after six second views is what it was; a page without WebGL keeps its words; no message on the
+the pixels of the surfaces in their colours; what is framed stays so on a phone; pictures are those of tests/view within a tolerance (--renew makes them anew); memory after six second views is what it was; a page without WebGL keeps its words; no message on the
 console, nothing fetched, no serious finding of axe-core (where it is at hand).
 """
 import argparse
@@ -399,6 +399,7 @@ def main():
         check_strangers(page)
         check_colours(page)
         check_levels(page)
+        check_phone(page)
         check_picture(page, asked.pictures)
         check_beside(page, asked.pictures)
         check_axe(page, axe)
@@ -413,6 +414,21 @@ def main():
         print(f"view: {fault}")
     print(f"view: used in {time.monotonic() - began:.0f} s ({AXE if axe else 'no axe-core here'}), {len(faults)} faults")
     return 1 if faults else 0
+
+
+def check_phone(page):
+    """What was framed stays in sight where the window becomes as narrow as a phone, and its size comes back."""
+    reach = f"""(() => {{ const v = {VIEW}, from = v.camera.position.clone().sub(v.controls.target).length();
+        return [from * Math.min(1, v.camera.aspect) * Math.tan(v.camera.fov * Math.PI / 360) / v.radius, v.camera.aspect, from]; }})()"""
+    page.ask(f"{VIEW}.frame()")
+    wide = page.ask(reach)
+    page.browser.screen(400, 1200, False)
+    page.settle()
+    narrow = page.ask(reach)
+    page.hold(narrow[1] < 0.9 and narrow[0] > 1, f"a phone sees {narrow[0]:.2f} of the radius of the grains (sides {narrow[1]:.2f})")
+    page.browser.screen(1200, 900, False)
+    page.settle()
+    page.close_to(page.ask(reach)[2], wide[2], 1e-6, "distance of the camera after the window is wide again")
 
 
 def check_ball(page):

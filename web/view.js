@@ -37,11 +37,14 @@ function addLights(scene, camera) {
 
 /// What a view can do with its camera.
 const camera = {
+  /// Sine of half the angle that is seen, of the narrower side.
+  reach(aspect) {
+    return Math.sin(((this.camera.fov * Math.PI) / 360) * Math.min(1, aspect));
+  },
   /// Shows all grains where they are at this moment.
   frame() {
-    const half = (this.camera.fov * Math.PI) / 360;
     const { middle, radius } = isEnd(this) ? { middle: new Vector3(), radius: this.radius } : extentOf(this.meshes);
-    this.camera.position.copy(SIGHT).setLength((1.04 * radius) / Math.sin(half * Math.min(1, this.camera.aspect))).add(middle);
+    this.camera.position.copy(SIGHT).setLength((1.04 * radius) / this.reach(this.camera.aspect)).add(middle);
     this.controls.target.copy(middle);
     this.controls.update();
   },
@@ -117,10 +120,14 @@ const drawing = {
       drawScale(this);
     });
   },
+  /// Takes the stage's size; what was seen whole in a wider one stays so.
   fit() {
     const { clientWidth: w, clientHeight: h } = this.stage;
+    const aspect = w / Math.max(h, 1);
     this.renderer.setSize(w, h, false);
-    this.camera.aspect = w / Math.max(h, 1);
+    this.camera.aspect = aspect;
+    if (aspect > 0 && this.aspect > 0) this.zoom(this.reach(this.aspect) / this.reach(aspect));
+    this.aspect = aspect > 0 ? aspect : this.aspect;
     this.draw();
   },
 };
