@@ -225,7 +225,8 @@ static void compare(const scene *s)
     make_domain(s->domain, &space);
     CHECK_OK(clast_decompose_in(&space, &whole, &j.config, &expected));
     assert_in_range(expected.cells.n, 8, MANY);
-    for (j.deal = 0; j.deal < N_DEAL; j.deal += s->domain == cube ? 1 : 2) {
+    const int step = s->domain == cube && !s->is_crossed ? 1 : 2; // 3 of the deals are enough
+    for (j.deal = 0; j.deal < N_DEAL; j.deal += step) {
         support_run_ranks(2 + j.deal % (MOST_RANKS - 1), decompose_part, &j);
     }
     clast_decomposition_free(&expected);
@@ -288,7 +289,6 @@ static void cross_fitting_is_the_same_bytes(void **state)
 static void a_variable_is_the_same_bytes(void **state)
 {
     (void)state;
-    compare(&(scene){cube, 3, false, false, .cells = CLAST_CELLS_TREE, .is_varied = true});
     compare(&(scene){"box:0,0,1,1", 2, true, false, .cells = CLAST_CELLS_TREE, .is_crossed = true,
                      .is_varied = true});
     compare(&(scene){NULL, 3, false, false, .cells = CLAST_CELLS_TREE, .is_varied = true});
@@ -342,7 +342,7 @@ static void events_by_number_are_the_same_bytes(void **state)
     CHECK_OK(clast_decompose_sizes(NULL, &space, &whole, &three_sizes, &j.own.config, &table));
     const double *n = clast_table_numbers(&table, "n");
     assert_true(n[0] == MANY / 4 && n[1] == MANY / 2 && n[2] == MANY);
-    for (j.own.deal = 0; j.own.deal < N_DEAL; ++j.own.deal) {
+    for (j.own.deal = 0; j.own.deal < N_DEAL; j.own.deal += 2) {
         support_run_ranks(2 + j.own.deal % (MOST_RANKS - 1), decompose_sizes, &j);
     }
     clast_table_free(&table);
