@@ -163,6 +163,7 @@ static clast_status share_rows(const clx_ranks *r, clast_status status, contact 
     status = clx_alloc(&sorted, m, sizeof *sorted);
     status = status == CLAST_OK ? clx_alloc(&next, r->n_synced + 2, sizeof *next) : status;
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
+    CLAST_ASSERT(next != NULL && (sorted != NULL || m == 0)); // for the analyzer
     for (int64_t k = 0; k < m; ++k) {
         ++next[from[k].a + 1];
     }
