@@ -127,7 +127,7 @@ static bool is_behind(const clx_scene_hit *hit, const double direction[3])
 static void look_at_sky(const clx_shader *shader, int n, look *all)
 {
     const int32_t n_ray = shader->samples.n_sky;
-    int32_t list[CLX_SHADE_LOOKS];
+    int32_t list[CLX_SHADE_LOOKS] = {0};
     for (int32_t i = 0; i < n_ray; ++i) {
         int n_list = 0; // of free directions, as far as the surface itself goes
         for (int k = 0; k < n; ++k) {
@@ -159,7 +159,7 @@ static void look_at_sky(const clx_shader *shader, int n, look *all)
 /// Cosine and highlight of the sun, 0 where it is hidden.
 static void look_at_sun(const clx_shader *shader, int n, look *all)
 {
-    int32_t list[CLX_SHADE_LOOKS];
+    int32_t list[CLX_SHADE_LOOKS] = {0};
     int n_list = 0;
     for (int k = 0; k < n; ++k) {
         look *l = &all[k];
