@@ -57,9 +57,6 @@ clast_status clx_cell_make(struct clast_dem *dem);
 void clx_cell_begin_step(struct clast_dem *dem);
 void clx_cell_end_step(struct clast_dem *dem);
 
-/// Refuses a cell that has become too narrow for its grains.
-clast_status clx_cell_check_room(const struct clast_dem *dem);
-
 /// A place, moved into the cell; the velocity there of the cell's even motion.
 void clx_cell_wrap(const clx_periodic_cell *cell, double x[3]);
 void clx_cell_affine(const clx_periodic_cell *cell, const double x[3], double v[3]);

@@ -394,7 +394,7 @@ done:
     return status;
 }
 
-clast_status clx_cell_check_room(const clast_dem *dem)
+clast_status clx_neighbour_list_check_room(const clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     const clx_periodic_cell *cell = dem->cell;
@@ -433,7 +433,7 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
-    CLX_TRY(clx_cell_check_room(dem));
+    CLX_TRY(clx_neighbour_list_check_room(dem));
     clx_neighbour_list_mark(dem);
     CLX_TRY(clx_neighbour_list_search(dem));
 done:

@@ -53,7 +53,11 @@ typedef struct clx_neighbour_list {
 /// Brings the lists up to date for the items that have used half of their margin.
 clast_status clx_neighbour_list_refresh(clast_dem *dem);
 
-/// The same in two steps: marks these items and sets their anchors, but of ghosts; then searches.
+/// Refuses a cell that has become too narrow for its grains; other domains have room.
+clast_status clx_neighbour_list_check_room(const clast_dem *dem);
+
+/// The refresh in two steps: marks these items and sets their anchors, but of ghosts; then
+/// searches.
 void clx_neighbour_list_mark(clast_dem *dem);
 clast_status clx_neighbour_list_search(clast_dem *dem);
 

@@ -470,7 +470,7 @@ clast_status clx_ranks_refresh(clast_dem *whole)
     clx_gathered in = {0};
     clx_arrivals a = {0};
     clx_inner_unpack(r->local);
-    CLX_TRY(clx_cell_check_room(whole));
+    CLX_TRY(clx_neighbour_list_check_room(whole));
     CLX_TRY(clast_comm_agree(r->comm, clx_neighbour_list_reserve(&r->local->list, r->local->n_item),
                              NULL));
     clx_neighbour_list_mark(r->local);
