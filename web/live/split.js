@@ -307,6 +307,7 @@ async function start() {
   fail('');
   note();
   state.turn += 1;
+  const { turn } = state;
   state.words = wordsNow();
   state.begun = performance.now();
   $('run').disabled = true;
@@ -317,8 +318,9 @@ async function start() {
   state.running = true;
   draw();
   try {
-    await finish(await splitter.run(state.words, { [state.name]: state.text }), state.turn);
+    await finish(await splitter.run(state.words, { [state.name]: state.text }), turn);
   } catch (fault) {
+    if (turn !== state.turn) return;
     state.running = false;
     setReady();
     say('');
