@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")/.."
 mkdir -p build
 export FUZZ_SECONDS=${1:-60}
-tools/build.sh fuzz > build/fuzz.log 2>&1 || { tail -30 build/fuzz.log; echo "fuzz: build failed"; exit 1; }
+tools/build.sh fuzz fuzz_targets > build/fuzz.log 2>&1 || { tail -30 build/fuzz.log; echo "fuzz: build failed"; exit 1; }
 mkdir -p build/fuzz/crashes
 one() {
     name=$(basename "$1"); seeds="tests/fuzz/corpus/${name#fuzz_}"; work="build/fuzz/corpus/$name"

@@ -7,6 +7,7 @@ build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev libpng-dev libtiff-dev zlib1g-dev fonts-dejavu-core)
 sundials=("${build[@]}" libsundials-dev)
 mpi=("${build[@]}" libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
+mpich=("${mpi[@]}" mpich libmpich-dev)
 dev=("${build[@]}" libcmocka-dev python3 python3-numpy)
 clang=("${dev[@]}" clang-14 libclang-rt-14-dev)
 afl=("${build[@]}" afl++)
@@ -26,8 +27,8 @@ i386=("${dev[@]}" gcc-multilib curl)
 wasm=("${dev[@]}" emscripten nodejs curl chromium)
 bare=(git mmdebstrap debian-archive-keyring)
 saturne=("${mpi[@]}" python3 code-saturne code-saturne-include)
-test=("${mpi[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh code-saturne-include)
-groups="build sundials mpi dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
+test=("${mpich[@]}" "${wasm[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh code-saturne-include)
+groups="build sundials mpi mpich dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

@@ -251,13 +251,14 @@ static void a_uniform_cloud_has_g_1_in_every_domain(void **state)
         domain_of("box:0,2"),      domain_of("box:0,0,1,2"),   domain_of("box:1,1,1,2,3,2"),
         domain_of("cylinder:1,2"), domain_of("half-pipe:1,2"), domain_of("sphere:1"),
         ball_mesh(1.0, 2)};
-    enum { REPEATS = 40, SHELLS = 6 };
+    enum { SHELLS = 6 };
     for (size_t k = 0; k < 7; ++k) {
+        const int n_repeat = k == 6 ? 12 : 40; // a mesh takes most of the time
         double sum[SHELLS + 1] = {0};
         double squares[SHELLS + 1] = {0};
         clast_pairs_config config = config_of(0.4);
         config.n_shell = SHELLS;
-        for (int r = 0; r < REPEATS; ++r) {
+        for (int r = 0; r < n_repeat; ++r) {
             clast_cloud cloud = uniform(&domains[k], 300, 1000 * k + (uint64_t)r);
             clast_pairs pairs = {0};
             CHECK_OK(clast_pairs_count(&domains[k], &cloud, &config, &pairs));
@@ -266,14 +267,14 @@ static void a_uniform_cloud_has_g_1_in_every_domain(void **state)
                     i < SHELLS
                         ? clast_table_numbers(&pairs.shells, "g")[i]
                         : pairs.volume * clast_table_numbers(&pairs.shells, "integral")[SHELLS - 1];
-                sum[i] += value / REPEATS;
-                squares[i] += value * value / REPEATS;
+                sum[i] += value / n_repeat;
+                squares[i] += value * value / n_repeat;
             }
             clast_pairs_free(&pairs);
             clast_cloud_free(&cloud);
         }
         for (int i = 0; i <= SHELLS; ++i) {
-            const double error = sqrt((squares[i] - sum[i] * sum[i]) / (REPEATS - 1));
+            const double error = sqrt((squares[i] - sum[i] * sum[i]) / (n_repeat - 1));
             assert_true(error < 0.1);
             const bool is_rough = i == SHELLS && (k == 3 || k == 4 || k == 6);
             CHECK_ABS(sum[i], 1.0, 4.0 * error + (is_rough ? 0.01 : 0.0));
@@ -623,7 +624,7 @@ static void allocations_are_refused(void **state)
 {
     (void)state;
     clast_domain box = domain_of("box:0,0,0,1,1,1");
-    clast_domain mesh = ball_mesh(1.0, 1);
+    clast_domain mesh = ball_mesh(1.0, 0);
     support_refuse_each_allocation(count_in, &box);
     support_refuse_each_allocation(count_in, &mesh);
     clast_domain_free(&mesh);
