@@ -151,18 +151,36 @@ static void print_load(const clast_pack_result *r)
     }
 }
 
-/// Where the energy went, in shares of what was put in.
+/// Where the energy went, in shares of what was put in, which add up to all of it.
 static void print_energy(const clast_pack_result *r)
 {
     const clast_dem_energy *e = &r->energy;
-    const double all = 0.01 * e->put_in;
-    if (e->put_in > 0.0) {
-        (void)printf(
-            "%-26s %.4g J put in: %.3g %% lost in dashpots, %.3g %% by friction, %.3g %% by "
-            "the scheme; %.1g %% not accounted for\n",
-            "energy", e->put_in, (e->damping[0] + e->damping[1]) / all,
-            (e->friction[0] + e->friction[1]) / all, e->scheme / all, e->rest / all);
+    const struct {
+        double part;
+        const char *name;
+        bool is_always;
+    } share[] = {
+        {e->translation + e->rotation, "kinetic", true},
+        {e->normal_springs + e->tangential_springs + e->attraction, "in contacts", true},
+        {e->damping[0] + e->damping[1], "lost in dashpots", true},
+        {e->friction[0] + e->friction[1], "by friction", true},
+        {e->rolling[0] + e->rolling[1], "by rolling", false},
+        {e->fluid, "to the fluid", false},
+        {e->calming, "by damping all velocities", false},
+        {e->left, "gone with grains", false},
+        {e->scheme, "by the scheme", true},
+    };
+    if (!(e->put_in > 0.0)) {
+        return;
     }
+    (void)printf("%-26s %.4g J put in: ", "energy", e->put_in);
+    for (size_t k = 0; k < sizeof share / sizeof share[0]; ++k) {
+        if (share[k].is_always || share[k].part != 0.0) {
+            (void)printf("%s%.3g %% %s", k > 0 ? ", " : "", 100.0 * share[k].part / e->put_in,
+                         share[k].name);
+        }
+    }
+    (void)printf("; %.1g %% not accounted for\n", 100.0 * e->rest / e->put_in);
 }
 
 static void print_text(const clast_pack_result *r)

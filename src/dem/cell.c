@@ -74,18 +74,17 @@ void clx_cell_affine(const clx_periodic_cell *cell, const double x[3], double v[
 /// Gives every grain the change that belongs to its place.
 static void kick(clast_dem *dem, const clx_periodic_cell *cell, const double rate[3], double shear)
 {
-    double work = 0.0;
+    // of those that were distributed each rank books its own
+    const int32_t first = dem->ranks != NULL && dem->ranks->has_begun ? dem->ranks->n_synced : 0;
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         clx_grain *g = &dem->grain[i];
         double change[3];
         const double before = v3_norm2(g->velocity);
         affine(cell, g->position, rate, shear, change);
         v3_add(g->velocity, g->velocity, change);
-        work +=
-            0.5 * g->mass * clx_heavier(dem, &dem->motion[i]) * (v3_norm2(g->velocity) - before);
-    }
-    if (dem->energy != NULL) {
-        dem->energy->sum[CLX_WORK_CELL] += work;
+        if (i >= first) {
+            clx_energy_pushed(dem, i, v3_norm2(g->velocity) - before);
+        }
     }
 }
 
@@ -160,9 +159,7 @@ static void shift_grain(clast_dem *dem, int32_t i, const double by[3], const dou
     if (dem->item != NULL) {
         clx_items_place(dem, i);
     }
-    if (dem->energy != NULL) {
-        dem->energy->sum[CLX_WORK_CELL] += 0.5 * g->mass * clx_heavier(dem, &dem->motion[i]) * work;
-    }
+    clx_energy_pushed(dem, i, work);
 }
 
 /// Back into the cell; the image there moves with its side.

@@ -199,6 +199,10 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
 /// Contacts, then motion, of all grains: a step's work. *is_fine as clx_move.
 clast_status clx_contacts_and_motion(clast_dem *dem, bool *is_fine);
 
+/// The same in two passes; between them ranks tell each other what the energy book needs.
+clast_status clx_pass_contacts(clast_dem *dem);
+bool clx_pass_motion(clast_dem *dem); ///< *is_fine
+
 /// Capacity for n grains; for n items, where those are not grains or have convex shapes too.
 clast_status clx_grains_reserve(clast_dem *dem, int64_t n);
 clast_status clx_items_reserve_all(clast_dem *dem, int64_t n);

@@ -8,7 +8,8 @@
 // exactly.                                                                     [docs/theory/load.md
 // "Energy"]
 //
-// Sums are over blocks of grains in their order: the same bytes whatever the threads.
+// A grain's share of a step is added up in the order of its contacts, and the shares of all grains
+// and steps without rounding: the same bytes whatever the threads and ranks.
 #include "dem/energy.h"
 
 #include "base/alloc.h"
@@ -28,6 +29,55 @@ void clx_energy_destroy(clx_energy *energy)
         clx_free(energy->part);
         clx_free(energy);
     }
+}
+
+void clx_energy_merge(const clx_energy *energy, clx_exact_sum sum[CLX_N_WORK])
+{
+    memset(sum, 0, CLX_N_WORK * sizeof *sum);
+    for (int32_t w = 0; w < energy->n_part; ++w) {
+        for (int k = 0; k < CLX_N_WORK; ++k) {
+            clx_exact_merge(&sum[k], &energy->part[w][k]);
+        }
+    }
+}
+
+void clx_energy_sums(const clx_energy *energy, double sum[CLX_N_WORK])
+{
+    clx_exact_sum all[CLX_N_WORK];
+    clx_energy_merge(energy, all);
+    for (int k = 0; k < CLX_N_WORK; ++k) {
+        sum[k] = clx_exact_value(&all[k]);
+    }
+}
+
+void clx_energy_set(clx_energy *energy, const clx_exact_sum sum[CLX_N_WORK])
+{
+    memset(energy->part, 0, (size_t)energy->n_part * sizeof *energy->part);
+    memcpy(energy->part[0], sum, sizeof energy->part[0]);
+}
+
+void clx_energy_add(clx_energy *energy, int32_t worker, const double share[CLX_N_WORK])
+{
+    for (int k = 0; k < CLX_N_WORK; ++k) {
+        if (share[k] != 0.0 && isfinite(share[k])) {
+            clx_exact_add(&energy->part[worker][k], share[k]);
+        }
+    }
+}
+
+/// A part for each worker.
+static clast_status reserve_parts(clx_energy *energy)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = clx_parallel_workers();
+    if (n > energy->n_part) {
+        CLX_TRY(clx_realloc(&energy->part, n, sizeof *energy->part));
+        memset(&energy->part[energy->n_part], 0,
+               (size_t)(n - energy->n_part) * sizeof *energy->part);
+        energy->n_part = n;
+    }
+done:
+    return status;
 }
 
 /// Angular momentum of a grain that turns like this, in its present orientation.
@@ -177,24 +227,47 @@ clast_status clast_dem_begin_energy(clast_dem *dem)
     }
     if (dem->energy == NULL) {
         CLX_TRY(clx_alloc(&made, 1, sizeof *made));
+        CLX_TRY(reserve_parts(made));
         dem->energy = made;
+        made = NULL;
     }
-    memset(dem->energy->sum, 0, sizeof dem->energy->sum);
     const clx_energy_held now = clx_energy_held_now(dem);
-    dem->energy->sum[CLX_WORK_MADE] =
-        now.translation + now.rotation + now.normal + now.tangential + now.attraction;
-    dem->energy->sum[CLX_WORK_NORMAL] = -now.normal;
-    dem->energy->sum[CLX_WORK_TANGENTIAL] = -now.tangential;
-    dem->energy->sum[CLX_WORK_PULL] = -now.attraction;
+    const double share[CLX_N_WORK] = {[CLX_WORK_MADE] = now.translation + now.rotation +
+                                                        now.normal + now.tangential +
+                                                        now.attraction,
+                                      [CLX_WORK_NORMAL] = -now.normal,
+                                      [CLX_WORK_TANGENTIAL] = -now.tangential,
+                                      [CLX_WORK_PULL] = -now.attraction};
+    memset(dem->energy->part, 0, (size_t)dem->energy->n_part * sizeof *dem->energy->part);
+    clx_energy_add(dem->energy, 0, share);
 done:
+    clx_energy_destroy(made);
     return status;
 }
 
 void clx_energy_added(clast_dem *dem, int32_t first)
 {
     for (int32_t i = first; dem->energy != NULL && i < dem->n_grain; ++i) {
-        dem->energy->sum[CLX_WORK_MADE] += translation_of(dem, i, dem->grain[i].velocity) +
-                                           rotation_of(dem, i, dem->grain[i].omega);
+        const double share[CLX_N_WORK] = {[CLX_WORK_MADE] =
+                                              translation_of(dem, i, dem->grain[i].velocity) +
+                                              rotation_of(dem, i, dem->grain[i].omega)};
+        clx_energy_add(dem->energy, 0, share);
+    }
+}
+
+/// Whether another rank moves the grain, and books it.
+static bool is_ghost(const clast_dem *dem, int64_t i)
+{
+    return dem->is_ghost != NULL && dem->is_ghost[i] != 0;
+}
+
+void clx_energy_pushed(clast_dem *dem, int32_t i, double square)
+{
+    if (dem->energy != NULL && !is_ghost(dem, i)) {
+        const double share[CLX_N_WORK] = {[CLX_WORK_CELL] = 0.5 * dem->grain[i].mass *
+                                                            clx_heavier(dem, &dem->motion[i]) *
+                                                            square};
+        clx_energy_add(dem->energy, 0, share);
     }
 }
 
@@ -204,7 +277,7 @@ clast_status clx_energy_before(clast_dem *dem)
     clx_energy *e = dem->energy;
     CLX_TRY(clx_grow(&e->grain, &e->grain_capacity, dem->n_grain + 1, sizeof *e->grain));
     CLX_TRY(clx_grow(&e->slide, &e->slide_capacity, dem->inner.n + 1, sizeof *e->slide));
-    CLX_TRY(clx_grow(&e->part, &e->part_capacity, dem->n_item / BLOCK + 1, sizeof *e->part));
+    CLX_TRY(reserve_parts(e));
     for (int32_t k = 0; k < dem->inner.n; ++k) {
         v3_copy(e->slide[k], clx_inner_pair(dem, k)->slide);
     }
@@ -212,14 +285,10 @@ done:
     return status;
 }
 
-/// Adds the sums of all blocks, in order.
-static void add_parts(clx_energy *e, int64_t n)
+/// First of the pairs of the inner list whose a is of grain g, or of a later one.
+static int32_t first_pair(const clast_dem *dem, int64_t g)
 {
-    for (int64_t b = 0; b < (n + BLOCK - 1) / BLOCK; ++b) {
-        for (int k = 0; k < CLX_N_WORK; ++k) {
-            e->sum[k] += e->part[b][k];
-        }
-    }
+    return dem->inner.begin[dem->item_begin != NULL ? dem->item_begin[g] : g];
 }
 
 /// Sum of the pair forces on a grain.
@@ -228,9 +297,7 @@ static clx_force_torque total_of(const clast_dem *dem, int64_t g)
     clx_force_torque total;
     const clx_inner_list *inner = &dem->inner;
     clx_move_incoming(inner, g, &total);
-    const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
-    const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
-    for (int32_t k = inner->begin[first]; k < inner->begin[last]; ++k) {
+    for (int32_t k = first_pair(dem, g); k < first_pair(dem, g + 1); ++k) {
         v3_sub(total.force, total.force, inner->force[k].force);
         v3_sub(total.torque, total.torque, inner->force[k].torque_a);
     }
@@ -384,37 +451,43 @@ typedef struct {
 static void book_grains(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const booking *b = context;
-    double *sum = b->dem->energy->part[begin / BLOCK];
-    (void)worker;
-    memset(sum, 0, CLX_N_WORK * sizeof *sum);
     for (int64_t i = begin; i < end; ++i) {
-        book_grain(b->dem, (int32_t)i, b->moving.shake, sum);
+        double share[CLX_N_WORK] = {0.0};
+        if (!is_ghost(b->dem, i)) {
+            book_grain(b->dem, (int32_t)i, b->moving.shake, share);
+            clx_energy_add(b->dem->energy, worker, share);
+        }
     }
 }
 
+/// Contacts of the grains whose number is their lower one.
 static void book_pairs(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const booking *b = context;
     clast_dem *dem = b->dem;
     const clx_inner_list *inner = &dem->inner;
-    double *sum = dem->energy->part[begin / BLOCK];
-    (void)worker;
-    memset(sum, 0, CLX_N_WORK * sizeof *sum);
-    for (int32_t k = inner->begin[begin]; k < inner->begin[end]; ++k) {
-        const clx_dem_pair *pair = clx_inner_pair(dem, k);
-        if (pair->touches != 0) {
-            book_pair(dem, pair, &inner->force[k], dem->energy->slide[k], sum);
+    for (int64_t i = begin; i < end; ++i) {
+        double share[CLX_N_WORK] = {0.0};
+        for (int32_t k = first_pair(dem, i); k < first_pair(dem, i + 1) && !is_ghost(dem, i); ++k) {
+            const clx_dem_pair *pair = clx_inner_pair(dem, k);
+            if (pair->touches != 0) {
+                book_pair(dem, pair, &inner->force[k], dem->energy->slide[k], share);
+            }
         }
+        clx_energy_add(dem->energy, worker, share);
     }
 }
 
-void clx_energy_forces(clast_dem *dem)
+void clx_energy_grains(clast_dem *dem)
 {
     booking b = {.dem = dem, .moving = clx_move_begin(dem)};
     clx_dem_for(dem, dem->n_grain, BLOCK, book_grains, &b);
-    add_parts(dem->energy, dem->n_grain);
-    clx_dem_for(dem, dem->n_item, BLOCK, book_pairs, &b);
-    add_parts(dem->energy, dem->n_item);
+}
+
+void clx_energy_contacts(clast_dem *dem)
+{
+    booking b = {.dem = dem};
+    clx_dem_for(dem, dem->n_grain, BLOCK, book_pairs, &b);
 }
 
 /// What damping and the fluid took of a grain, and what its turning in a finite step made.
@@ -449,11 +522,12 @@ static void book_motion(const clast_dem *dem, int32_t i, double damping, double 
 static void book_motions(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const booking *b = context;
-    double *sum = b->dem->energy->part[begin / BLOCK];
-    (void)worker;
-    memset(sum, 0, CLX_N_WORK * sizeof *sum);
     for (int64_t i = begin; i < end; ++i) {
-        book_motion(b->dem, (int32_t)i, b->moving.damping, sum);
+        double share[CLX_N_WORK] = {0.0};
+        if (!is_ghost(b->dem, i)) {
+            book_motion(b->dem, (int32_t)i, b->moving.damping, share);
+            clx_energy_add(b->dem->energy, worker, share);
+        }
     }
 }
 
@@ -461,7 +535,6 @@ void clx_energy_after(clast_dem *dem)
 {
     booking b = {.dem = dem, .moving = clx_move_begin(dem)};
     clx_dem_for(dem, dem->n_grain, BLOCK, book_motions, &b);
-    add_parts(dem->energy, dem->n_grain);
 }
 
 void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
@@ -469,7 +542,8 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
     if (dem == NULL || energy == NULL || dem->energy == NULL) {
         return;
     }
-    const double *sum = dem->energy->sum;
+    double sum[CLX_N_WORK];
+    clx_energy_sums(dem->energy, sum);
     const clx_energy_held now = clx_energy_held_now(dem);
     clast_dem_energy e = {.translation = now.translation,
                           .rotation = now.rotation,

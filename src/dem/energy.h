@@ -1,6 +1,7 @@
 #pragma once
 // The energy book of a simulation: the work that each force does in each step, by kind.
 #include "dem/dem.h"
+#include "math/exact_sum.h"
 
 /// Running sums [J]. Work of springs and pulls is that on the grains.
 typedef enum {
@@ -26,7 +27,7 @@ typedef enum {
     CLX_N_WORK
 } clx_work;
 
-/// A grain within a step: forces are known, nothing has moved.
+/// A grain within a step: forces are known, nothing has moved. Of a ghost the velocities alone.
 typedef struct clx_energy_grain {
     double velocity[3], omega[3]; ///< means of before and after the step's forces
     double kinetic[2];            ///< after them: translation, rotation [J]
@@ -34,11 +35,11 @@ typedef struct clx_energy_grain {
 } clx_energy_grain;
 
 typedef struct clx_energy {
-    double sum[CLX_N_WORK];
-    clx_energy_grain *grain;    ///< [n_grain]
-    double (*slide)[3];         ///< [pairs of the inner list] before the step's contacts
-    double (*part)[CLX_N_WORK]; ///< [blocks] sums of a pass
-    int64_t grain_capacity, slide_capacity, part_capacity;
+    clx_exact_sum (*part)[CLX_N_WORK]; ///< [n_part] each worker's, which together are the sums
+    int32_t n_part;
+    clx_energy_grain *grain; ///< [n_grain]
+    double (*slide)[3];      ///< [pairs of the inner list] before the step's contacts
+    int64_t grain_capacity, slide_capacity;
 } clx_energy;
 
 /// Energies that the simulation holds now, springs at the middle of the step as velocities are.
@@ -49,12 +50,28 @@ typedef struct clx_energy_held {
 } clx_energy_held;
 
 void clx_energy_destroy(clx_energy *energy); ///< NULL is allowed
+
+/// Adds a grain's share by a worker. What is infinite, of a bed that explodes and ends in this
+/// step, is left out.
+void clx_energy_add(clx_energy *energy, int32_t worker, const double share[CLX_N_WORK]);
+
+/// All parts in one; then the sums rounded.
+void clx_energy_merge(const clx_energy *energy, clx_exact_sum sum[CLX_N_WORK]);
+void clx_energy_sums(const clx_energy *energy, double sum[CLX_N_WORK]);
+
+/// The sums are these from now on.
+void clx_energy_set(clx_energy *energy, const clx_exact_sum sum[CLX_N_WORK]);
 clx_energy_held clx_energy_held_now(const clast_dem *dem);
 
 /// Energy of the grains from `first` on, which have just been added.
 void clx_energy_added(clast_dem *dem, int32_t first);
 
-/// Before the step's contacts; when their forces are known (inner.force); when grains have moved.
+/// The cell has changed the square of a grain's velocity by so much.
+void clx_energy_pushed(clast_dem *dem, int32_t i, double square);
+
+/// Before the step's contacts; when their forces are known (inner.force); the same with all grains'
+/// velocities, ghosts' too; when grains have moved.
 clast_status clx_energy_before(clast_dem *dem);
-void clx_energy_forces(clast_dem *dem);
+void clx_energy_grains(clast_dem *dem);
+void clx_energy_contacts(clast_dem *dem);
 void clx_energy_after(clast_dem *dem);

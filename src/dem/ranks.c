@@ -33,11 +33,12 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLAST_ASSERT(dem->ranks == NULL);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "%s: these ranks cannot exchange bytes",
               __func__);
-    CLX_CHECK(dem->energy == NULL, CLAST_E_CONFIG,
-              "the energy book is of one process: run it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
+    if (dem->energy != NULL) {
+        CLX_TRY(clast_dem_begin_energy(made->local));
+    }
     CLX_TRY(clx_alloc(&made->n_out, comm->n_rank, sizeof *made->n_out));
     CLX_TRY(clx_alloc(&made->n_in, comm->n_rank, sizeof *made->n_in));
     CLX_TRY(clx_alloc(&made->n_wire, comm->n_rank, sizeof *made->n_wire));
@@ -265,7 +266,8 @@ done:
     return status;
 }
 
-/// Contacts and motion of the rank's own simulation; a rank without grains moves the cell alone.
+/// Contacts and motion of the rank's own simulation, where energy is booked contacts alone; a rank
+/// without grains moves the cell alone.
 static clast_status work(clast_dem *local, bool *is_fine)
 {
     clast_status status = CLAST_OK;
@@ -279,7 +281,8 @@ static clast_status work(clast_dem *local, bool *is_fine)
         CLX_TRY(clx_check_starts(local));
     }
     if (local->n_grain > 0) {
-        CLX_TRY(clx_contacts_and_motion(local, is_fine));
+        CLX_TRY(local->energy != NULL ? clx_pass_contacts(local)
+                                      : clx_contacts_and_motion(local, is_fine));
     }
 done:
     return status;
@@ -338,6 +341,10 @@ static clast_status step(clast_dem *whole)
     CLX_TRY(share_slabs(whole));
     clx_walls_begin_step(local);
     status = work(local, &is_fine);
+    if (local->energy != NULL) {
+        clx_ranks_exchange_means(whole, status == CLAST_OK);
+        is_fine = status != CLAST_OK || local->n_grain == 0 || clx_pass_motion(local);
+    }
     clx_walls_end_step(local);
     if (local->cell != NULL) {
         clx_cell_end_step(local);

@@ -89,7 +89,7 @@ typedef struct clx_ranks {
 } clx_ranks;
 
 /// Spreads a simulation over ranks from its next step on; nothing where there is one. Called by all
-/// ranks with the same simulation.
+/// ranks with the same simulation. Its energy book has begun before, or never does.
 ///
 /// @return CLAST_E_ARGUMENT for ranks that cannot exchange bytes
 clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm);
@@ -106,8 +106,8 @@ clast_status clx_dem_gather_all(clast_dem *dem);
 /// clast_dem_measure of them, the same on every rank. Called by all.
 clast_status clx_dem_gather_measures(clast_dem *dem, clast_dem_measures *measures);
 
-/// clast_dem_load_measure, the same on every rank. Called by all.
-clast_status clx_dem_gather_load(clast_dem *dem, clast_dem_load *load);
+/// clast_dem_load_measure and clast_dem_energy_measure, the same on every rank. Called by all.
+clast_status clx_dem_gather_load(clast_dem *dem, clast_dem_load *load, clast_dem_energy *energy);
 
 /// Whether a grain's centre is beyond a plane, sign (x - at) < 0, without gathering. Called by all.
 bool clx_dem_any_beyond(const clast_dem *dem, int axis, double sign, double at);
@@ -139,6 +139,9 @@ clast_status clx_ranks_refresh(clast_dem *whole);
 /// Which grains the ranks read of each other in a step; then what they are now.
 clast_status clx_ranks_connect(clast_dem *whole);
 void clx_ranks_exchange(clast_dem *whole);
+
+/// The velocities of ghosts that the energy book needs, unless the rank's own contacts failed.
+void clx_ranks_exchange_means(clast_dem *whole, bool is_ready);
 
 /// What grains of all ranks did to the walls in a step.
 clast_status clx_ranks_add_walls(clast_dem *whole);

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/lines.h"
+#include "dem/energy.h"
 #include <clast/machine.h>
 #include <clast/status.h>
 #include <string.h>
@@ -51,6 +52,25 @@ static void read_grain(clast_dem *dem, int32_t i, int32_t width, const double *i
     dem->inner.is_due = dem->inner.is_due || dem->travel[i] > dem->inner.until[i];
 }
 
+/// The numbers of all own grains that others read go to them, those of ghosts come.
+static void swap(clx_ranks *r, int32_t width)
+{
+    r->comm->exchange(r->comm->context, r->out, r->n_out, r->in, r->n_in);
+    for (int32_t k = 0; k < r->comm->n_rank; ++k) {
+        r->counts.n_message += r->n_out[k] > 0 ? 1 : 0;
+    }
+    r->counts.step_bytes += r->n_send * width * (int64_t)sizeof(double);
+}
+
+/// Bytes for each rank, from so many numbers a grain to others.
+static void scale_counts(clx_ranks *r, int32_t from, int32_t to)
+{
+    for (int32_t k = 0; k < r->comm->n_rank; ++k) {
+        r->n_out[k] = r->n_out[k] / from * to;
+        r->n_in[k] = r->n_in[k] / from * to;
+    }
+}
+
 void clx_ranks_exchange(clast_dem *whole)
 {
     clx_ranks *r = whole->ranks;
@@ -58,16 +78,30 @@ void clx_ranks_exchange(clast_dem *whole)
     for (int64_t k = 0; k < r->n_send; ++k) {
         write_grain(r->local, r->send[k], width, r->out + k * width);
     }
-    r->comm->exchange(r->comm->context, r->out, r->n_out, r->in, r->n_in);
+    swap(r, width);
     for (int64_t k = 0; k < r->n_receive; ++k) {
         read_grain(r->local, r->receive[k], width, r->in + k * width);
     }
-    for (int32_t k = 0; k < r->comm->n_rank; ++k) {
-        r->counts.n_message += r->n_out[k] > 0 ? 1 : 0;
-    }
-    r->counts.step_bytes += r->n_send * width * (int64_t)sizeof(double);
     r->counts.n_ghost += r->n_receive;
     ++r->counts.n_step;
+}
+
+void clx_ranks_exchange_means(clast_dem *whole, bool is_ready)
+{
+    enum { MEANS = 6 };
+    clx_ranks *r = whole->ranks;
+    clx_energy_grain *grain = r->local->energy->grain;
+    for (int64_t k = 0; k < r->n_send && is_ready; ++k) {
+        v3_copy(r->out + k * MEANS, grain[r->send[k]].velocity);
+        v3_copy(r->out + k * MEANS + 3, grain[r->send[k]].omega);
+    }
+    scale_counts(r, width_of(r->local), MEANS);
+    swap(r, MEANS);
+    scale_counts(r, MEANS, width_of(r->local));
+    for (int64_t k = 0; k < r->n_receive && is_ready; ++k) {
+        v3_copy(grain[r->receive[k]].velocity, r->in + k * MEANS);
+        v3_copy(grain[r->receive[k]].omega, r->in + k * MEANS + 3);
+    }
 }
 
 /// Ghosts that some pair of the rank reads, marked.

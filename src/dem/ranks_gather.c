@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/lines.h"
+#include "dem/energy.h"
 #include <clast/machine.h>
 #include <clast/status.h>
 #include <string.h>
@@ -65,6 +66,22 @@ static void add_counts(clast_dem *whole)
     whole->list.is_due = r->local->list.is_due || whole->n_grain > r->n_synced;
 }
 
+/// What ranks have booked since the last time goes to the whole's book.
+static void add_energies(clast_dem *whole)
+{
+    static const clx_exact_sum none[CLX_N_WORK];
+    clx_exact_sum all[CLX_N_WORK];
+    clx_exact_sum own[CLX_N_WORK];
+    clx_energy_merge(whole->ranks->local->energy, own);
+    clx_energy_set(whole->ranks->local->energy, none);
+    clx_exact_over(whole->ranks->comm, own, CLX_N_WORK);
+    clx_energy_merge(whole->energy, all);
+    for (int k = 0; k < CLX_N_WORK; ++k) {
+        clx_exact_merge(&all[k], &own[k]);
+    }
+    clx_energy_set(whole->energy, all);
+}
+
 static bool has_gathered(const clast_dem *dem)
 {
     return dem->ranks == NULL || !dem->ranks->has_begun;
@@ -111,6 +128,9 @@ clast_status clx_dem_gather_all(clast_dem *dem)
     }
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
     add_counts(dem);
+    if (dem->energy != NULL) {
+        add_energies(dem);
+    }
 done:
     clx_arrivals_free(&a);
     clx_gathered_free(&all);

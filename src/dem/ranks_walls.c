@@ -98,15 +98,19 @@ bool clx_dem_any_beyond(const clast_dem *dem, int axis, double sign, double at)
     return is_spread ? r->comm->least(r->comm->context, is_any ? 0 : 1) == 0 : is_any;
 }
 
-clast_status clx_dem_gather_load(clast_dem *dem, clast_dem_load *load)
+clast_status clx_dem_gather_load(clast_dem *dem, clast_dem_load *load, clast_dem_energy *energy)
 {
     clast_status status = CLAST_OK;
     const clx_ranks *r = dem->ranks;
     CLX_TRY(clx_dem_gather_all(dem));
-    status = r == NULL || r->comm->rank == 0 ? clast_dem_load_measure(dem, load) : CLAST_OK;
+    if (r == NULL || r->comm->rank == 0) {
+        status = clast_dem_load_measure(dem, load);
+        clast_dem_energy_measure(dem, energy);
+    }
     if (r != NULL) {
         CLX_TRY(clast_comm_agree(r->comm, status, NULL));
         r->comm->broadcast(r->comm->context, 0, load, (int64_t)sizeof *load);
+        r->comm->broadcast(r->comm->context, 0, energy, (int64_t)sizeof *energy);
     }
 done:
     return status;

@@ -138,13 +138,14 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
     }
     if (dem->energy != NULL) { // springs that held something go with their grains
         const clx_energy_held now = clx_energy_held_now(dem);
-        double *sum = dem->energy->sum;
-        sum[CLX_LEFT] += (before.translation - now.translation) + (before.rotation - now.rotation) +
+        const double gone[CLX_N_WORK] = {
+            [CLX_LEFT] = (before.translation - now.translation) + (before.rotation - now.rotation) +
                          (before.normal - now.normal) + (before.tangential - now.tangential) +
-                         (before.attraction - now.attraction);
-        sum[CLX_WORK_NORMAL] += before.normal - now.normal;
-        sum[CLX_WORK_TANGENTIAL] += before.tangential - now.tangential;
-        sum[CLX_WORK_PULL] += before.attraction - now.attraction;
+                         (before.attraction - now.attraction),
+            [CLX_WORK_NORMAL] = before.normal - now.normal,
+            [CLX_WORK_TANGENTIAL] = before.tangential - now.tangential,
+            [CLX_WORK_PULL] = before.attraction - now.attraction};
+        clx_energy_add(dem->energy, 0, gone);
     }
 done:
     clx_free(r.item);

@@ -154,6 +154,45 @@ done:
     return status;
 }
 
+/// The digits of the book's sums, as numbers.
+static clast_status save_energy(const clx_energy *energy, clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_exact_sum sum[CLX_N_WORK];
+    s->n_energy = (int64_t)CLX_N_WORK * CLX_EXACT_DIGITS;
+    CLX_TRY(clx_alloc(&s->energy, s->n_energy, sizeof *s->energy));
+    clx_energy_merge(energy, sum);
+    for (int64_t k = 0; k < s->n_energy; ++k) {
+        if (k % CLX_EXACT_DIGITS == 0) {
+            clx_exact_carry(&sum[k / CLX_EXACT_DIGITS]);
+        }
+        s->energy[k] = (double)sum[k / CLX_EXACT_DIGITS].digit[k % CLX_EXACT_DIGITS];
+    }
+done:
+    return status;
+}
+
+/// Checkpoints until 0.1.0 have the sums themselves.
+static clast_status restore_energy(clx_energy *energy, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_exact_sum sum[CLX_N_WORK] = {0};
+    for (int64_t k = 0; k < s->n_energy; ++k) {
+        const double x = s->energy[k];
+        CLX_CHECK(isfinite(x), CLAST_E_FORMAT, "the checkpoint's energy is not finite");
+        if (s->n_energy == CLX_N_WORK) {
+            clx_exact_add(&sum[k], x);
+            continue;
+        }
+        CLX_CHECK(fabs(x) <= 0xffffffff && x == floor(x), CLAST_E_FORMAT,
+                  "the checkpoint's energy is none");
+        sum[k / CLX_EXACT_DIGITS].digit[k % CLX_EXACT_DIGITS] = (int64_t)x;
+    }
+    clx_energy_set(energy, sum);
+done:
+    return status;
+}
+
 /// The cell and the energy book, which few simulations have.
 static clast_status save_extras(const clast_dem *dem, clx_dem_saved *s)
 {
@@ -163,9 +202,7 @@ static clast_status save_extras(const clast_dem *dem, clx_dem_saved *s)
         write_cell(dem->cell, s->cell);
     }
     if (dem->energy != NULL) {
-        s->n_energy = CLX_N_WORK;
-        CLX_TRY(clx_alloc(&s->energy, CLX_N_WORK, sizeof *s->energy));
-        memcpy(s->energy, dem->energy->sum, sizeof dem->energy->sum);
+        CLX_TRY(save_energy(dem->energy, s));
     }
     CLX_TRY(save_walls(dem, s));
 done:
@@ -177,21 +214,19 @@ static clast_status restore_extras(clast_dem *dem, const clx_dem_saved *s)
     clast_status status = CLAST_OK;
     CLX_CHECK((dem->cell != NULL) == (s->cell != NULL) &&
                   (dem->energy != NULL) == (s->energy != NULL) &&
-                  (s->energy == NULL || s->n_energy == CLX_N_WORK),
+                  (s->energy == NULL || s->n_energy == CLX_N_WORK ||
+                   s->n_energy == (int64_t)CLX_N_WORK * CLX_EXACT_DIGITS),
               CLAST_E_FORMAT, "the checkpoint's cell or energy is of another configuration");
     for (int k = 0; s->cell != NULL && k < CLX_SAVED_CELL; ++k) {
         const bool is_side = k < 3 || (k >= 6 && k < 9);
         CLX_CHECK(isfinite(s->cell[k]) && (!is_side || s->cell[k] > 0.0), CLAST_E_FORMAT,
                   "the checkpoint's cell is none");
     }
-    for (int64_t k = 0; k < s->n_energy; ++k) {
-        CLX_CHECK(isfinite(s->energy[k]), CLAST_E_FORMAT, "the checkpoint's energy is not finite");
-    }
     if (s->cell != NULL) {
         read_cell(s->cell, dem->cell);
     }
     if (s->energy != NULL) {
-        memcpy(dem->energy->sum, s->energy, sizeof dem->energy->sum);
+        CLX_TRY(restore_energy(dem->energy, s));
     }
     CLX_TRY(restore_walls(dem, s));
 done:

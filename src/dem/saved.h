@@ -28,7 +28,7 @@ typedef struct clx_dem_saved {
                      ///< or NULL
     double *cell; ///< [13] sides, rates, first sides, shift and its rate, path, strain of shear; or
                   ///< NULL
-    double *energy; ///< [n_energy] sums of the energy book, or NULL
+    double *energy; ///< [n_energy] digits of the energy book's sums, or NULL
     int64_t n_energy;
     double *wall;   ///< [n_wall][28] of walls that are watched: clock, runs, open, offset, drift,
                     ///< force, torque, impulse, moment, velocity, omega, work; or NULL

@@ -90,6 +90,7 @@ static json_t *energies(const clast_dem_energy *e)
     clx_json_set_number(o, "put_in", e->put_in);
     clx_json_set_number(o, "kinetic", e->translation + e->rotation);
     clx_json_set_number(o, "springs", e->normal_springs + e->tangential_springs);
+    clx_json_set_number(o, "attraction", e->attraction);
     clx_json_set_number(o, "damping", e->damping[0] + e->damping[1]);
     clx_json_set_number(o, "friction", e->friction[0] + e->friction[1]);
     clx_json_set_number(o, "rolling", e->rolling[0] + e->rolling[1]);

@@ -143,8 +143,7 @@ clast_status clx_pack_load_row(clast_pack *p)
         (row > 0 && clast_table_numbers(table, "step")[row - 1] >= step)) {
         return CLAST_OK;
     }
-    CLX_TRY(clx_dem_gather_load(p->dem, &load));
-    clast_dem_energy_measure(p->dem, &energy);
+    CLX_TRY(clx_dem_gather_load(p->dem, &load, &energy));
     n += p->config.dem.domain == CLAST_DEM_CELL ? put_cell(p, &load, x + n) : 0;
     n += put_contacts(&load, x + n);
     n += p->config.energy ? put_energy(&energy, x + n) : 0;

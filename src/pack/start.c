@@ -37,7 +37,7 @@ void clx_pack_start_densities(const clast_pack *p, double *low, double *high)
     }
 }
 
-/// Overlaps of the grains as they were brought.
+/// Overlaps of the grains as they were brought, which every rank finds: none has begun.
 static clast_status count_overlaps(clast_pack *p)
 {
     clast_status status = CLAST_OK;
@@ -63,8 +63,6 @@ clast_status clx_pack_start_place(clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_assembly *a = p->input.start;
     clast_dem_grain *grain = NULL;
-    CLX_CHECK(p->dem->ranks == NULL, CLAST_E_CONFIG,
-              "a bed from elsewhere (start) is brought by one process: run it on one rank");
     CLX_TRY(clx_alloc(&grain, a->n_grain, sizeof *grain));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         clast_dem_grain *g = &grain[i];

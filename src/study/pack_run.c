@@ -288,11 +288,6 @@ static clast_status begin(run *r, const char *folder, bool force)
               r->config->frame_time);
     CLX_CHECK(folder != NULL || !force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
-    CLX_CHECK(
-        r->comm->n_rank == 1 || r->config->start == NULL || r->config->start[0] == '\0',
-        CLAST_E_CONFIG,
-        "start %s over %d ranks: a bed from elsewhere is read by one rank; run without mpirun",
-        r->config->start, r->comm->n_rank);
     if (folder != NULL && is_first(r)) {
         CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, force, "pack", r->monitor, &r->own));

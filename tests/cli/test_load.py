@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -31,6 +32,8 @@ class Load(Case):
         self.assertLess(out["cell"]["unbalanced"], 1e-3)
         self.assertLess(out["porosity_bulk"], 0.46)
         self.assertLess(abs(out["energy"]["rest"]), 1e-10 * out["energy"]["put_in"])
+        parts = ("kinetic", "springs", "attraction", "damping", "friction", "rolling", "fluid", "calming", "left", "scheme", "rest")
+        self.assertAlmostEqual(sum(out["energy"][part] for part in parts) / out["energy"]["put_in"], 1, 12)
         table = rows(run / "load.csv")
         self.assertGreater(len(table), 5)
         last = table[-1]
@@ -54,6 +57,16 @@ class Load(Case):
         for name in ("fields.vti", "chains.vtp", "chains.svg"):
             self.assertTrue((self.folder / "fine" / name).exists(), name)
         self.assert_fails(2, "porosity", run, "--fields", "1m", says=("repeats after",))
+
+    def test_shares_of_the_energy_add_up(self):
+        """A third of a drum's energy was told nowhere: the damping of all velocities had it."""
+        result = clast("pack", "--curve", "4mm", "--mass", "2g", "--width", "24mm", "--height", "40mm", "--gravity", "400m/s^2",
+                       "--shaking-time", "2ms", "--damping", "0.999", "--max-steps", 2500, "--fluid-viscosity", "1mPa*s", "--energy")
+        self.assertEqual(result.code, 0, result.err)
+        line = next(line for line in result.out.splitlines() if line.startswith("energy "))
+        self.assertIn("by damping all velocities", line)
+        self.assertIn("to the fluid", line)
+        self.assertAlmostEqual(sum(float(share) for share in re.findall(r"(\S+) %", line)), 100, delta=1)
 
     def test_a_bed_that_does_not_come_to_its_end_is_kept(self):
         """Its state and its tables tell why; an older run in the folder stays until a new one is whole."""

@@ -17,6 +17,7 @@ typedef struct {
     int32_t domain;
     bool has_spheres; ///< beside, some of them larger than a rank's part of the bed
     void (*change)(clast_dem_config *config);
+    bool has_energy; ///< with an energy book
 } bed_case;
 
 static void roll(clast_dem_config *c)
@@ -42,18 +43,29 @@ static void verify(clast_dem_config *c)
     c->verify = 50;
 }
 
+static void stick(clast_dem_config *c)
+{
+    wet(c);
+    c->cohesion = CLAST_DEM_AREA;
+    c->cohesion_energy = 1e4;
+    c->rolling_friction = 0.1;
+}
+
 static const bed_case cases[] = {
-    {"balls in a cylinder", SCENE_BALL, CLAST_DEM_CYLINDER, true, NULL},
-    {"balls in a periodic box, rolling springs", SCENE_BALL, CLAST_DEM_PERIODIC, false, roll},
-    {"cubes in a periodic box", SCENE_CUBE, CLAST_DEM_PERIODIC, true, NULL},
-    {"octahedra in a box, exact steps, compared", SCENE_OCTAHEDRON, CLAST_DEM_BOX, false, hold},
-    {"eggs in a cylinder, in water", SCENE_EGG, CLAST_DEM_CYLINDER, true, wet},
-    {"clumps in a periodic box", SCENE_CLUMP, CLAST_DEM_PERIODIC, true, NULL},
-    {"bricks in a box, compared", SCENE_BRICKS, CLAST_DEM_BOX, false, verify},
-    {"gems in a cylinder", SCENE_GEMS, CLAST_DEM_CYLINDER, true, NULL},
-    {"balls in a cell, rolling springs", SCENE_BALL, CLAST_DEM_CELL, false, roll},
-    {"octahedra in a cell", SCENE_OCTAHEDRON, CLAST_DEM_CELL, true, NULL},
-    {"clumps in a cell", SCENE_CLUMP, CLAST_DEM_CELL, true, NULL},
+    {"balls in a cylinder", SCENE_BALL, CLAST_DEM_CYLINDER, true, NULL, false},
+    {"balls in a periodic box, rolling springs", SCENE_BALL, CLAST_DEM_PERIODIC, false, roll,
+     false},
+    {"cubes in a periodic box", SCENE_CUBE, CLAST_DEM_PERIODIC, true, NULL, false},
+    {"octahedra in a box, exact steps, compared", SCENE_OCTAHEDRON, CLAST_DEM_BOX, false, hold,
+     false},
+    {"eggs in a cylinder, in water", SCENE_EGG, CLAST_DEM_CYLINDER, true, wet, false},
+    {"clumps in a periodic box", SCENE_CLUMP, CLAST_DEM_PERIODIC, true, NULL, true},
+    {"bricks in a box, compared", SCENE_BRICKS, CLAST_DEM_BOX, false, verify, true},
+    {"gems in a cylinder", SCENE_GEMS, CLAST_DEM_CYLINDER, true, NULL, true},
+    {"balls in a cell, rolling springs", SCENE_BALL, CLAST_DEM_CELL, false, roll, true},
+    {"octahedra in a cell", SCENE_OCTAHEDRON, CLAST_DEM_CELL, true, NULL, false},
+    {"clumps in a cell", SCENE_CLUMP, CLAST_DEM_CELL, true, NULL, true},
+    {"eggs that stick, in water", SCENE_EGG, CLAST_DEM_PERIODIC, true, stick, true},
 };
 
 enum {
@@ -120,6 +132,7 @@ static clast_status make(const bed_case *c, clast_dem **dem)
     for (int32_t k = 0; k < 4 && status == CLAST_OK; ++k) {
         status = add_layer(c, *dem, k, 0.005 + 0.0088 * k);
     }
+    status = status == CLAST_OK && c->has_energy ? clast_dem_begin_energy(*dem) : status;
     clast_shape_free(&body);
     clast_shape_free(&ball);
     return status;
@@ -186,6 +199,7 @@ static uint64_t digest(const clast_dem *dem)
                 {s.pair, 8 * CLX_SAVED_PAIR * s.n_pair},
                 {s.warm_start, s.warm_start != NULL ? s.warm_start_width * s.n_pair : 0},
                 {s.cell, s.cell != NULL ? 8 * CLX_SAVED_CELL : 0},
+                {s.energy, 8 * s.n_energy},
                 {&s.n_refresh, 8},
                 {&s.is_due, 1},
                 {s.verified, sizeof s.verified}};
@@ -201,7 +215,16 @@ static uint64_t digest(const clast_dem *dem)
 typedef struct {
     const bed_case *one;
     uint64_t hash[MARKS], digest[MARKS];
+    clast_dem_energy energy[MARKS];
 } expected;
+
+/// The bed at a mark: the energy of what it holds now, and of what its book has summed up.
+static clast_dem_energy energy_of(const clast_dem *dem)
+{
+    clast_dem_energy e = {0};
+    clast_dem_energy_measure(dem, &e);
+    return e;
+}
 
 static int run_rank(const clast_comm *comm, void *context)
 {
@@ -219,6 +242,8 @@ static int run_rank(const clast_comm *comm, void *context)
         if (comm->rank == 0) {
             RANK_CHECK(clast_dem_hash(dem) == e->hash[mark]);
             RANK_CHECK(digest(dem) == e->digest[mark]);
+            const clast_dem_energy energy = energy_of(dem);
+            RANK_CHECK(memcmp(&energy, &e->energy[mark], sizeof energy) == 0);
         }
     }
     clast_dem_destroy(dem);
@@ -236,12 +261,15 @@ static void bed_is_the_same_on_ranks(void **state)
             CHECK_OK(go(e.one, dem, mark));
             e.hash[mark] = clast_dem_hash(dem);
             e.digest[mark] = digest(dem);
+            e.energy[mark] = energy_of(dem);
         }
         clast_dem_measures m;
         clast_dem_measure(dem, &m);
         print_message("%s: %d contacts, %d at walls, %d refreshes\n", e.one->name, (int)m.n_contact,
                       (int)m.n_wall_contact, (int)m.n_refresh);
         assert_true(m.n_contact > 10);
+        const clast_dem_energy *last = &e.energy[MARKS - 1];
+        assert_true(!cases[c].has_energy || fabs(last->rest) < 1e-10 * last->put_in);
         clast_dem_destroy(dem);
         support_run_ranks(2 + c % 3, run_rank, &e);
     }
