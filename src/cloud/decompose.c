@@ -575,13 +575,14 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
                                   clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
+    clx_ladder ladder;
     result->beta_dt = config->beta_dt;
     result->volume = clast_domain_volume(sample->domain);
     result->seed = config->seed;
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
-    CLX_TRY(clx_events_count(cloud, config, sample, cached, result));
-    CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, result));
+    CLX_TRY(clx_events_count(cloud, config, sample, cached, &ladder, result));
+    CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &ladder, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {

@@ -469,11 +469,10 @@ static bool carry_over(const clx_shown *cached, const clx_ladder *ladder, clx_re
 }
 
 /// What the pairs of all points show, and by cells alone: counted, or as cached.
-static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *found,
-                               clast_decomposition *r)
+static clast_status find_shown(const count *n, clx_shown *cached, clx_ladder *ladder,
+                               clx_shown *found, clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
-    clx_ladder ladder;
     const double all = count_all(n);
     if (cached != NULL) {
         cached->is_counted = false;
@@ -483,17 +482,17 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
         found->cells = scaled(cached->cells, all);
         return CLAST_OK;
     }
-    CLX_TRY(clx_ladder_count(n->sample->comm, n->sample, n->cloud->weight, &ladder));
-    found->relative = found->cells = clx_resolution_of(&ladder);
+    CLX_TRY(clx_ladder_count(n->sample->comm, n->sample, n->cloud->weight, ladder));
+    found->relative = found->cells = clx_resolution_of(ladder);
     const bool asks = n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain &&
                       n->cloud->weight == NULL && !found->cells.resolved &&
                       !found->cells.is_repeated && r->n >= 2;
     CLAST_ASSERT(clx_comm_is_same(n->sample->comm, asks)); // what follows is done by all or none
     if (asks) {
-        if (cached == NULL || n->config->pairs || !carry_over(cached, &ladder, &found->relative)) {
+        if (cached == NULL || n->config->pairs || !carry_over(cached, ladder, &found->relative)) {
             const int64_t most = cached != NULL ? cached->pairs_most : 0;
-            CLX_TRY(ask_pairs(n, &ladder, most, &found->relative, r));
-            remember_count(&found->relative, &ladder, cached);
+            CLX_TRY(ask_pairs(n, ladder, most, &found->relative, r));
+            remember_count(&found->relative, ladder, cached);
         }
     }
     if (cached != NULL && all > 0.0) {
@@ -540,7 +539,7 @@ done:
 }
 
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *cached,
+                              const clx_sample *sample, clx_shown *cached, clx_ladder *ladder,
                               clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
@@ -553,11 +552,12 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
                .scale = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain),
                .rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0,
                .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
+    *ladder = (clx_ladder){0};
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
     CLX_TRY(clast_comm_agree(sample->comm, alloc_parts(&n), NULL));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
-    CLX_TRY(find_shown(&n, cached, &shown, result));
+    CLX_TRY(find_shown(&n, cached, ladder, &shown, result));
     settle(&n, &shown.cells, result);
     result->events_by_cells =
         (clast_estimate){result->events, result->events_low, result->events_high, result->resolved};

@@ -26,6 +26,7 @@ typedef struct clx_shown {
 /// @param cached  NULL: what the pairs show is counted. Else it is taken from there where it is
 /// known, and left there where it was not: cells that stay keep their resolution. Of new cells that
 /// do not resolve the cloud it is carried over from its last count where that may be
+/// @param ladder  of the points, as counted; without rungs where it was not
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *cached,
+                              const clx_sample *sample, clx_shown *cached, clx_ladder *ladder,
                               clast_decomposition *result);

@@ -40,6 +40,7 @@ static const double most_hidden = 0.05; ///< most that a pole may add to the val
 static const double most_unseen = 10.0; ///< the same where they do, over the sampling error
                                         ///< 2 / sqrt(n) of n^2
 static const double most_between = 0.12; ///< of the families' values, as a logarithm
+static const double most_poled = 0.08;   ///< of the value with poles over that without, the same
 static const double most_size = 0.125;   ///< of the domain's: pairs closer than that and than the
                                          ///< narrowest s must be so many
 static const double least_pairs = 500.0;
@@ -343,9 +344,10 @@ static double pairs_within(const clx_pair_shells *in, double r)
 }
 
 /// Whether a part of the points would show the same widths, or else a pole can add but little. With
-/// many points it may not add much in any case: to fewer the limit is none.
+/// many points it may not add much in any case: to fewer the limit is none. Where poles are asked
+/// about, what they add to the value is one more error of the interval's upper end.
 static bool is_steady(const clx_pair_shells *in, const answer *smooth, const answer *kinked,
-                      double value, clx_mixture_fit *f)
+                      clx_mixture_fit *f, clast_estimate *e)
 {
     const int32_t least = smooth->moved < kinked->moved ? smooth->moved : kinked->moved;
     const int32_t most = smooth->moved > kinked->moved ? smooth->moved : kinked->moved;
@@ -356,7 +358,9 @@ static bool is_steady(const clx_pair_shells *in, const answer *smooth, const ans
     }
     clx_mixture_prepare(in, CLX_FAMILY_POLED, 1.0, f);
     const answer poled = ask(f);
-    return log(poled.most / value) <= limit;
+    const double added = fmax(0.0, log(poled.value / e->value));
+    e->high = e->value * exp(hypot(log(e->high / e->value), added));
+    return log(poled.most / e->value) <= limit && added <= most_poled;
 }
 
 /// The families' mean by their likelihoods, and the hull of their intervals.
@@ -399,7 +403,7 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
     e->resolved = is_seen && is_allowed && doubt <= most_doubt && close >= least;
     const bool is_chance = e->resolved && (fabs(log(kinked.value / smooth.value)) > most_between ||
-                                           !is_steady(in, &smooth, &kinked, e->value, f));
+                                           !is_steady(in, &smooth, &kinked, f, e));
     e->resolved = e->resolved && !is_chance;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
