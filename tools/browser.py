@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 AXE = "axe-core@4.14.1"
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # by the processor, whatever card is there
 NO_WEBGL = ("--disable-gpu", "--disable-3d-apis")
+CHROMIUM = os.environ.get("CHROMIUM", "chromium")  # another browser of its kind, such as chromium-headless-shell
 
 
 class Browser:
@@ -30,7 +31,7 @@ class Browser:
             os.dup2(back, 4)
 
         self.process = subprocess.Popen(
-            ["chromium", "--headless=new", "--no-sandbox", *flags, "--disable-dev-shm-usage", "--disable-extensions", "--hide-scrollbars", "--no-first-run",
+            [CHROMIUM, "--headless=new", "--no-sandbox", *flags, "--disable-dev-shm-usage", "--disable-extensions", "--hide-scrollbars", "--no-first-run",
              "--disable-component-update", "--disable-background-networking", "--allow-file-access-from-files",
              f"--user-data-dir={self.profile.name}", "--remote-debugging-pipe", "about:blank"],
             preexec_fn=places, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

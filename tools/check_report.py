@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Reports as a reader sees and prints them, in headless Chromium: tools/check_report.py [--clast FILE] [--grains N] [--pictures FOLDER]
+"""Reports as a reader sees and prints them, in headless Chromium: tools/check_report.py [--clast FILE] [--grains N] [--page FILE] [--pictures FOLDER]
 
 A small run of each command that has a report is made. Looked at on each page: no table wider than its card (1200 px wide, all parts open; a
 phone may scroll within a card, never the page), printed on A4 nothing beyond the paper, no number that a person would write with another
 prefix (0.0003 m, 27,000,000 Pa, 2e-12 m3), no message on the console, nothing fetched, no serious finding of axe-core (where it is at hand).
-A bed of --grains (40,000) spheres is reported too: its page is under 30 MB and its first picture there within 3 s; its frames a second on
-this machine's processor are told, and of each level of detail what a frame asks of a graphics card: draw calls, triangles, bytes sent; and the
-CPU time of the page's own thread, at most 10 ms a frame. --only none looks at that bed alone.
+A bed of --grains (40,000) spheres is reported too: its page is under 30 MB and its first picture there within 3 s; its frames a second are
+told, and of each level of detail what a frame asks of a graphics card: draw calls, triangles, bytes sent; and the CPU time of the page's own
+thread, at most 10 ms a frame. --only none looks at that bed alone, --page at a report that is there. The processor draws, or what --webgl's
+flags choose: --webgl='--use-angle=vulkan --enable-features=Vulkan --disable-vulkan-surface' a graphics card, by Vulkan. CHROMIUM names
+another browser of its kind.
 """
 import argparse
 import base64
@@ -15,13 +17,14 @@ import math
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
 
-from browser import AXE, WEBGL, Browser, axe_source, told
+from browser import AXE, CHROMIUM, WEBGL, Browser, axe_source, told
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "data"
@@ -94,16 +97,21 @@ NUMBERS = r"""(() => { const out = [];
 AXE_RUN = """axe.run(document).then(r => r.violations.filter(v => ["serious", "critical"].includes(v.impact))
     .map(v => `axe ${v.id}: ${v.nodes[0].html.slice(0, 160)}`))"""
 PREFIXED = {"Pa s", "m", "s", "Pa", "kg", "N", "J", "g", "m2", "m3", "m\u00b2", "m\u00b3"}
-TURNS = 12
+TURNS, TURNING = 12, 2000  # frames at least, and ms
 REPEATS = 3  # of what is measured: the least counts, for other work on the machine only adds
 # What a view does after its first picture (the timing of surfaces) would be counted with it on a busy machine.
 NO_MORE = "(() => { const later = setTimeout; window.setTimeout = (what, ms) => ms === 200 ? 0 : later(what, ms); })()"
 DRAWN = """new Promise(done => { document.querySelector('.view').scrollIntoView(); const look = () => clastViews.open.length ? requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())))
     : requestAnimationFrame(look); look(); })"""
-TURNED = """(async (n) => { const v = clastViews.open[0], times = [], gl = v.renderer.getContext(), one = new Uint8Array(4); let coarse = 0;
-    for (let k = 0; k < n; k += 1) { const t = performance.now(); v.turn(0.05, 0); await new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)));
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one); times.push(performance.now() - t); coarse += v.level === 'dots'; }
-    times.sort((a, b) => a - b); return [times[n >> 1], coarse]; })"""
+# A turned picture with each frame of the browser, n at least and for ms at least; the last pixel of each is waited for.
+TURNED = """(async (n, ms) => { const v = clastViews.open[0], times = [], gl = v.renderer.getContext(), one = new Uint8Array(4); let coarse = 0;
+    const began = performance.now();
+    for (let last = began; times.length < n || last - began < ms;) { v.turn(0.05, 0); await new Promise(requestAnimationFrame);
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one); const now = performance.now(); times.push(now - last); last = now; coarse += v.level === 'dots'; }
+    clearTimeout(v.resting); // what it drew last is asked for
+    const all = times.reduce((sum, t) => sum + t, 0); n = times.length; times.sort((a, b) => a - b);
+    return {n, rate: 1e3 * n / all, slow: times[Math.floor(0.95 * n)], coarse}; })"""
+RENDERER = """(() => { const gl = clastViews.open[0].renderer.getContext(); return gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info').UNMASKED_RENDERER_WEBGL); })()"""
 WHOLE = "(() => { const v = clastViews.open[0]; v.isMoving = false; clastViews.setLevel(v, true); return clastViews.timeDrawing(v); })()"
 # Bytes that go to the graphics card from now on.
 COUNTED = """(() => { const gl = clastViews.open[0].renderer.getContext(); window.sentBytes = 0;
@@ -202,7 +210,7 @@ def ask_of_card(browser, name, expression, n):
     return found, own
 
 
-def measure(browser, page, n, pictures):
+def measure(browser, page, pictures):
     """Size, time to the first picture, frames a second while it turns; CPU seconds too, and the least of some, for a busy machine."""
     browser.screen(1200, 900, False)
     paused = browser.call("Page.addScriptToEvaluateOnNewDocument", source=NO_MORE)["identifier"]
@@ -219,20 +227,22 @@ def measure(browser, page, n, pictures):
     while browser.value("clastViews.open[0].isSlow === undefined"):
         time.sleep(0.1)
     began = browser.cpu()
-    took, coarse = browser.value(f"{TURNED}({TURNS})")
-    turning = (browser.cpu() - began) / TURNS
+    turned = browser.value(f"{TURNED}({TURNS}, {TURNING})")
+    turning = (browser.cpu() - began) / turned["n"]
     browser.value(COUNTED)
     browser.call("Performance.enable", timeDomain="threadTicks")
-    as_dots = f"Object.assign(clastViews.open[0], {{isSlow: true, isMoving: true}}), {TURNED}({TURNS})"
-    dots = min(ask_of_card(browser, "dots", as_dots, TURNS)[1] for _ in range(REPEATS))
+    as_dots = f"Object.assign(clastViews.open[0], {{isSlow: true, isMoving: true}}), {TURNED}({TURNS}, 0)"
+    asked = [ask_of_card(browser, "dots", as_dots, TURNS) for _ in range(REPEATS)]
+    dots, rate = min(own for _, own in asked), max(turned["rate"] for turned, _ in asked)
     whole, surfaces, drawn = math.inf, math.inf, math.inf
     for _ in range(REPEATS):
         began = browser.cpu()
         took_whole, own = ask_of_card(browser, "surfaces", WHOLE, 1)
         whole, surfaces, drawn = min(whole, took_whole), min(surfaces, own), min(drawn, browser.cpu() - began)
-    size = page.stat().st_size
-    print(f"report: {n} grains, {size / 1e6:.1f} MB; first picture after {first:.2f} s ({cost:.2f} s of CPU); turning {1e3 / took:.1f} frames a second "
-          f"({turning * 1e3:.0f} ms of CPU a frame, {coarse} of {TURNS} as dots); all surfaces {whole:.0f} ms ({drawn * 1e3:.0f} ms of CPU); no graphics card", flush=True)
+    size, n = page.stat().st_size, browser.value("clastViews.open[0].data.n_grain")
+    print(f"report: {n} grains, {size / 1e6:.1f} MB; first picture after {first:.2f} s ({cost:.2f} s of CPU); turning {turned['rate']:.1f} frames a second (1 in 20 took "
+          f"{turned['slow']:.0f} ms or more; {turning * 1e3:.0f} ms of CPU a frame; {turned['coarse']} of {turned['n']} as dots, all of which {rate:.1f} a second); all surfaces {whole:.1f} ms "
+          f"({drawn * 1e3:.0f} ms of CPU); drawn by {browser.value(RENDERER)}", flush=True)
     if pictures:
         browser.picture(pictures / f"bed-{n}.png")
     more = max(1, n / 40000)
@@ -246,10 +256,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--clast", type=pathlib.Path, default=ROOT / "build/release/clast")
     parser.add_argument("--grains", type=int, action="append")
+    parser.add_argument("--page", type=pathlib.Path, action="append", default=[])
+    parser.add_argument("--webgl", type=shlex.split, default=WEBGL)
     parser.add_argument("--pictures", type=pathlib.Path)
     parser.add_argument("--only", default="")
     asked = parser.parse_args()
-    if not shutil.which("chromium"):
+    if not shutil.which(CHROMIUM):
         print("SKIPPED LOUDLY: no chromium here, reports were not looked at (tools/setup.sh site)")
         return 0
     began, axe, faults, clast = time.monotonic(), axe_source(), [], asked.clast.resolve()
@@ -259,11 +271,13 @@ def main():
         folder = pathlib.Path(name)
         read = [run for run in RUNS if asked.only in run]
         make_runs(clast, folder, read)
-        browser = Browser(WEBGL)
+        browser = Browser(asked.webgl)
         for run in read:
             faults += [f"{run}: {fault}" for fault in look(browser, folder / run / "report.html", axe, asked.pictures)]
-        for n in asked.grains or [40000]:
-            faults += measure(browser, make_bed(clast, folder, n), n, asked.pictures)
+        for page in asked.page:
+            faults += measure(browser, page.resolve(), asked.pictures)
+        for n in asked.grains or ([] if asked.page else [40000]):
+            faults += measure(browser, make_bed(clast, folder, n), asked.pictures)
         browser.close()
     for fault in faults:
         print(f"report: {fault}")

@@ -24,7 +24,7 @@ import tarfile
 import time
 import urllib.parse
 
-from browser import AXE, Browser, axe_source, told
+from browser import AXE, CHROMIUM, Browser, axe_source, told
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 AXE_RUN = """axe.run(document, {resultTypes: ["violations"]ONLY}).then(r => r.violations
@@ -111,7 +111,7 @@ def main():
     asked.add_argument("-j", "--jobs", type=int, default=min(os.cpu_count() or 1, 4), help="browsers at a time")
     asked.add_argument("site", nargs="?", type=pathlib.Path, default=ROOT / "build/docs/html")
     asked = asked.parse_args()
-    if not shutil.which("chromium"):
+    if not shutil.which(CHROMIUM):
         print("site: no chromium here, pages not looked at (tools/setup.sh site)")
         return 0
     began, site = time.monotonic(), asked.site.resolve()

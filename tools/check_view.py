@@ -24,7 +24,7 @@ import tempfile
 import time
 import zlib
 
-from browser import AXE, NO_WEBGL, WEBGL, Browser, axe_source, told
+from browser import AXE, CHROMIUM, NO_WEBGL, WEBGL, Browser, axe_source, told
 from picture import difference, pixel, read_png
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -372,7 +372,7 @@ def main():
     parser.add_argument("--pictures", type=pathlib.Path)
     parser.add_argument("--renew", action="store_true")
     asked = parser.parse_args()
-    if not shutil.which("chromium"):
+    if not shutil.which(CHROMIUM):
         print("SKIPPED LOUDLY: no chromium here, the 3-D view was not looked at (tools/setup.sh site)")
         return 0
     began, axe, faults = time.monotonic(), axe_source(), []

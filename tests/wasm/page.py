@@ -149,7 +149,7 @@ class Folder:
 
 
 def main():
-    lacking = jobs.lacking("chromium")
+    lacking = jobs.lacking(browser.CHROMIUM)
     if lacking:
         print(f"SKIPPED LOUDLY: {lacking}")
         raise SystemExit(0)

@@ -149,7 +149,7 @@ class Old(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    lacking = jobs.lacking("chromium")
+    lacking = jobs.lacking(browser.CHROMIUM)
     if lacking:
         print(f"SKIPPED LOUDLY: {lacking}")
         raise SystemExit(0)
