@@ -1,6 +1,7 @@
 // Plain text of an aggregation's results.
 #include "aggregate_report.h"
 
+#include <clast/field.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -64,9 +65,12 @@ static void print_line(const clast_aggregate_report *report, const line *l)
         value[i] = l->scale * l->read(&report->result[i], l->index);
     }
     const clast_interval i = clast_interval_of(report->n, value, report->confidence);
-    (void)printf("%-28s %12.6g %-7s", l->name, i.mean, l->unit);
+    double factor = 1.0;
+    const char *unit = clast_unit_for(i.mean, l->unit, &factor);
+    (void)printf("%-28s %12.6g %-7s", l->name, factor * i.mean, unit);
     if (report->n > 1) {
-        (void)printf(" sd %.3g, mean within %.6g .. %.6g", i.deviation, i.low, i.high);
+        (void)printf(" sd %.3g, mean within %.6g .. %.6g", factor * i.deviation, factor * i.low,
+                     factor * i.high);
     }
     (void)putchar('\n');
     free(value);

@@ -1,5 +1,6 @@
 // clast evolve: a cloud of particles of true shapes, from the fluid to the floor.
 #include "command.h"
+#include "quantity.h"
 #include "resume.h"
 
 #include <math.h>
@@ -20,11 +21,12 @@ static void print_deposit(const clast_evolve_result *r)
         (void)printf("%-26s nothing came down\n", "deposit");
         return;
     }
-    (void)printf("%-26s %lld bodies, %.6g kg (%.4g %% of the mass)\n", "deposit",
-                 (long long)r->n_deposit, r->mass_deposit, 100.0 * r->mass_deposit / r->mass_start);
-    (void)printf("%-26s diameter %.4g um, porosity %.3f, fall %.4g m/s, %.4g grains\n",
-                 "  means by mass", 1e6 * r->deposit_diameter, r->deposit_porosity,
-                 r->deposit_speed, r->deposit_grains);
+    (void)printf("%-26s %lld bodies, %s (%.4g %% of the mass)\n", "deposit",
+                 (long long)r->n_deposit, cli_quantity(r->mass_deposit, "kg"),
+                 100.0 * r->mass_deposit / r->mass_start);
+    (void)printf("%-26s diameter %s, porosity %.3f, fall %s, %.4g grains\n", "  means by mass",
+                 cli_quantity(r->deposit_diameter, "m"), r->deposit_porosity,
+                 cli_quantity(r->deposit_speed, "m/s"), r->deposit_grains);
 }
 
 static void print_range(const clast_range_use *use)
@@ -42,8 +44,8 @@ static void print_text(const clast_evolve_result *r)
                  (long long)r->n_particle, (long long)r->n_start, (long long)r->n_event);
     print_deposit(r);
     if (r->n_out > 0) {
-        (void)printf("%-26s %lld bodies, %.6g kg by the top\n", "gone", (long long)r->n_out,
-                     r->mass_out);
+        (void)printf("%-26s %lld bodies, %s by the top\n", "gone", (long long)r->n_out,
+                     cli_quantity(r->mass_out, "kg"));
     }
     (void)printf("%-26s %lld grains\n", "largest aggregate", (long long)r->grains_most);
     if (isfinite(r->fractal_dimension)) {
@@ -52,8 +54,8 @@ static void print_text(const clast_evolve_result *r)
     }
     (void)printf("%-26s %.2g of the mass, %lld of the number, at the worst row\n", "balance off by",
                  r->mass_balance, (long long)r->number_balance);
-    (void)printf("%-26s %.6g s in %lld steps; cells cut %lld times\n", "time", r->time,
-                 (long long)r->n_step, (long long)r->n_cut);
+    (void)printf("%-26s %s in %lld steps; cells cut %lld times\n", "time",
+                 cli_quantity(r->time, "s"), (long long)r->n_step, (long long)r->n_cut);
     print_range(&r->range);
     if (r->n_frame > 0) {
         (void)printf("%-26s %d (frames.pvd)\n", "frames", r->n_frame);
@@ -63,8 +65,9 @@ static void print_text(const clast_evolve_result *r)
                      r->n_written, cli_name(r->folder));
     }
     if (r->bed_width > 0.0) {
-        (void)printf("%-26s %s/deposit.h5, for clast pack --start: %.4g m wide, %.4g m high\n",
-                     "bed", cli_name(r->folder), r->bed_width, r->bed_height);
+        (void)printf("%-26s %s/deposit.h5, for clast pack --start: %s wide, %s high\n", "bed",
+                     cli_name(r->folder), cli_quantity(r->bed_width, "m"),
+                     cli_quantity(r->bed_height, "m"));
     }
     (void)printf("%-26s %.4g s\n", "took", r->wall_s);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);

@@ -1,6 +1,7 @@
 // clast grading: sieve curves and laws of size in numbers of grains, and sizes drawn from them.
 #include "command.h"
 #include "json.h"
+#include "quantity.h"
 
 #include <clast/grading.h>
 #include <clast/table.h>
@@ -234,8 +235,8 @@ static void answer_words(const answer *a)
     size_words("drawn, by number", clast_grading_size(g, 0.1), clast_grading_size(g, 0.5),
                clast_grading_size(g, 0.9));
     if (a->config->mass > 0.0) {
-        (void)printf("  %.6g kg hold %.1f grains on average as drawn\n", a->config->mass,
-                     expected_count(a));
+        (void)printf("  %s hold %.1f grains on average as drawn\n",
+                     cli_quantity(a->config->mass, "kg"), expected_count(a));
     }
     if (a->classes.n_row > 0) {
         (void)printf("  %lld %s: farthest from the wanted curve %.4f by mass, %.4f by number\n",

@@ -1,5 +1,6 @@
 // clast pack: pour, shake and damp a bed of grains by the discrete element method.
 #include "command.h"
+#include "quantity.h"
 #include "resume.h"
 
 #include <math.h>
@@ -62,9 +63,10 @@ static void print_hulls(const clast_pack_result *r)
 static void print_no_porosity(const clast_pack_result *r)
 {
     if (isfinite(r->top)) {
-        (void)printf("%-26s none: the bed is %.4g mm high and %.4g mm are left out at both ends; "
+        (void)printf("%-26s none: the bed is %s high and %s are left out at both ends; "
                      "give a smaller --trim; %.4f with nothing left out\n",
-                     "bulk porosity", 1e3 * r->top, 1e3 * r->trim, r->untrimmed);
+                     "bulk porosity", cli_quantity(r->top, "m"), cli_quantity(r->trim, "m"),
+                     r->untrimmed);
     } else {
         (void)printf("%-26s none: there is no bed yet\n", "bulk porosity");
     }
@@ -73,11 +75,11 @@ static void print_no_porosity(const clast_pack_result *r)
 static void print_frames(const clast_pack_result *r)
 {
     if (r->n_frame > 0) {
-        (void)printf("%-26s %lld, every %.6g s of the simulation (frames.pvd)\n", "frames",
-                     (long long)r->n_frame, r->frame_interval);
+        (void)printf("%-26s %lld, every %s of the simulation (frames.pvd)\n", "frames",
+                     (long long)r->n_frame, cli_quantity(r->frame_interval, "s"));
     } else if (r->frame_interval > 0.0) {
-        (void)printf("%-26s none: the run ended before the first, at %.6g s\n", "frames",
-                     r->frame_interval);
+        (void)printf("%-26s none: the run ended before the first, at %s\n", "frames",
+                     cli_quantity(r->frame_interval, "s"));
     }
 }
 
@@ -85,9 +87,9 @@ static void print_frames(const clast_pack_result *r)
 static void print_motion(const clast_pack_result *r)
 {
     if (r->dem.n_grain > 0) {
-        (void)printf("%-26s %.3g m/s the fastest grain; %d of %d with fewer than four contacts, "
+        (void)printf("%-26s %s the fastest grain; %d of %d with fewer than four contacts, "
                      "walls counted\n",
-                     "motion", r->dem.max_speed, r->n_loose, r->dem.n_grain);
+                     "motion", cli_quantity(r->dem.max_speed, "m/s"), r->n_loose, r->dem.n_grain);
     }
     if (r->phase == CLAST_PACK_DONE && r->is_moving && r->n_stage == 0) {
         (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
@@ -95,9 +97,9 @@ static void print_motion(const clast_pack_result *r)
                      "warning");
     }
     if (r->fell) {
-        (void)printf("%-26s shaking ended while grains fell: the highest sank by %.4g mm since; "
+        (void)printf("%-26s shaking ended while grains fell: the highest sank by %s since; "
                      "take a longer --shaking-time\n",
-                     "warning", 1e3 * r->sank);
+                     "warning", cli_quantity(r->sank, "m"));
     }
 }
 
@@ -108,9 +110,9 @@ static void print_walls(const clast_pack_result *r)
     if (isinf(walls->ratio)) {
         (void)printf("%-26s none: the bed is periodic\n", "side walls");
     } else if (isfinite(walls->ratio)) {
-        (void)printf("%-26s %.4g grain sizes (of %.4g mm, mean by volume) from the axis, which "
+        (void)printf("%-26s %.4g grain sizes (of %s, mean by volume) from the axis, which "
                      "loosen the bed",
-                     "side walls", walls->ratio, 1e3 * walls->size);
+                     "side walls", walls->ratio, cli_quantity(walls->size, "m"));
         if (isfinite(r->wall_share)) {
             (void)printf(": %.4f of the bulk porosity is theirs", r->wall_share);
         }
@@ -142,8 +144,11 @@ static void print_load(const clast_pack_result *r)
     const double *c = r->load.stress;
     const double *k = r->load.kinetic_stress;
     if (r->load.volume > 0.0) {
-        (void)printf("%-26s %.4g, %.4g, %.4g Pa in x, y, z; xz %.4g Pa\n", "stress", c[0] + k[0],
-                     c[1] + k[1], c[2] + k[2], c[4] + k[4]);
+        const double most = fmax(fabs(c[0] + k[0]), fmax(fabs(c[1] + k[1]), fabs(c[2] + k[2])));
+        (void)printf(
+            "%-26s %s, %s, %s in x, y, z; xz %s\n", "stress",
+            cli_quantity_as(c[0] + k[0], "Pa", most), cli_quantity_as(c[1] + k[1], "Pa", most),
+            cli_quantity_as(c[2] + k[2], "Pa", most), cli_quantity_as(c[4] + k[4], "Pa", most));
         (void)printf("%-26s %.4g, %.4g, %.4g in x, y, z, above 0 pressed; shear %.4g\n", "strain",
                      r->cell.strain[0], r->cell.strain[1], r->cell.strain[2], r->cell.shear_strain);
         (void)printf("%-26s %d of %d grains; %.3f contacts a grain without them\n", "rattlers",
@@ -173,7 +178,7 @@ static void print_energy(const clast_pack_result *r)
     if (!(e->put_in > 0.0)) {
         return;
     }
-    (void)printf("%-26s %.4g J put in: ", "energy", e->put_in);
+    (void)printf("%-26s %s put in: ", "energy", cli_quantity(e->put_in, "J"));
     for (size_t k = 0; k < sizeof share / sizeof share[0]; ++k) {
         if (share[k].is_always || share[k].part != 0.0) {
             (void)printf("%s%.3g %% %s", k > 0 ? ", " : "", 100.0 * share[k].part / e->put_in,
@@ -186,8 +191,9 @@ static void print_energy(const clast_pack_result *r)
 static void print_text(const clast_pack_result *r)
 {
     print_hulls(r);
-    (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
-                 r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
+    (void)printf("%-26s %d in %d fill%s, %s of %s\n", "grains", r->dem.n_grain, r->n_fill,
+                 r->n_fill == 1 ? "" : "s", cli_quantity_as(r->dem.mass, "kg", r->mass_wanted),
+                 cli_quantity(r->mass_wanted, "kg"));
     if (r->n_overlap > 0) {
         (void)printf(
             "%-26s %lld overlapped, the deepest by %.3g of the smaller one's radius; their "
@@ -198,24 +204,24 @@ static void print_text(const clast_pack_result *r)
         (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
                      (long long)r->n_waited);
     }
-    (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
+    (void)printf("%-26s %s%s after %lld steps, %s\n", "phase", clast_pack_phase_name(r->phase),
                  r->phase != CLAST_PACK_DONE ? ""
                  : r->n_stage > 0            ? " (all stages)"
                  : r->is_moving              ? " (level)"
                                              : " (at rest)",
-                 (long long)r->dem.step, r->dem.time);
+                 (long long)r->dem.step, cli_quantity(r->dem.time, "s"));
     print_motion(r);
     if (r->n_left > 0) {
-        (void)printf("%-26s %lld grains, %.6g kg\n", "left by outlets", (long long)r->n_left,
-                     r->mass_left);
+        (void)printf("%-26s %lld grains, %s\n", "left by outlets", (long long)r->n_left,
+                     cli_quantity(r->mass_left, "kg"));
     }
     if (r->n_outside > 0) {
         (void)printf("%-26s %d grain%s left the container\n", "outside", r->n_outside,
                      r->n_outside == 1 ? " has" : "s have");
     }
     if (isfinite(r->porosity)) {
-        (void)printf("%-26s %.4f between z = %.4g and %.4g mm\n", "bulk porosity", r->porosity,
-                     1e3 * r->z_low, 1e3 * r->z_high);
+        (void)printf("%-26s %.4f between z = %s and %s\n", "bulk porosity", r->porosity,
+                     cli_quantity_as(r->z_low, "m", r->z_high), cli_quantity(r->z_high, "m"));
     } else {
         print_no_porosity(r);
     }
@@ -223,15 +229,15 @@ static void print_text(const clast_pack_result *r)
     (void)printf("%-26s %.3f touching grains a grain (%lld contacts of grains, %lld with walls)\n",
                  "coordination", r->dem.coordination, (long long)r->dem.n_contact,
                  (long long)r->dem.n_wall_contact);
-    (void)printf("%-26s %.3g m\n", "deepest overlap", r->dem.max_overlap);
+    (void)printf("%-26s %s\n", "deepest overlap", cli_quantity(r->dem.max_overlap, "m"));
     print_load(r);
     print_energy(r);
     if (r->dem.verified.n > 0) {
-        (void)printf("%-26s %lld compared, %lld off by more than 1e-11 m, %lld by 1e-8 m, worst "
-                     "%.2g m\n",
+        (void)printf("%-26s %lld compared, %lld off by more than 0.01 nm, %lld by 10 nm, worst "
+                     "%s\n",
                      "remembered contacts", (long long)r->dem.verified.n,
                      (long long)r->dem.verified.n_off, (long long)r->dem.verified.n_bad,
-                     r->dem.verified.worst);
+                     cli_quantity(r->dem.verified.worst, "m"));
     }
     print_frames(r);
     print_ranks(&r->ranks);

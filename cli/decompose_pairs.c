@@ -2,6 +2,7 @@
 #include "decompose_pairs.h"
 
 #include "command.h"
+#include "quantity.h"
 #include <clast/chart.h>
 #include <clast/table.h>
 #include <math.h>
@@ -97,16 +98,17 @@ static void print_within(const clast_decomposition *r)
                      "whether structure lies below the cells\n");
         return;
     }
-    (void)printf("%s below the cells (edge %.3g m): %lld pairs within %.3g m are %.3g [%.3g, %.3g] "
+    (void)printf("%s below the cells (edge %s): %lld pairs within %s are %.3g [%.3g, %.3g] "
                  "times those of even cells",
-                 w->is_structured ? "structure lies" : "no structure is seen", w->cell,
-                 (long long)w->n_pair, w->radius, w->g, w->g_low, w->g_high);
+                 w->is_structured ? "structure lies" : "no structure is seen",
+                 cli_quantity(w->cell, "m"), (long long)w->n_pair, cli_quantity(w->radius, "m"),
+                 w->g, w->g_low, w->g_high);
     if (!w->is_structured) {
         (void)printf("; a kernel with its own g(r) may multiply these events\n");
         return;
     }
     if (w->length > 0.0) {
-        (void)printf(", up to a distance of %.3g m", w->length);
+        (void)printf(", up to a distance of %s", cli_quantity(w->length, "m"));
     }
     (void)printf(
         "\na kernel with its own g(r) (cloud_turbulence) may multiply the even cells' pair "
@@ -119,7 +121,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
 {
     const clast_pairs *p = &r->pairs;
     const clast_pair_integral *i = &p->integral;
-    (void)printf("%lld pairs within %.4g m; ", (long long)p->n_pair, p->radius);
+    (void)printf("%lld pairs within %s; ", (long long)p->n_pair, cli_quantity(p->radius, "m"));
     if (p->n_repeated > 0) {
         (void)printf("%lld of them at one place; ", (long long)p->n_repeated);
     }
@@ -127,8 +129,9 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
     print_interval(&i->estimate);
     (void)printf(" 1/m^%d", p->dimension);
     if (i->scale <= p->radius) {
-        (void)printf(", narrowest structure of sd %.3g m by %lld pairs within %.3g m", i->scale,
-                     (long long)i->n_pair, i->window);
+        (void)printf(", narrowest structure of sd %s by %lld pairs within %s",
+                     cli_quantity(i->scale, "m"), (long long)i->n_pair,
+                     cli_quantity(i->window, "m"));
     }
     const char *what = r->beta_dt > 0.0 ? "events" : "pair integral";
     (void)printf("\n%s by pairs ", what);

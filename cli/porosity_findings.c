@@ -2,6 +2,7 @@
 #include "porosity_findings.h"
 
 #include "json.h"
+#include "quantity.h"
 #include "results.h"
 #include <clast/chart.h>
 #include <math.h>
@@ -229,9 +230,9 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
     } else if (!isfinite(f->walls.ratio)) {
         (void)printf("side walls          none: the bed is periodic\n");
     } else {
-        (void)printf("side walls          %.4g grain sizes (of %.4g %s, mean by volume) from the "
+        (void)printf("side walls          %.4g grain sizes (of %s, mean by volume) from the "
                      "axis%s\n",
-                     f->walls.ratio, f->walls.size, unit,
+                     f->walls.ratio, cli_quantity(f->walls.size, unit),
                      f->core_depth > 0.0    ? ""
                      : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
                                             : ", which loosen the bed");
@@ -256,13 +257,14 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
     }
     (void)printf("%d grain%s, %s\n", assembly->n_grain, cli_plural(assembly->n_grain),
                  f->method == CLAST_POROSITY_EXACT ? "true shapes" : "spheres of equal volume");
-    (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,
-                 f->bulk.z_low, f->bulk.z_high, unit);
+    (void)printf("bulk porosity       %.6f   from z = %s to %s\n", f->bulk.porosity,
+                 cli_quantity_as(f->bulk.z_low, unit, f->bulk.z_high),
+                 cli_quantity(f->bulk.z_high, unit));
     if (bed->kind == CLAST_BED_PERIODIC_3D) {
         (void)printf("bed                 periodic in all three directions: the whole box\n");
     } else {
-        (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n",
-                     f->bulk.top, unit, f->cut);
+        (void)printf("top of the bed      %s   where the porosity rises through %g\n",
+                     cli_quantity(f->bulk.top, unit), f->cut);
     }
     print_walls(bed, unit, f);
     if (f->overlaps.n > 0) {
@@ -296,23 +298,22 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
         }
     }
     if (f->pores.sizes.n_column > 0) {
-        (void)printf(
-            "pores               %.6g %s   mean distance to the nearest grain; porosity by "
-            "points %.4f\n",
-            f->pores.mean, unit, f->pores.porosity);
+        (void)printf("pores               %s   mean distance to the nearest grain; porosity by "
+                     "points %.4f\n",
+                     cli_quantity(f->pores.mean, unit), f->pores.porosity);
     }
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
                      f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
     }
     for (int64_t k = 0; k < f->stress.n_row; ++k) {
-        (void)printf("%-20s %.4g %s   %s\n", f->stress.column[0].text[k],
-                     f->stress.column[1].number[k], f->stress.column[2].text[k],
+        (void)printf("%-20s %s   %s\n", f->stress.column[0].text[k],
+                     cli_quantity(f->stress.column[1].number[k], f->stress.column[2].text[k]),
                      f->stress.column[3].text[k]);
     }
     if (f->fields.n_column > 0) {
-        (void)printf("fields              %lld cells, which hold %.6g kg\n",
-                     (long long)f->fields.n_row, mass_of(&f->fields));
+        (void)printf("fields              %lld cells, which hold %s\n", (long long)f->fields.n_row,
+                     cli_quantity(mass_of(&f->fields), "kg"));
     }
     if (f->chains.n_column > 0) {
         int64_t n_link = 0;

@@ -126,6 +126,64 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
     return unknown(name, si_unit);
 }
 
+/// Units that people choose among, the largest first: a number gets the first of which it has
+/// `least`, 0 that of `zero`.
+static const struct {
+    const char *si, *zero;
+    double least;
+    struct {
+        const char *name;
+        double factor; ///< from SI
+    } unit[7];
+} ladders[] = {
+    {"m", "mm", 1.0, {{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}, {"nm", 1e9}}},
+    {"m^2", "mm^2", 1e-3, {{"m^2", 1.0}, {"mm^2", 1e6}, {"um^2", 1e12}, {"nm^2", 1e18}}},
+    {"m^3",
+     "mm^3",
+     1e-3,
+     {{"m^3", 1.0}, {"cm^3", 1e6}, {"mm^3", 1e9}, {"um^3", 1e18}, {"nm^3", 1e27}}},
+    {"kg",
+     "g",
+     1.0,
+     {{"kg", 1.0}, {"g", 1e3}, {"mg", 1e6}, {"ug", 1e9}, {"ng", 1e12}, {"pg", 1e15}, {"fg", 1e18}}},
+    {"s", "s", 1.0, {{"s", 1.0}, {"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}}},
+    {"m/s", "mm/s", 1.0, {{"m/s", 1.0}, {"mm/s", 1e3}, {"um/s", 1e6}, {"nm/s", 1e9}}},
+    {"J",
+     "J",
+     1.0,
+     {{"J", 1.0}, {"mJ", 1e3}, {"uJ", 1e6}, {"nJ", 1e9}, {"pJ", 1e12}, {"fJ", 1e15}}},
+    {"N", "N", 1.0, {{"N", 1.0}, {"mN", 1e3}, {"uN", 1e6}, {"nN", 1e9}, {"pN", 1e12}}},
+    {"Pa s", "Pa s", 1.0, {{"Pa s", 1.0}, {"mPa s", 1e3}, {"uPa s", 1e6}}},
+    {"Pa", "Pa", 1.0, {{"GPa", 1e-9}, {"MPa", 1e-6}, {"kPa", 1e-3}, {"Pa", 1.0}}},
+    {"rad", "deg", 0.0, {{"deg", 180.0 / CLAST_PI}}},
+    {"1/m", "1/mm", 0.0, {{"1/mm", 1e-3}}},
+};
+
+enum { N_LADDER = sizeof ladders / sizeof ladders[0], MAX_LADDER = 7 };
+
+const char *clast_unit_for(double value, const char *si_unit, double *factor)
+{
+    *factor = 1.0;
+    for (int i = 0; i < N_LADDER; ++i) {
+        if (strcmp(ladders[i].si, si_unit) != 0) {
+            continue;
+        }
+        int best = 0;
+        for (int k = 0; k < MAX_LADDER && ladders[i].unit[k].name != NULL; ++k) {
+            const double f = ladders[i].unit[k].factor;
+            const bool is_it = value == 0.0 ? strcmp(ladders[i].unit[k].name, ladders[i].zero) == 0
+                                            : fabs(value) * f >= 0.9995 * ladders[i].least;
+            best = k;
+            if (is_it) {
+                break;
+            }
+        }
+        *factor = ladders[i].unit[best].factor;
+        return ladders[i].unit[best].name;
+    }
+    return si_unit;
+}
+
 static void trim_end(char *text)
 {
     size_t n = strlen(text);

@@ -4,58 +4,10 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "report/page.h"
+#include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { MAX_SCALE = 7 };
-
-/// Units of one kind, the largest first; a value gets the first of which it has `least`.
-typedef struct {
-    const char *si_unit;
-    double least;
-    bool has_floor;
-    struct {
-        double factor; ///< from SI
-        const char *name;
-    } unit[MAX_SCALE];
-} ladder;
-
-static const ladder ladders[] = {
-    {"m", 1.0, true, {{1.0, "m"}, {1e3, "mm"}, {1e6, "\302\265m"}, {1e9, "nm"}}},
-    {"m^2",
-     1e-3,
-     false,
-     {{1.0, "m\302\262"}, {1e6, "mm\302\262"}, {1e12, "\302\265m\302\262"}, {1e18, "nm\302\262"}}},
-    {"m^3",
-     1e-3,
-     false,
-     {{1.0, "m\302\263"},
-      {1e6, "cm\302\263"},
-      {1e9, "mm\302\263"},
-      {1e18, "\302\265m\302\263"},
-      {1e27, "nm\302\263"}}},
-    {"kg",
-     1.0,
-     false,
-     {{1.0, "kg"},
-      {1e3, "g"},
-      {1e6, "mg"},
-      {1e9, "\302\265g"},
-      {1e12, "ng"},
-      {1e15, "pg"},
-      {1e18, "fg"}}},
-    {"s", 1.0, false, {{1.0, "s"}, {1e3, "ms"}, {1e6, "\302\265s"}, {1e9, "ns"}}},
-    {"m/s", 1.0, false, {{1.0, "m/s"}, {1e3, "mm/s"}, {1e6, "\302\265m/s"}, {1e9, "nm/s"}}},
-    {"J",
-     1.0,
-     false,
-     {{1.0, "J"}, {1e3, "mJ"}, {1e6, "\302\265J"}, {1e9, "nJ"}, {1e12, "pJ"}, {1e15, "fJ"}}},
-    {"N", 1.0, false, {{1.0, "N"}, {1e3, "mN"}, {1e6, "\302\265N"}, {1e9, "nN"}, {1e12, "pN"}}},
-    {"Pa s", 1.0, false, {{1.0, "Pa s"}, {1e3, "mPa s"}, {1e6, "\302\265Pa s"}}},
-    {"Pa", 1.0, false, {{1e-9, "GPa"}, {1e-6, "MPa"}, {1e-3, "kPa"}, {1.0, "Pa"}}},
-    {"rad", 0.0, false, {{180.0 / CLAST_PI, "\302\260"}}},
-    {"1/m", 0.0, false, {{1e-3, "1/mm"}}}};
 
 /// Unit as a page shows it, where there is but one of its kind: "kg/m^3" -> "kg/m³", "-" -> "".
 static const char *plain_unit(const char *si_unit)
@@ -67,8 +19,23 @@ static const char *plain_unit(const char *si_unit)
                                            {"J/m^3", "J/m\302\263"},
                                            {"model units^2", "model units\302\262"},
                                            {"model units^3", "model units\302\263"},
+                                           {"m^2", "m\302\262"},
+                                           {"mm^2", "mm\302\262"},
+                                           {"um^2", "\302\265m\302\262"},
+                                           {"nm^2", "nm\302\262"},
+                                           {"m^3", "m\302\263"},
+                                           {"cm^3", "cm\302\263"},
+                                           {"mm^3", "mm\302\263"},
+                                           {"um^3", "\302\265m\302\263"},
+                                           {"nm^3", "nm\302\263"},
                                            {"deg", "\302\260"},
-                                           {"um", "\302\265m"}};
+                                           {"um", "\302\265m"},
+                                           {"ug", "\302\265g"},
+                                           {"us", "\302\265s"},
+                                           {"um/s", "\302\265m/s"},
+                                           {"uJ", "\302\265J"},
+                                           {"uN", "\302\265N"},
+                                           {"uPa s", "\302\265Pa s"}};
     for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
         if (strcmp(units[k][0], si_unit) == 0) {
             return units[k][1];
@@ -93,23 +60,9 @@ const char *clx_quantity_model_unit(const char *si_unit)
 
 clx_quantity_scale clx_quantity_scale_for(double value, const char *si_unit)
 {
-    const ladder *l = NULL;
-    for (size_t k = 0; k < sizeof ladders / sizeof *ladders; ++k) {
-        l = strcmp(ladders[k].si_unit, si_unit) == 0 ? &ladders[k] : l;
-    }
-    if (l == NULL) {
-        return (clx_quantity_scale){1.0, plain_unit(si_unit), false};
-    }
-    int best = 0;
-    int n = 0;
-    while (n < MAX_SCALE && l->unit[n].name != NULL) {
-        best = value == 0.0 && l->unit[n].factor == 1.0 ? n : best; // 0 Pa rather than 0 GPa
-        ++n;
-    }
-    while (value != 0.0 && best + 1 < n && fabs(value) * l->unit[best].factor < 0.9995 * l->least) {
-        ++best;
-    }
-    return (clx_quantity_scale){l->unit[best].factor, l->unit[best].name, l->has_floor};
+    double factor = 1.0;
+    const char *name = clast_unit_for(value, si_unit, &factor);
+    return (clx_quantity_scale){factor, plain_unit(name), strcmp(si_unit, "m") == 0};
 }
 
 /// -12 as superscript digits.

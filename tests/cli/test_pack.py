@@ -85,7 +85,7 @@ class Pack(Case):
         early = ["--shaking-time", "0.001s", "--check-time", "5us", "--initial-speed", "0m/s", "--shake-amplitude", "0m"]
         moving = self.run_small(*early)
         self.assertEqual(moving.code, 0, moving.err)
-        self.assertRegex(moving.out, r"motion +[\d.e-]+ m/s the fastest grain; 41 of 41 with fewer than four contacts")
+        self.assertRegex(moving.out, r"motion +[\d.e-]+ m?m/s the fastest grain; 41 of 41 with fewer than four contacts")
         self.assertRegex(moving.out, r"phase +done \(level\)")
         self.assertRegex(moving.out, "warning +the bed was level and still moves.*--rule speed")
         as_json = self.run_small(*early, "--json").json

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include "report/quantity.h"
+#include <clast/field.h>
 #include <string.h>
 
 #define MICRO "\302\265"
@@ -56,7 +57,7 @@ static void a_number_reads_in_the_unit_of_its_size(void **state)
         const char *si_unit, *text, *unit;
     } cases[] = {
         {2.7e-4, "m", "270.0", MICRO "m"},
-        {0.0, "m", "0", "m"},
+        {0.0, "m", "0", "mm"},
         {1.69e-19, "m", "< 0.001", "nm"},
         {-1.69e-19, "m", "> \342\210\2220.001", "nm"},
         {1.941e-11, "m^3", "0.01941", "mm\302\263"},
@@ -82,11 +83,27 @@ static void a_number_reads_in_the_unit_of_its_size(void **state)
     }
 }
 
+static void the_terminal_reads_the_same_units(void **state)
+{
+    (void)state;
+    double factor = 0.0;
+    assert_string_equal(clast_unit_for(3.75e-6, "m", &factor), "um");
+    assert_true(factor == 1e6);
+    assert_string_equal(clast_unit_for(-0.00808101, "kg", &factor), "g");
+    assert_string_equal(clast_unit_for(0.99951, "m", &factor), "m");
+    assert_string_equal(clast_unit_for(0.0, "kg", &factor), "g");
+    assert_string_equal(clast_unit_for(0.0, "Pa", &factor), "Pa");
+    assert_string_equal(clast_unit_for(2e-11, "m^3", &factor), "mm^3");
+    assert_string_equal(clast_unit_for(5.0, "furlong", &factor), "furlong");
+    assert_true(factor == 1.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_are_found_with_their_units),
         cmocka_unit_test(a_number_reads_in_the_unit_of_its_size),
+        cmocka_unit_test(the_terminal_reads_the_same_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
