@@ -1,6 +1,5 @@
 // clast agglomerate --box-model: a size spectrum without positions, in tables and charts.
 #include "box_model.h"
-#include "quantity.h"
 #include "spectrum_charts.h"
 
 #include "json.h"
@@ -127,7 +126,7 @@ static void print_gel(bool is_sectional, int32_t repeats, const clast_spectrum *
     const char *what = r->is_gelation ? "gelation"
                        : is_sectional ? "the grid is too small (--size-max), seen"
                                       : "the sample is too small (--particles, --size-max), seen";
-    (void)printf("\n%s at %s", what, cli_quantity(r->gel_time, "s"));
+    (void)printf("\n%s at %.4g s", what, r->gel_time);
     if (repeats > 1) {
         (void)printf(" (mean of %d of %d runs)", r->n_gelled, repeats);
     }

@@ -3,7 +3,6 @@
 #include "command.h"
 #include "json.h"
 #include "points.h"
-#include "quantity.h"
 #include "ranges.h"
 #include "results.h"
 #include "spectrum_charts.h"
@@ -253,9 +252,9 @@ static void print_words(const config *c, const clast_agglomeration *r)
         (void)putchar('\n');
     }
     if (r->is_gelation) {
-        (void)printf("\ngelation by %s (%d of %d runs): a particle holds more than n^(-1/3) of "
+        (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "
                      "the monomers\n",
-                     cli_quantity(r->gel_time, "s"), r->n_gelled, c->agglomerate.repeats);
+                     r->gel_time, r->n_gelled, c->agglomerate.repeats);
     }
 }
 

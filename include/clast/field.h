@@ -102,7 +102,7 @@ CLAST_API clast_status clast_unit_factor(const char *unit, const char *si_unit, 
 /// The unit in which a person would write `value` of this SI unit: "um" of 3.75e-6 m.
 ///
 /// @param factor  how many of it are one SI unit, 1e6; 1 where people use no other
-/// @return its name, or `si_unit`
+/// @return its name, or `si_unit`; "" where either pointer is NULL
 CLAST_API const char *clast_unit_for(double value, const char *si_unit, double *factor);
 
 /// Reads a YAML mapping of keys to scalars or lists of scalars over `config` (already defaulted).

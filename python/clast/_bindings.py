@@ -3599,6 +3599,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_unit_parse': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers are SI.'),
     'clast_unit_parse_asked': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'The same where a unit is asked for: a bare length or angle other than 0 is refused, with its nearest correct spelling ("270um", "50deg").'),
     'clast_unit_factor': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.'),
+    'clast_unit_for': (c_char_p, [c_double, c_char_p, POINTER(c_double)], 'The unit in which a person would write `value` of this SI unit: "um" of 3.75e-6 m.'),
     'clast_fields_read': (c_int, [c_char_p, POINTER(clast_field), c_void_p], 'Reads a YAML mapping of keys to scalars or lists of scalars over `config` (already defaulted).'),
     'clast_fields_parse': (c_int, [c_char_p, c_char_p, POINTER(clast_field), c_void_p], 'The same from a text, YAML or JSON (what clast_fields_json writes: every bare number is SI); `name` stands for the path.'),
     'clast_fill': (c_int, [POINTER(clast_mesh), POINTER(clast_fill_config), POINTER(clast_monitor), POINTER(clast_spheres), POINTER(clast_fill_report)], 'Fills the solid bounded by a mesh with spheres.'),

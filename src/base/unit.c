@@ -163,6 +163,9 @@ enum { N_LADDER = sizeof ladders / sizeof ladders[0], MAX_LADDER = 7 };
 
 const char *clast_unit_for(double value, const char *si_unit, double *factor)
 {
+    if (si_unit == NULL || factor == NULL) {
+        return "";
+    }
     *factor = 1.0;
     for (int i = 0; i < N_LADDER; ++i) {
         if (strcmp(ladders[i].si, si_unit) != 0) {

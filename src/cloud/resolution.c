@@ -79,18 +79,6 @@ static double least_ratio_at(const clx_ladder *l, int32_t r)
     return fmin(smooth, fmax(least_ratio, ratio));
 }
 
-/// Whether the next halving adds more than a ratio that was supposed, not measured, lets it, by one
-/// standard error of each.
-static bool falls_slower(const clx_ladder *l, int32_t r, double ratio)
-{
-    if (r > 2 || r + 1 >= l->n || l->n_pair[r + 1] < least_pairs) {
-        return false;
-    }
-    const double most = l->pairs[r] - l->pairs[r - 2] + error_between(l, r, r - 2);
-    const double next = l->pairs[r + 1] - l->pairs[r - 1] - error_between(l, r + 1, r - 1);
-    return next * ratio > most;
-}
-
 static reading read_rung(const clx_ladder *l, int32_t r)
 {
     reading made = {0};
@@ -114,7 +102,7 @@ static reading read_rung(const clx_ladder *l, int32_t r)
             made.finer = m;
         }
     }
-    made.resolved = made.finer == 0 && !falls_slower(l, r, ratio) && l->n_pair[r] >= least_pairs &&
+    made.resolved = made.finer == 0 && l->n_pair[r] >= least_pairs &&
                     made.systematic <= most_error * made.value &&
                     made.systematic <= most_share * sqrt(variance);
     return made;

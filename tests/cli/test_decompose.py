@@ -332,7 +332,7 @@ class Pairs(Case):
         command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--pairs", "--estimator", "cells")
         words = clast(*command, "-o", out)
         self.assertEqual(words.code, 0, words.err)
-        self.assertRegex(words.out, r"pairs within .* m; integral of the squared density .* 1/m\^3")
+        self.assertRegex(words.out, r"pairs within [0-9.]+ mm; integral of the squared density .* 1/m\^3")
         self.assertRegex(words.out, r"events by pairs .*, by cells .*; events are those by cells")
         self.assertTrue((out / "pairs.svg").exists())
         note, *rows = (out / "pairs.csv").read_text().splitlines()
@@ -358,7 +358,7 @@ class Pairs(Case):
         command = ("decompose", path, "--domain", "box:0,0,0,1,1,1", "--beta-dt", "4e-6", "--pairs")
         words = clast(*command)
         self.assertEqual(words.code, 0, words.err)
-        self.assertRegex(words.out, r"structure lies below the cells \(edge [0-9.]+ m\): \d+ pairs within 0\.00\d+ m are ")
+        self.assertRegex(words.out, r"structure lies below the cells \(edge [0-9.]+ m\): \d+ pairs within [0-9.]+ mm are ")
         self.assertRegex(words.out, r"its own g\(r\) .* may multiply the even cells' pair integral alone, [0-9.e+]+ 1/m\^3: .* counts twice")
         pairs = json.loads(clast(*command, "--json").out)["pairs"]
         self.assertTrue(pairs["structure_below_cells"])

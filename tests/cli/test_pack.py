@@ -530,7 +530,7 @@ class Pack(Case):
         run = self.folder / "run"
         result = self.run_small("--max-steps", "25", "--frame-time", "12us", "-o", run)
         self.assertEqual(result.code, 0, result.err)
-        self.assertIn("12, every 1e-05 s of the simulation", result.out)
+        self.assertIn("12, every 10 us of the simulation", result.out)
         listed = self.listed(run)
         self.assertEqual([name for _, name in listed], [f"frames/frame-{k:06}.vtu" for k in range(1, 13)])
         for k, (at, _) in enumerate(listed, 1):
