@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs every libFuzzer target for a number of seconds, two at a time: tools/fuzz.sh [seconds]
+# Runs every libFuzzer target for a number of seconds, FUZZ_JOBS (one a core) at a time: tools/fuzz.sh [seconds]
 # A new crash is kept under build/fuzz/crashes and fails the run.
 set -eu
 cd "$(dirname "$0")/.."
@@ -21,4 +21,4 @@ if [ -x build/release/clast ]; then # the smoke share of `make fuzz-commands`
     [ "$(uname)" != Linux ] || python3 tests/fuzz/fault_commands.py --each 2 --kills 20 # of `make faults`
 fi
 # fuzz_calls keeps what the calls made, so it is run by hand, with -detect_leaks=0; property.test_calls runs the same calls apart
-find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' ! -name fuzz_calls | sort | xargs -r -P "$(nproc)" -I{} bash -c 'one {}'
+find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' ! -name fuzz_calls | sort | xargs -r -P "${FUZZ_JOBS:-$(nproc)}" -I{} bash -c 'one {}'

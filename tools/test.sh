@@ -35,20 +35,29 @@ one_core() { # tests that take one core each; what they print comes after the ot
     tools/check_mpich.sh
     tools/check_web.sh
 }
-(set -e; one_core) > build/one-core.log 2>&1 &
-one_core=$!
-trap 'kill "$one_core" 2>/dev/null || true' EXIT
+beside() { # COMMAND LOG: on the other core; `other` waits for it and prints what it said
+    (set -e; "$1") > "$2" 2>&1 &
+    other_pid=$! other_log=$2
+    trap 'kill "$other_pid" 2>/dev/null || true' EXIT
+}
+other() {
+    local status=0
+    wait "$other_pid" || status=$?
+    trap - EXIT
+    tee -a build/ctest.log < "$other_log" | grep -v '^ *Start ' || true
+    [ "$status" = 0 ]
+}
+beside one_core build/one-core.log
 skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
 if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
     tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
 fi
-say "the other core's"
-one_core_status=0; wait "$one_core" || one_core_status=$?
-trap - EXIT
-tee -a build/ctest.log < build/one-core.log | grep -v '^ *Start '
-[ "$one_core_status" = 0 ]
-say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-20}"
-say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; python3 tools/check_report.py; }
+say "the other core's"; other
+say "fuzzing; beside it documents, views and reports in a browser"
+documents() { skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; python3 tools/check_report.py; }; }
+beside documents build/documents.log
+skip fuzz || FUZZ_JOBS=$(($(nproc) / 2 + $(nproc) % 2)) tools/fuzz.sh "${FUZZ_SECONDS:-20}"
+say "the other core's"; other
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log

@@ -132,7 +132,8 @@ class GrowRoom extends Room {
     drawChart(this.$('porosity'), { title: 'Porosity', x, y: { title: 'porosity (-)', from: 0 }, mark: h.n[n],
       lines: envelopes.map((name) => ({ name: name.slice(9).replace('_', ' '), values: h[name].map((v) => v) })) });
     drawChart(this.$('density'), { title: 'Density', x, y: { title: 'density (kg/m\u00b3)' }, mark: h.n[n], lines: [{ name: 'density', values: h['density_kg/m^3'] }] });
-    drawChart(this.$('speed'), { title: 'Fall speed in air', x, y: { title: 'fall speed (m/s)' }, mark: h.n[n], lines: [{ name: 'fall speed', values: speed }] });
+    const [factor, unit] = speed.some((v) => v >= 1) ? [1, 'm/s'] : [1e3, 'mm/s'];
+    drawChart(this.$('speed'), { title: 'Fall speed in air', x, y: { title: `fall speed (${unit})` }, mark: h.n[n], lines: [{ name: 'fall speed', values: Array.from(speed, (v) => factor * v) }] });
   }
 
   showEnd() {
