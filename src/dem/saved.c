@@ -162,11 +162,12 @@ static clast_status save_energy(const clx_energy *energy, clx_dem_saved *s)
     s->n_energy = (int64_t)CLX_N_WORK * CLX_EXACT_DIGITS;
     CLX_TRY(clx_alloc(&s->energy, s->n_energy, sizeof *s->energy));
     clx_energy_merge(energy, sum);
-    for (int64_t k = 0; k < s->n_energy; ++k) {
-        if (k % CLX_EXACT_DIGITS == 0) {
-            clx_exact_carry(&sum[k / CLX_EXACT_DIGITS]);
+    for (int k = 0; k < CLX_N_WORK; ++k) {
+        double *digit = s->energy + (int64_t)k * CLX_EXACT_DIGITS;
+        clx_exact_carry(&sum[k]);
+        for (int i = 0; i < CLX_EXACT_DIGITS; ++i) {
+            digit[i] = (double)sum[k].digit[i];
         }
-        s->energy[k] = (double)sum[k / CLX_EXACT_DIGITS].digit[k % CLX_EXACT_DIGITS];
     }
 done:
     return status;

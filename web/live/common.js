@@ -103,6 +103,7 @@ function short(v) { return v === null || v === undefined ? '-' : typeof v === 'n
 /// A value of an SI unit as people write it: 0.00027, 'm' -> 270 um.
 function withUnit(v, unit, digits = 4) {
   if (v === null || v === undefined || !Number.isFinite(v)) return '-';
+  if (v !== 0 && Math.abs(v) < 0.9995e-12) return `below 1 p${unit}`; // what rounding leaves of nothing
   const [factor, prefix] = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, '\u00b5'], [1e-9, 'n'], [1e-12, 'p']]
     .find(([f]) => Math.abs(v) >= 0.9995 * f) ?? [1, ''];
   return `${Number((v / factor).toPrecision(digits))} ${prefix}${unit}`;
