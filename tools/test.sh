@@ -23,7 +23,7 @@ rm -f build-dev.log
 ctest --test-dir build/dev -j"$(nproc)" --output-on-failure --no-tests=error | tee build/ctest.log | grep -v '^ *Start '
 say "clang-tidy"; skip tidy || tools/check_tidy.sh
 say "release build and exported symbols"
-tools/build.sh release installed mpi_test_comm > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
+tools/build.sh release installed mpi_tests > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
 rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
