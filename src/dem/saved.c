@@ -173,18 +173,12 @@ done:
     return status;
 }
 
-/// Checkpoints until 0.1.0 have the sums themselves.
 static clast_status restore_energy(clx_energy *energy, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
     clx_exact_sum sum[CLX_N_WORK] = {0};
     for (int64_t k = 0; k < s->n_energy; ++k) {
         const double x = s->energy[k];
-        CLX_CHECK(isfinite(x), CLAST_E_FORMAT, "the checkpoint's energy is not finite");
-        if (s->n_energy == CLX_N_WORK) {
-            clx_exact_add(&sum[k], x);
-            continue;
-        }
         CLX_CHECK(fabs(x) <= 0xffffffff && x == floor(x), CLAST_E_FORMAT,
                   "the checkpoint's energy is none");
         sum[k / CLX_EXACT_DIGITS].digit[k % CLX_EXACT_DIGITS] = (int64_t)x;
@@ -215,8 +209,7 @@ static clast_status restore_extras(clast_dem *dem, const clx_dem_saved *s)
     clast_status status = CLAST_OK;
     CLX_CHECK((dem->cell != NULL) == (s->cell != NULL) &&
                   (dem->energy != NULL) == (s->energy != NULL) &&
-                  (s->energy == NULL || s->n_energy == CLX_N_WORK ||
-                   s->n_energy == (int64_t)CLX_N_WORK * CLX_EXACT_DIGITS),
+                  (s->energy == NULL || s->n_energy == (int64_t)CLX_N_WORK * CLX_EXACT_DIGITS),
               CLAST_E_FORMAT, "the checkpoint's cell or energy is of another configuration");
     for (int k = 0; s->cell != NULL && k < CLX_SAVED_CELL; ++k) {
         const bool is_side = k < 3 || (k >= 6 && k < 9);

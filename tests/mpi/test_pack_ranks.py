@@ -22,6 +22,16 @@ class Beds(Case):
         return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(pathlib.Path(folder).rglob("*"))
                 if path.is_file() and path.name not in ("manifest.json", "report.html")}
 
+    def assert_goes_on(self, whole, *run, end=1500):
+        """A run that three ranks begin, one goes on with, then two to its end, is the files of a whole one."""
+        parts = self.folder / "parts"
+        code, _, err = ranks(3, *run, "--max-steps", 500, "-o", parts)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
+        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", end, "-q")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(self.files(parts), self.files(whole))
+
     def same(self, counts, *arguments):
         """The bed of one rank, which must have contacts, and the same hash on these ranks; the last one's JSON."""
         alone = clast(*SMALL, *arguments, "--json")
@@ -73,14 +83,9 @@ class Beds(Case):
 
     def test_files_and_checkpoints(self):
         run = (*SMALL, *HULLS, "--mass", "4g", "--height", "40mm", "--series-time", "1ms", "--frame-time", "2ms")
-        whole, parts = self.folder / "whole", self.folder / "parts"
+        whole = self.folder / "whole"
         self.assertEqual(clast(*run, "--max-steps", 1500, "-o", whole).code, 0)
-        code, _, err = ranks(3, *run, "--max-steps", 500, "-o", parts)  # three ranks begin,
-        self.assertEqual(code, 0, err)
-        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)  # one goes on,
-        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 1500, "-q")  # then two
-        self.assertEqual(code, 0, err)
-        self.assertEqual(self.files(parts), self.files(whole))
+        self.assert_goes_on(whole, *run)
 
     def test_a_signal_leaves_a_checkpoint(self):
         run = self.folder / "run"
@@ -212,14 +217,9 @@ class Beds(Case):
     def test_a_floor_turns_and_a_run_is_passed_on(self):
         run = (*SMALL, "--shapes", "ellipsoid:1,0.7,0.5", "--mass", "4g", "--height", "40mm", "--wall",
                "floor vibrate 0,0,0.2mm 5ms axis 0,0,1 rotate 300rpm", "--outlet", "z>38mm", "--series-time", "1ms")
-        whole, parts = self.folder / "whole", self.folder / "parts"
+        whole = self.folder / "whole"
         self.assertEqual(clast(*run, "--max-steps", 1500, "-o", whole).code, 0)
-        code, _, err = ranks(3, *run, "--max-steps", 500, "-o", parts)
-        self.assertEqual(code, 0, err)
-        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
-        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 1500, "-q")
-        self.assertEqual(code, 0, err)
-        self.assertEqual(self.files(parts), self.files(whole))
+        self.assert_goes_on(whole, *run)
 
     def test_a_cell_is_pressed_and_sheared(self):
         cell = ("pack", "--curve", "4mm", "--shapes", "ellipsoid:1,0.8,0.7", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--no-floor",
@@ -234,13 +234,7 @@ class Beds(Case):
             code, _, err = ranks(n, *cell, "-o", run)
             self.assertEqual(code, 0, err)
             self.assertEqual(self.files(run), self.files(whole), f"{n} ranks")
-        parts = self.folder / "parts" # a checkpoint of three ranks goes on with one, then two
-        code, _, err = ranks(3, *cell, "--max-steps", 500, "-o", parts)
-        self.assertEqual(code, 0, err)
-        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
-        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 0, "-q")
-        self.assertEqual(code, 0, err)
-        self.assertEqual(self.files(parts), self.files(whole))
+        self.assert_goes_on(whole, *cell, end=0)
 
     def test_a_cell_that_gets_too_narrow_is_said_once(self):
         cell = ("pack", "--curve", "4mm", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--no-floor", "--gravity", "0",
@@ -257,13 +251,7 @@ class Beds(Case):
         made, whole = self.same_files((1, 2, 3, 4), *moved, "--max-steps", 1500)
         self.assertGreater(made["energy"]["walls"], 0)
         self.assertLess(abs(made["energy"]["rest"]), 1e-10 * made["energy"]["put_in"])
-        parts = self.folder / "parts"
-        code, _, err = ranks(3, *moved, "--max-steps", 500, "-o", parts)
-        self.assertEqual(code, 0, err)
-        self.assertEqual(clast("pack", "--resume", parts, "--max-steps", 900, "-q").code, 0)
-        code, _, err = ranks(2, "pack", "--resume", parts, "--max-steps", 1500, "-q")
-        self.assertEqual(code, 0, err)
-        self.assertEqual(self.files(parts), self.files(whole))
+        self.assert_goes_on(whole, *moved)
 
     def test_an_explosion_is_said_once(self):
         wild = (*SMALL, "--mass", "9g", "--height", "40mm", "--collision-time", "2ms", "--time-step", "50us", "--initial-speed",
