@@ -104,8 +104,8 @@ same "find_package" "$work/by_cmake/user"
 same "find_package, static" "$work/by_cmake/user_static"
 [ "$("$work/by_cmake/chart")" = "$drawn" ] && [ "$("$work/by_cmake/chart_static")" = "$drawn" ] ||
     { echo "find_package, view: another chart"; exit 1; }
-! ldd "$work/by_cmake/user" | grep -q cairo || { echo "clast::clast brings cairo"; exit 1; }
-! readelf -d "$work/by_cmake/user_static" "$work/by_cmake/chart_static" | grep -q libclast || { echo "clast::clast_static is linked to libclast.so"; exit 1; }
+! ldd "$work/by_cmake/user" | grep cairo || { echo "clast::clast brings cairo"; exit 1; }
+! readelf -d "$work/by_cmake/user_static" "$work/by_cmake/chart_static" | grep libclast || { echo "clast::clast_static is linked to libclast.so"; exit 1; }
 
 # As a part of another project: no test, command or tool is looked for, only the library is built.
 mkdir "$work/part"

@@ -11,7 +11,7 @@ log=$(mktemp); trap 'rm -f "$log"' EXIT
 cmake --preset release -B build/mpich -DCLAST_MPI=ON -DMPI_C_COMPILER=mpicc.mpich -DMPIEXEC_EXECUTABLE="$(command -v mpiexec.mpich)" \
     >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build build/mpich --target clast_cli clast_mpi_cli mpi_tests >"$log" 2>&1 || { cat "$log"; exit 1; }
-ldd build/mpich/clast-mpi | grep -q 'libmpich[.]so' || { echo "check_mpich: build/mpich/clast-mpi does not load MPICH"; exit 1; }
+ldd build/mpich/clast-mpi | grep 'libmpich[.]so' || { echo "check_mpich: build/mpich/clast-mpi does not load MPICH"; exit 1; }
 if [ "${1:-}" = all ]; then exec ctest --test-dir build/mpich -L mpi --output-on-failure --no-tests=error; fi
 ctest --test-dir build/mpich -L mpi -R 'test_comm_|cloud' --output-on-failure --no-tests=error
 export PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 CLAST=build/mpich/clast CLAST_MPI=build/mpich/clast-mpi MPIEXEC

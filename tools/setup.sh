@@ -38,7 +38,7 @@ fi
 missing=()
 for package in $(printf '%s\n' "${wanted[@]}" | sort -u); do
     [ "$package" = npm ] && command -v npm >/dev/null && continue # other packages of Node bring it, and conflict with this one
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep 'ok installed' > /dev/null || missing+=("$package")
 done
 [ ${#missing[@]} -eq 0 ] && exit 0
 if [ "$(id -u)" -ne 0 ]; then
