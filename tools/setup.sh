@@ -23,11 +23,12 @@ site=("${docs[@]}" "${web[@]}" chromium)
 dist=(git python3)
 bundle=("${sundials[@]}" git python3 patchelf)
 deb=("${sundials[@]}" build-essential git python3 debhelper dh-python lintian)
-i386=("${dev[@]}" gcc-multilib curl)
+i386=("${dev[@]}" curl)
+[ "$(uname -m)" != x86_64 ] || i386+=(gcc-multilib) # Debian has it for few other machines
 wasm=("${dev[@]}" emscripten nodejs curl chromium)
 bare=(git mmdebstrap debian-archive-keyring)
 saturne=("${mpi[@]}" python3 code-saturne code-saturne-include)
-test=("${mpich[@]}" "${wasm[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh code-saturne-include)
+test=("${mpich[@]}" "${wasm[@]}" "${i386[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh code-saturne-include)
 groups="build sundials mpi mpich dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group

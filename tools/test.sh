@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols,
-# WebAssembly, packages, short fuzzing, documents. FUZZ_SECONDS (default 20) and SKIP ("tidy wasm packages fuzz docs") shorten it by hand.
+# WebAssembly, 32 bits, packages, short fuzzing, documents. FUZZ_SECONDS (default 20) and SKIP ("tidy wasm i386 packages fuzz docs") shorten it
+# by hand.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 # what another clone of this machine has compiled is taken from there
@@ -27,7 +28,7 @@ tools/build.sh release installed mpi_tests > build-release.log 2>&1 || { tail -3
 rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
-say "commands of the documents, Python, ranks, bundle of the 3-D view; beside them WebAssembly and packages"
+say "commands of the documents, Python, ranks, bundle of the 3-D view; beside them WebAssembly, packages and 32 bits"
 one_core() { # tests that take one core each; what they print comes after the other core's
     python3 tools/check_docs_commands.py build/release/clast
     ctest --test-dir build/release -L python --output-on-failure --no-tests=error
@@ -52,6 +53,7 @@ skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
 if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
     tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
 fi
+skip i386 || TEST_JOBS=1 tools/test_i386.sh or-skip | tee -a build/ctest.log | grep -v '^ *Start '
 say "the other core's"; other
 say "fuzzing; beside it documents and views in a browser"
 documents() { skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; }; }
