@@ -257,9 +257,9 @@ static clast_status check_classes(const clast_aggregate_params *p, int32_t n_coa
     }
     for (int32_t i = 1; i < limit->n; ++i) {
         if (limit->item[i] <= limit->item[i - 1]) {
-            return clx_fail(CLAST_E_CONFIG,
-                            "class_limit: limit %d (%g m) is not above limit %d (%g m)", i + 1,
-                            limit->item[i], i, limit->item[i - 1]);
+            return clx_fail(CLAST_E_CONFIG, "class_limit: limit %d (%s) is not above limit %d (%s)",
+                            i + 1, clx_unit_text(limit->item[i], "m"), i,
+                            clx_unit_text(limit->item[i - 1], "m"));
         }
     }
     return CLAST_OK;
@@ -331,8 +331,8 @@ static clast_status check_law(const clast_aggregate_params *p, bool has_sizes)
                         "size_law draws the sizes; drop sizes, or set size_law: list");
     }
     if (p->size_high != 0.0 && p->size_high < p->size_low) {
-        return clx_fail(CLAST_E_CONFIG, "size_high: %g m is below size_low, %g m", p->size_high,
-                        p->size_low);
+        return clx_fail(CLAST_E_CONFIG, "size_high: %s is below size_low, %s",
+                        clx_unit_text(p->size_high, "m"), clx_unit_text(p->size_low, "m"));
     }
     const clast_status status = need("n_particle", p->n_particle);
     return status != CLAST_OK ? status : check_moments(p);

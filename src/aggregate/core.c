@@ -110,18 +110,18 @@ static clast_status check_sizes(const clast_aggregate *a)
         const double scale = clx_aggregate_scale(a, i, shape);
         const double length = scale * group->length;
         CLX_CHECK(core_length >= CORE_SMALLEST * length, CLAST_E_CONFIG,
-                  "core_size: the core's length %g m is below 1e-6 of particle %d, %g m long; are "
-                  "the units right?",
-                  core_length, i + 1, length);
+                  "core_size: the core's length %s is below 1e-6 of particle %d, %s long; are the "
+                  "units right?",
+                  clx_unit_text(core_length, "m"), i + 1, clx_unit_text(length, "m"));
         mass += group->mass * scale * scale * scale;
     }
     CLX_CHECK(a->params->stop_mass <= mass, CLAST_E_CONFIG,
-              "stop_mass: %g kg is more than core and all %d particles weigh, %g kg; raise "
-              "replicate or lower stop_mass",
-              a->params->stop_mass, a->n_particle, mass);
+              "stop_mass: %s is more than core and all %d particles weigh, %s; raise replicate or "
+              "lower stop_mass",
+              clx_unit_text(a->params->stop_mass, "kg"), a->n_particle, clx_unit_text(mass, "kg"));
     CLX_CHECK(a->params->stop_mass == 0.0 || a->params->stop_mass > a->mass, CLAST_E_CONFIG,
-              "stop_mass: the core alone weighs %g kg, not below %g kg", a->mass,
-              a->params->stop_mass);
+              "stop_mass: the core alone weighs %s, not below %s", clx_unit_text(a->mass, "kg"),
+              clx_unit_text(a->params->stop_mass, "kg"));
 done:
     return status;
 }

@@ -143,8 +143,8 @@ static clast_status draw_laws(const clast_aggregate_params *c, uint64_t seed, do
             drawn = draw_law(c, &rng);
         } while ((drawn < c->size_low || drawn > high || drawn <= 0.0) && ++tries < LAW_DRAWS);
         CLX_CHECK(tries < LAW_DRAWS, CLAST_E_CONFIG,
-                  "size_law: none of %d draws lies between size_low %g m and size_high %g m",
-                  LAW_DRAWS, c->size_low, high);
+                  "size_law: none of %d draws lies between size_low %s and size_high %s", LAW_DRAWS,
+                  clx_unit_text(c->size_low, "m"), clx_unit_text(high, "m"));
         (*size)[at] = drawn;
     }
 done:
@@ -189,11 +189,11 @@ static clast_status check_rows(const clast_sizes *sizes)
     for (int64_t i = 0; i < sizes->n; ++i) {
         const double low = sizes->low[i];
         const double high = sizes->high[i];
-        CLX_CHECK(low > 0.0 && low <= high && isfinite(high) && sizes->count[i] >= 0.0,
-                  CLAST_E_CONFIG,
-                  "sizes: row %lld has sizes from %g to %g m, %g times; sizes must be above 0 and "
-                  "rise, a count 0 or more",
-                  (long long)i + 1, low, high, sizes->count[i]);
+        CLX_CHECK(
+            low > 0.0 && low <= high && isfinite(high) && sizes->count[i] >= 0.0, CLAST_E_CONFIG,
+            "sizes: row %lld has sizes from %s to %s, %g times; sizes must be above 0 and rise, a "
+            "count 0 or more",
+            (long long)i + 1, clx_unit_text(low, "m"), clx_unit_text(high, "m"), sizes->count[i]);
     }
 done:
     return status;

@@ -54,10 +54,10 @@ static clast_status add_sample(cloud *c, const double at[3])
     CLAST_ASSERT(c->n >= 0);
     clast_status status = CLAST_OK;
     int64_t key = 0;
-    CLX_CHECK(c->n < MAX_SAMPLES, CLAST_E_LIMIT,
-              "alpha: more than %d surface points at a spacing of %g m; choose a greater "
-              "envelope_length",
-              MAX_SAMPLES, c->spacing);
+    CLX_CHECK(
+        c->n < MAX_SAMPLES, CLAST_E_LIMIT,
+        "alpha: more than %d surface points at a spacing of %s; choose a greater envelope_length",
+        MAX_SAMPLES, clx_unit_text(c->spacing, "m"));
     CLX_TRY(clx_grow(&c->item, &c->room, c->n + 1, sizeof *c->item));
     for (int k = 2; k >= 0; --k) {
         key = key * c->n_cell[k] + (int64_t)((at[k] - c->low[k]) / c->spacing);
@@ -112,9 +112,9 @@ static clast_status thin(cloud *c, uint64_t seed)
         }
     }
     CLX_CHECK(n <= MAX_POINTS, CLAST_E_LIMIT,
-              "alpha: %lld surface points at a spacing of %g m are more than %d; choose a greater "
+              "alpha: %lld surface points at a spacing of %s are more than %d; choose a greater "
               "envelope_length",
-              (long long)n, c->spacing, MAX_POINTS);
+              (long long)n, clx_unit_text(c->spacing, "m"), MAX_POINTS);
     CLX_TRY(clx_alloc(&c->point, n, sizeof *c->point));
     for (int64_t i = 0; i < n; ++i) {
         clx_rng rng = clx_rng_at(seed, CLX_STREAM_ENVELOPE, (uint64_t)i);

@@ -28,6 +28,10 @@ CLX_SHARED void clx_fail_prefix(const char *format, ...) __attribute__((format(p
 CLX_SHARED const char *clx_errno_text(void);
 const char *clx_error_text(int error);
 
+/// A number in a person's unit (clast_unit_for) for messages, "710.419 mg" of 7.10419e-4 kg: six
+/// digits, as refusals compare numbers that lie close. Lives until the thread's 8th call after it.
+CLX_SHARED const char *clx_unit_text(double value, const char *si_unit);
+
 #define CLX_CHECK(condition, code, ...)                                                            \
     do {                                                                                           \
         if (!(condition)) {                                                                        \

@@ -167,7 +167,7 @@ const char *clast_unit_for(double value, const char *si_unit, double *factor)
         return "";
     }
     *factor = 1.0;
-    for (int i = 0; i < N_LADDER; ++i) {
+    for (int i = 0; i < N_LADDER && isfinite(value); ++i) {
         if (strcmp(ladders[i].si, si_unit) != 0) {
             continue;
         }
@@ -185,6 +185,17 @@ const char *clast_unit_for(double value, const char *si_unit, double *factor)
         return ladders[i].unit[best].name;
     }
     return si_unit;
+}
+
+const char *clx_unit_text(double value, const char *si_unit)
+{
+    static _Thread_local char shown[8][64];
+    static _Thread_local unsigned next;
+    char *out = shown[next++ % 8];
+    double factor = 1.0;
+    const char *name = clast_unit_for(value, si_unit, &factor);
+    (void)clx_number_print(out, sizeof shown[0], "%g %s", value * factor, name);
+    return out;
 }
 
 static void trim_end(char *text)

@@ -19,9 +19,9 @@ static clast_status grow(clx_box *s, int64_t n)
                               &s->next,     &s->frozen, &s->n_kind};
     double **const value[] = {&p->radius, &p->mass, &s->born};
     CLX_CHECK(n <= MOST_PARTICLES, CLAST_E_LIMIT,
-              "breakage and sources made more than %d particles by %.4g s; take fewer --particles, "
-              "a shorter --duration or a larger --size-min",
-              MOST_PARTICLES, s->now);
+              "breakage and sources made more than %d particles by %s; take fewer --particles, a "
+              "shorter --duration or a larger --size-min",
+              MOST_PARTICLES, clx_unit_text(s->now, "s"));
     for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
         CLX_TRY(clx_realloc(list[k], n, sizeof **list[k]));
     }

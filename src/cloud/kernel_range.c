@@ -424,7 +424,8 @@ clast_status clx_range_up_to(const clast_collide_config *config, double time,
                              clast_range_report *report)
 {
     char of[64];
-    (void)clx_number_print(of, sizeof of, "of the collisions up to t = %.4g s", time);
+    (void)clx_number_print(of, sizeof of, "of the collisions up to t = %s",
+                           clx_unit_text(time, "s"));
     return hold(config, &report->collisions, of, time, report);
 }
 

@@ -77,9 +77,9 @@ clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
     clx_pair_within(result);
     if (is_pairs) {
         CLX_CHECK(isfinite(result->events_by_pairs.value), CLAST_E_LIMIT,
-                  "%lld pairs within %g m: too few to count events by; ask for --estimator cells, "
-                  "or a greater --pairs-radius",
-                  (long long)result->pairs.n_pair, result->pairs.radius);
+                  "%lld pairs within %s: too few to count events by; ask for --estimator cells, or "
+                  "a greater --pairs-radius",
+                  (long long)result->pairs.n_pair, clx_unit_text(result->pairs.radius, "m"));
         result->estimator = CLAST_ESTIMATOR_PAIRS;
         take_pairs(result);
     }

@@ -119,9 +119,8 @@ clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *
         const double end = config->duration / config->n_step * step;
         for (int code = CV_ROOT_RETURN; code == CV_ROOT_RETURN && time < end;) {
             code = CVode(g.cvode, end, g.y, &time, CV_NORMAL);
-            CLX_CHECK(code >= 0, CLAST_E_CONVERGE,
-                      "the spectrum was integrated up to %g s of %g s: %s", time, config->duration,
-                      g.words);
+            CLX_CHECK(code >= 0, CLAST_E_CONVERGE, "the spectrum was integrated up to %s of %s: %s",
+                      clx_unit_text(time, "s"), clx_unit_text(config->duration, "s"), g.words);
             if (code == CV_ROOT_RETURN && isnan(*gel_time)) {
                 *gel_time = time;
             }

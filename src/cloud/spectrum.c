@@ -88,8 +88,8 @@ static clast_status check(const clast_spectrum_config *config, const clast_colli
     CLX_TRY(clast_fields_check(clast_spectrum_fields, config));
     CLX_CHECK(config->duration > 0.0 && isfinite(config->duration) && config->n_step > 0 &&
                   config->repeats > 0,
-              CLAST_E_CONFIG, "duration: a box needs a time > 0, not %g s in %d steps, %d runs",
-              config->duration, config->n_step, config->repeats);
+              CLAST_E_CONFIG, "duration: a box needs a time > 0, not %s in %d steps, %d runs",
+              clx_unit_text(config->duration, "s"), config->n_step, config->repeats);
     CLX_TRY(clx_collide_config_check(collide));
     CLX_TRY(check_kernel(config, collide));
     CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL || config->breakage_rate == 0.0 ||

@@ -46,9 +46,9 @@ static clast_status begin(const clast_collide_config *collide, sampling *s)
         box->config->source * box->volume * box->config->duration <
             MOST_UNITS / fmax(1.0, box->config->source_size / box->unit),
         CLAST_E_CONFIG,
-        "source, source_size: what comes in by %g s is more than 2^53 units of %g monomers; take "
+        "source, source_size: what comes in by %s is more than 2^53 units of %g monomers; take "
         "fewer --particles, a shorter --duration or a larger --source-size or --size-min",
-        box->config->duration, box->unit);
+        clx_unit_text(box->config->duration, "s"), box->unit);
     box->collide = *collide;
     box->collide.keep_positions = true;
     box->collide.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; // the run holds it against them

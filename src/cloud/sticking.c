@@ -28,8 +28,9 @@ clast_status clast_sticking_check(const clast_sticking *s)
                    isfinite(s->film_thickness) && s->restitution > 0.0 && s->restitution <= 1.0),
               CLAST_E_CONFIG,
               "sticking viscous needs --film-thickness > --asperity > 0 and --restitution in (0, "
-              "1], not %g m, %g m and %g",
-              s->film_thickness, s->asperity, s->restitution);
+              "1], not %s, %s and %g",
+              clx_unit_text(s->film_thickness, "m"), clx_unit_text(s->asperity, "m"),
+              s->restitution);
     CLX_CHECK(s->law != CLAST_STICKING_LIQUID ||
                   (s->critical_stokes > 0.0 && isfinite(s->critical_stokes) &&
                    s->stokes_exponent > 0.0 && isfinite(s->stokes_exponent)),
@@ -40,8 +41,8 @@ clast_status clast_sticking_check(const clast_sticking *s)
                   (s->adhesion > 0.0 && isfinite(s->adhesion) && s->young > 0.0 &&
                    isfinite(s->young) && fabs(s->poisson) < 1.0),
               CLAST_E_CONFIG,
-              "sticking contact needs --adhesion > 0 and --young > 0, not %g J/m^2 and %g Pa",
-              s->adhesion, s->young);
+              "sticking contact needs --adhesion > 0 and --young > 0, not %g J/m^2 and %s",
+              s->adhesion, clx_unit_text(s->young, "Pa"));
 done:
     return status;
 }

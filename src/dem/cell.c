@@ -31,9 +31,9 @@ clast_status clx_cell_make(clast_dem *dem)
               "take gravity 0",
               c->gravity);
     CLX_CHECK(c->fluid_viscosity == 0.0, CLAST_E_CONFIG,
-              "fluid_viscosity %g Pa s: in domain cell, where no fluid moves with the sides, drag "
-              "would hold the grains back; take fluid_viscosity 0",
-              c->fluid_viscosity);
+              "fluid_viscosity %s: in domain cell, where no fluid moves with the sides, drag would "
+              "hold the grains back; take fluid_viscosity 0",
+              clx_unit_text(c->fluid_viscosity, "Pa s"));
     CLX_CHECK(!c->hindrance, CLAST_E_CONFIG, "hindrance by height: domain cell has no height");
     CLX_TRY(clx_alloc(&cell, 1, sizeof *cell));
     cell->side[0] = c->width;

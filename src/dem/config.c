@@ -24,20 +24,24 @@ clast_status clx_dem_check_step(const clx_law *law, double time_step, double mas
     }
     if (needs > EXACT) {
         return clx_fail(CLAST_E_CONFIG,
-                        "time_step %g s is too long: a collision takes %g s (collision_time), and "
-                        "with this restitution explicit steps need %.1f of it where %d contacts "
-                        "hold a grain; take %.4g s or less, or contact_scheme exact (%g s)",
-                        time_step, shortest, needs, HOLDING, shortest / needs, shortest / EXACT);
+                        "time_step %s is too long: a collision takes %s (collision_time), and with "
+                        "this restitution explicit steps need %.1f of it where %d contacts hold a "
+                        "grain; take %s or less, or contact_scheme exact (%s)",
+                        clx_unit_text(time_step, "s"), clx_unit_text(shortest, "s"), needs, HOLDING,
+                        clx_unit_text(shortest / needs, "s"), clx_unit_text(shortest / EXACT, "s"));
     }
-    return is_linear ? clx_fail(CLAST_E_CONFIG,
-                                "time_step %g s is too long: a collision takes %g s "
-                                "(collision_time), and needs at least %g steps; take %g s or less",
-                                time_step, shortest, needs, shortest / needs)
-                     : clx_fail(CLAST_E_CONFIG,
-                                "time_step %g s is too long: a grain of %g kg swings on a contact "
-                                "of this young in %g s, and needs at least %g steps; take %g s or "
-                                "less, or a smaller young",
-                                time_step, mass, shortest, needs, shortest / needs);
+    return is_linear
+               ? clx_fail(CLAST_E_CONFIG,
+                          "time_step %s is too long: a collision takes %s (collision_time), and "
+                          "needs at least %g steps; take %s or less",
+                          clx_unit_text(time_step, "s"), clx_unit_text(shortest, "s"), needs,
+                          clx_unit_text(shortest / needs, "s"))
+               : clx_fail(
+                     CLAST_E_CONFIG,
+                     "time_step %s is too long: a grain of %s swings on a contact of this young in "
+                     "%s, and needs at least %g steps; take %s or less, or a smaller young",
+                     clx_unit_text(time_step, "s"), clx_unit_text(mass, "kg"),
+                     clx_unit_text(shortest, "s"), needs, clx_unit_text(shortest / needs, "s"));
 }
 
 /// An energy that no attraction takes would be ignored.
@@ -91,13 +95,14 @@ clast_status clx_dem_check(const clast_dem_config *config)
     CLX_CHECK(config->restitution > 0.0 && config->restitution <= 1.0, CLAST_E_CONFIG,
               "restitution %g: it lies above 0, and at most at 1", config->restitution);
     CLX_CHECK(config->time_step > 0.0 && isfinite(config->time_step), CLAST_E_CONFIG,
-              "time_step %g s", config->time_step);
+              "time_step %s", clx_unit_text(config->time_step, "s"));
     if (config->law == CLAST_DEM_LINEAR) {
         CLX_TRY(clx_dem_check_step(&law, config->time_step, 0.0, 0.0));
     }
-    CLX_CHECK(config->domain == CLAST_DEM_OPEN || config->width > 0.0, CLAST_E_CONFIG, "width %g m",
-              config->width);
-    CLX_CHECK(config->height > 0.0, CLAST_E_CONFIG, "height %g m", config->height);
+    CLX_CHECK(config->domain == CLAST_DEM_OPEN || config->width > 0.0, CLAST_E_CONFIG, "width %s",
+              clx_unit_text(config->width, "m"));
+    CLX_CHECK(config->height > 0.0, CLAST_E_CONFIG, "height %s",
+              clx_unit_text(config->height, "m"));
     CLX_CHECK(config->rolling_friction > 0.0 || config->rolling_model == CLAST_DEM_ROLL_TORQUE,
               CLAST_E_CONFIG, "rolling_model spring acts with rolling_friction above 0 alone");
     CLX_CHECK(

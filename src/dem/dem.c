@@ -84,13 +84,13 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
                                                           : fmin(c->width, depth);
     if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
         CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %g m across, %g m with its skin, more than half the period "
-                  "of %g m",
-                  (long long)number, 2.0 * radius, 2.0 * radius * (1.0 + c->skin), narrow);
+                  "grain %lld reaches %s across, %s with its skin, more than half the period of %s",
+                  (long long)number, clx_unit_text(2.0 * radius, "m"),
+                  clx_unit_text(2.0 * radius * (1.0 + c->skin), "m"), clx_unit_text(narrow, "m"));
     } else if (c->domain != CLAST_DEM_OPEN) {
         CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %g m across, the domain only %g m", (long long)number,
-                  2.0 * radius, narrow);
+                  "grain %lld reaches %s across, the domain only %s", (long long)number,
+                  clx_unit_text(2.0 * radius, "m"), clx_unit_text(narrow, "m"));
     }
     for (int32_t w = 0; w < dem->n_wall; ++w) {
         double normal[3];
@@ -98,8 +98,9 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
             continue;
         }
         CLX_CHECK(clx_wall_distance(&dem->wall[w], g->position, normal) > 0.0, CLAST_E_GEOMETRY,
-                  "grain %lld begins outside of the domain, at %g, %g, %g m", (long long)number,
-                  g->position[0], g->position[1], g->position[2]);
+                  "grain %lld begins outside of the domain, at %s, %s, %s", (long long)number,
+                  clx_unit_text(g->position[0], "m"), clx_unit_text(g->position[1], "m"),
+                  clx_unit_text(g->position[2], "m"));
     }
 done:
     return status;
@@ -126,9 +127,10 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     CLX_CHECK(core == NULL || dem->config.rounding == 0.0 ||
                   dem->config.rounding < 0.5 * g->scale * core->inner,
               CLAST_E_GEOMETRY,
-              "grain %lld: edges rounded to %g m (rounding) leave little of a grain with a ball of "
-              "%g m inside; take less than half of it",
-              (long long)number, dem->config.rounding, core != NULL ? g->scale * core->inner : 0.0);
+              "grain %lld: edges rounded to %s (rounding) leave little of a grain with a ball of "
+              "%s inside; take less than half of it",
+              (long long)number, clx_unit_text(dem->config.rounding, "m"),
+              clx_unit_text(core != NULL ? g->scale * core->inner : 0.0, "m"));
     const double volume = g->scale * g->scale * g->scale * shape->volume;
     for (int32_t k = 0; k < clx_n_law(dem); ++k) {
         CLX_TRY(clx_dem_check_step(clx_law_at(dem, g->shape, k), dem->config.time_step,

@@ -25,10 +25,10 @@ clast_status clx_dem_check_contact(const clast_dem_config *config, const clast_d
     CLX_CHECK(c->rolling_friction >= 0.0 && isfinite(c->rolling_friction), CLAST_E_CONFIG,
               "rolling_friction %g", c->rolling_friction);
     CLX_CHECK(c->collision_time > 0.0 && isfinite(c->collision_time), CLAST_E_CONFIG,
-              "collision_time %g s", c->collision_time);
+              "collision_time %s", clx_unit_text(c->collision_time, "s"));
     for (int k = 0; k < 2; ++k) {
-        CLX_CHECK(c->young[k] > 0.0 && isfinite(c->young[k]), CLAST_E_CONFIG, "young %g Pa",
-                  c->young[k]);
+        CLX_CHECK(c->young[k] > 0.0 && isfinite(c->young[k]), CLAST_E_CONFIG, "young %s",
+                  clx_unit_text(c->young[k], "Pa"));
         CLX_CHECK(c->poisson[k] >= 0.0 && c->poisson[k] <= 0.5, CLAST_E_CONFIG, "poisson %g",
                   c->poisson[k]);
     }

@@ -286,11 +286,10 @@ clast_status clx_explain_explosion(const clast_dem *dem)
     const bool is_deep = depth > 0.2 * g->radius;
     return clx_fail(
         CLAST_E_CONVERGE,
-        "the run explodes in step %lld: grain %d moves at %.3g m/s, more than the %.3g m/s that "
-        "its "
-        "contact can stop within half its radius; it overlaps %s; likely cause: %s",
-        (long long)dem->step, worst, v3_norm(g->velocity),
-        dem->stride * g->radius / dem->config.time_step, where,
+        "the run explodes in step %lld: grain %d moves at %s, more than the %s that its contact "
+        "can stop within half its radius; it overlaps %s; likely cause: %s",
+        (long long)dem->step, worst, clx_unit_text(v3_norm(g->velocity), "m/s"),
+        clx_unit_text(dem->stride * g->radius / dem->config.time_step, "m/s"), where,
         is_deep ? "grains that overlapped from the start, or too little room"
                 : "contacts too soft for this speed (collision_time or young), or a time step too "
                   "long for them");

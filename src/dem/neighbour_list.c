@@ -407,9 +407,10 @@ clast_status clx_neighbour_list_check_room(const clast_dem *dem)
         most = fmax(most, clx_item_radius(dem, i));
     }
     CLX_CHECK(4.0 * most * (1.0 + dem->config.skin) <= narrow, CLAST_E_GEOMETRY,
-              "the cell's narrowest side has come down to %g m, less than two of its largest grain "
-              "(%g m across, %g m with its skin): take more grains in a larger cell",
-              narrow, 2.0 * most, 2.0 * most * (1.0 + dem->config.skin));
+              "the cell's narrowest side has come down to %s, less than two of its largest grain "
+              "(%s across, %s with its skin): take more grains in a larger cell",
+              clx_unit_text(narrow, "m"), clx_unit_text(2.0 * most, "m"),
+              clx_unit_text(2.0 * most * (1.0 + dem->config.skin), "m"));
 done:
     return status;
 }

@@ -158,8 +158,8 @@ static clast_status place_all(clast_evolve *e)
         const double size = points != NULL && points->radius != NULL
                                 ? 2.0 * points->radius[i]
                                 : clast_grading_draw(e->input->grading, c->seed, (uint64_t)i);
-        CLX_CHECK(size > 0.0 && isfinite(size), CLAST_E_FORMAT, "particle %d has the diameter %g m",
-                  i + 1, size);
+        CLX_CHECK(size > 0.0 && isfinite(size), CLAST_E_FORMAT, "particle %d has the diameter %s",
+                  i + 1, clx_unit_text(size, "m"));
         grain->kind = draw_shape(e, i);
         grain->next = -1;
         grain->orientation[0] = 1.0;
@@ -209,9 +209,10 @@ static clast_status check_time_step(const clast_evolve *e)
     }
     CLX_CHECK(c->floor != CLAST_BORDER_DEPOSIT || c->time_step * fall <= height * mass,
               CLAST_E_CONFIG,
-              "time_step: in %g s the mean mass falls %.3g m, through the whole height of %.3g m; "
-              "take less than %.3g s, or 0: step_error then chooses it",
-              c->time_step, c->time_step * fall / mass, height, height * mass / fall);
+              "time_step: in %s the mean mass falls %s, through the whole height of %s; take less "
+              "than %s, or 0: step_error then chooses it",
+              clx_unit_text(c->time_step, "s"), clx_unit_text(c->time_step * fall / mass, "m"),
+              clx_unit_text(height, "m"), clx_unit_text(height * mass / fall, "s"));
 done:
     return status;
 }

@@ -141,9 +141,9 @@ clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double
         const double most = each * greatest_rate(e, member, n);
         const double left = dt - passed;
         CLX_CHECK(k < MOST_SUB_STEPS && isfinite(most), CLAST_E_CONVERGE,
-                  "a cell of %lld particles in %.3g m^3 collides %.3g times a second each: over %d "
+                  "a cell of %lld particles in %s collides %.3g times a second each: over %d "
                   "sub-steps; take a shorter time_step",
-                  (long long)n, volume, most, MOST_SUB_STEPS);
+                  (long long)n, clx_unit_text(volume, "m^3"), most, MOST_SUB_STEPS);
         const double parts = fmax(1.0, ceil(left * most / e->config->step_error));
         const double sub = left / parts;
         passed = parts > 1.0 ? passed + sub : dt;

@@ -372,9 +372,9 @@ clast_status clx_evolve_move(clast_evolve *e, double dt)
         const double parts =
             e->body[i].state == CLX_BODY_IN_FLUID ? parts_of(e, &e->body[i], dt) : 1.0;
         CLX_CHECK(parts <= MOST_PARTS, CLAST_E_LIMIT,
-                  "body %d takes %.3g parts of a step of %.3g s for the grid of field or the walls "
+                  "body %d takes %.3g parts of a step of %s for the grid of field or the walls "
                   "that keep it, over %g; take a shorter time_step or more rows",
-                  i + 1, parts, dt, MOST_PARTS);
+                  i + 1, parts, clx_unit_text(dt, "s"), MOST_PARTS);
     }
     clx_parallel_for(e->n_start, BODIES_A_BLOCK, move_some, &m);
 done:

@@ -158,8 +158,8 @@ clast_status clast_terminal_velocity_permeable(double diameter, double density,
     const double beta = 0.5 * diameter / sqrt(k);
     const double factor = clast_drag_permeable(beta, porous->core);
     CLX_CHECK(factor > 0.0, CLAST_E_USAGE,
-              "settling: a permeability of %g m^2 leaves no drag on a diameter of %g m", k,
-              diameter);
+              "settling: a permeability of %g m^2 leaves no drag on a diameter of %s", k,
+              clx_unit_text(diameter, "m"));
     const clast_drag scaled = {.stokes = factor * drag->stokes, .newton = factor * drag->newton};
     CLX_TRY(clast_terminal_velocity(diameter, density, &scaled, fluid, &made));
     made.in_range = made.reynolds <= 1.0 || (beta >= 15.0 && made.reynolds <= 120.0);

@@ -102,11 +102,12 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
               CLAST_E_CONFIG, "start_unit, start_columns and start_diameter are of a start");
     CLX_TRY(check_cell(c, usual));
     CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
-              "depth %g m: a cylinder has a width alone", d->depth);
+              "depth %s: a cylinder has a width alone", clx_unit_text(d->depth, "m"));
     CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,
-              "young %g Pa acts with law hertz alone", d->young);
+              "young %s acts with law hertz alone", clx_unit_text(d->young, "Pa"));
     CLX_CHECK(d->law == CLAST_DEM_LINEAR || d->collision_time == u->collision_time, CLAST_E_CONFIG,
-              "collision_time %g s acts with law linear alone", d->collision_time);
+              "collision_time %s acts with law linear alone",
+              clx_unit_text(d->collision_time, "s"));
     CLX_CHECK(c->form_law || (c->flatness_mean == usual->flatness_mean &&
                               c->flatness_deviation == usual->flatness_deviation &&
                               c->elongation_mean == usual->elongation_mean &&

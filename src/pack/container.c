@@ -41,9 +41,9 @@ clast_status clx_pack_contain(clast_pack *p)
     }
     clast_mesh_bounds(mesh, low, high);
     CLX_CHECK(!d->floor || low[2] >= -1e-9 * (high[2] - low[2]), CLAST_E_CONFIG,
-              "the container reaches down to z = %g m, below the floor at z = 0: move it, or give "
+              "the container reaches down to z = %s, below the floor at z = 0: move it, or give "
               "--floor no",
-              low[2]);
+              clx_unit_text(low[2], "m"));
     CLX_CHECK(!d->lid, CLAST_E_CONFIG, "a container has its own lid, or none: leave out lid");
     p->base = d->floor ? 0.0 : low[2];
     p->tall = high[2] - p->base;

@@ -74,14 +74,13 @@ static clast_status check_lattice(const clast_pack *p, filling *f)
     f->least = 0.4999 * low;
     const double narrowest = low * p->widest;
     CLX_CHECK(p->spacing >= 0.1 * narrowest, CLAST_E_CONFIG,
-              "spacing %g m is less than a tenth of the smallest grain, %g m", p->spacing,
-              narrowest);
+              "spacing %s is less than a tenth of the smallest grain, %s",
+              clx_unit_text(p->spacing, "m"), clx_unit_text(narrowest, "m"));
     const double n_point = n[0] * n[1] * fmax(1.0, (f->high - f->low) / step[2]);
-    CLX_CHECK(
-        n_point <= LATTICE_LIMIT, CLAST_E_CONFIG,
-        "spacing %g m: %.3g places for grains in this domain, at most %.3g are possible; take a "
-        "larger spacing or the generator shelf",
-        p->spacing, n_point, (double)LATTICE_LIMIT);
+    CLX_CHECK(n_point <= LATTICE_LIMIT, CLAST_E_CONFIG,
+              "spacing %s: %.3g places for grains in this domain, at most %.3g are possible; take "
+              "a larger spacing or the generator shelf",
+              clx_unit_text(p->spacing, "m"), n_point, (double)LATTICE_LIMIT);
 done:
     return status;
 }
@@ -324,9 +323,10 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
     }
     f->refused = fmin(f->refused, radius);
     CLX_CHECK(f->n > 0, CLAST_E_CONFIG,
-              "no grain fits between %g and %g m: grain %lld needs more room than the domain has "
-              "(it reaches %g m across, spacing %g m); take a taller or wider domain%s",
-              f->low, f->high, (long long)number->index, 2.0 * radius, p->spacing,
+              "no grain fits between %s and %s: grain %lld needs more room than the domain has (it "
+              "reaches %s across, spacing %s); take a taller or wider domain%s",
+              clx_unit_text(f->low, "m"), clx_unit_text(f->high, "m"), (long long)number->index,
+              clx_unit_text(2.0 * radius, "m"), clx_unit_text(p->spacing, "m"),
               p->config.spacing > 2.0 * radius ? ", or a smaller spacing" : "");
 done:
     return status;

@@ -203,18 +203,19 @@ clast_status clx_pack_check_draws(clast_pack *p)
         clx_dem_shape_measures(p->dem, g.shape, measures);
         const double reach = g.scale * measures[0];
         CLX_CHECK(reach <= limit, CLAST_E_GEOMETRY,
-                  "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "
+                  "grain %lld of this seed reaches %s across, more than %s of %s; take a wider "
                   "domain, or another seed if few grains are as large",
-                  (long long)i, 2.0 * reach,
+                  (long long)i, clx_unit_text(2.0 * reach, "m"),
                   d->domain == CLAST_DEM_PERIODIC || d->domain == CLAST_DEM_CELL
                       ? "half the period, less the skin,"
                       : "the width",
-                  fmin(d->width, d->depth > 0.0 ? d->depth : d->width));
+                  clx_unit_text(fmin(d->width, d->depth > 0.0 ? d->depth : d->width), "m"));
         mass += g.density * measures[1] * g.scale * g.scale * g.scale;
         CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,
-                  "%g kg of such grains are about %.2g, at most %g are packed; take less mass or "
+                  "%s of such grains are about %.2g, at most %g are packed; take less mass or "
                   "larger grains",
-                  p->config.mass, p->config.mass / mass * (double)i, MOST_GRAINS);
+                  clx_unit_text(p->config.mass, "kg"), p->config.mass / mass * (double)i,
+                  MOST_GRAINS);
     }
 done:
     return status;

@@ -70,10 +70,11 @@ clast_status clx_pack_load_check(const clast_pack *p)
         CLX_TRY(clx_stage_read(c, i, &s));
         const double speed = fastest_of(c, &s);
         CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
-                  "stage %d, '%s': the cell's sides would move at %g m/s, faster than half of what "
-                  "contacts of the smallest grains stop (%g m/s); take lower rates (load_rate), a "
+                  "stage %d, '%s': the cell's sides would move at %s, faster than half of what "
+                  "contacts of the smallest grains stop (%s); take lower rates (load_rate), a "
                   "smaller cell, or stiffer contacts",
-                  i + 1, c->stages.item[i], speed, limit);
+                  i + 1, c->stages.item[i], clx_unit_text(speed, "m/s"),
+                  clx_unit_text(limit, "m/s"));
     }
 done:
     return status;
@@ -195,11 +196,12 @@ static clast_status check_time(const clast_pack *p, const clx_stage *s, const cl
     const double *k = load->kinetic_stress;
     CLX_CHECK(
         s->end == CLX_END_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
-        "stage %d, '%s', has not come to its end in %g s (max_load_time): stresses of x, y, "
-        "z and xz are %.4g, %.4g, %.4g and %.4g Pa, force on a grain over that of a contact %.2g "
-        "(load_rest %g)",
-        p->load.stage + 1, p->config.stages.item[p->load.stage], time, c[0] + k[0], c[1] + k[1],
-        c[2] + k[2], c[4] + k[4], load->unbalanced, p->config.load_rest);
+        "stage %d, '%s', has not come to its end in %s (max_load_time): stresses of x, y, z and xz "
+        "are %s, %s, %s and %s, force on a grain over that of a contact %.2g (load_rest %g)",
+        p->load.stage + 1, p->config.stages.item[p->load.stage], clx_unit_text(time, "s"),
+        clx_unit_text(c[0] + k[0], "Pa"), clx_unit_text(c[1] + k[1], "Pa"),
+        clx_unit_text(c[2] + k[2], "Pa"), clx_unit_text(c[4] + k[4], "Pa"), load->unbalanced,
+        p->config.load_rest);
 done:
     return status;
 }

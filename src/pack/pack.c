@@ -81,11 +81,11 @@ static clast_status check_room(const clast_pack *p)
     double room = 0.0;
     double light = 0.0;
     double heavy = 0.0;
-    CLX_CHECK(
-        is_cell || p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
-        "a height of %g m is %g slices of %g m (layer), a row of the profile each; at most %g: "
-        "take a lower domain or a greater layer",
-        p->tall, p->tall / c->layer, c->layer, MOST_SLICES);
+    CLX_CHECK(is_cell || p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
+              "a height of %s is %g slices of %s (layer), a row of the profile each; at most %g: "
+              "take a lower domain or a greater layer",
+              clx_unit_text(p->tall, "m"), p->tall / c->layer, clx_unit_text(c->layer, "m"),
+              MOST_SLICES);
     if (p->input.start == NULL) {
         CLX_TRY(clx_pack_check_densities(p));
     }
@@ -95,11 +95,12 @@ static clast_status check_room(const clast_pack *p)
     CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell || p->input.n_wall > 0, CLAST_E_CONFIG,
               "a packing needs a floor, or a wall in its place");
     clast_bed_volumes(&bed, 1, edge, &room);
-    CLX_CHECK(0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
-              "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
-              "made (fill_low of height), takes %g kg; take a taller or wider domain, or a greater "
-              "fill_low",
-              c->mass, edge[1], 0.5 * heavy * room);
+    CLX_CHECK(
+        0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
+        "%s cannot fit: at a porosity of 0.5 the room below z = %s, where grains are made "
+        "(fill_low of height), takes %s; take a taller or wider domain, or a greater fill_low",
+        clx_unit_text(c->mass, "kg"), clx_unit_text(edge[1], "m"),
+        clx_unit_text(0.5 * heavy * room, "kg"));
     CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
               "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", light, c->dem.fluid_density);
 done:
@@ -269,14 +270,15 @@ static clast_status check_waiting(clast_pack *p, double low)
     CLX_TRY(clx_dem_gather_grains(p->dem));
     const double sinking = sinking_time(p, low);
     CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
-              "nothing draws the grains of fill %d down from above %g m (gravity %g m/s2, "
-              "initial_speed %g m/s): no room comes for the others",
-              p->n_fill, low, gravity, p->config.initial_speed);
+              "nothing draws the grains of fill %d down from above %s (gravity %g m/s2, "
+              "initial_speed %s): no room comes for the others",
+              p->n_fill, clx_unit_text(low, "m"), gravity,
+              clx_unit_text(p->config.initial_speed, "m/s"));
     CLX_CHECK(waited <= PATIENCE * sinking, CLAST_E_CONVERGE,
-              "grains of fill %d still lie above %g m after %g s, %g times what sinking through "
-              "the height takes: the bed has grown into the place where grains are made; take a "
-              "taller or wider domain",
-              p->n_fill, low, waited, PATIENCE);
+              "grains of fill %d still lie above %s after %s, %g times what sinking through the "
+              "height takes: the bed has grown into the place where grains are made; take a taller "
+              "or wider domain",
+              p->n_fill, clx_unit_text(low, "m"), clx_unit_text(waited, "s"), PATIENCE);
 done:
     return status;
 }
@@ -286,11 +288,11 @@ static clast_status generate_in_cell(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p));
-    CLX_CHECK(p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
-              "the cell holds %g kg of %g kg on this lattice without overlaps; take a larger cell "
-              "(width, depth, height), or another generator or spacing: its stages press it "
-              "together",
-              p->mass, p->config.mass);
+    CLX_CHECK(
+        p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
+        "the cell holds %s of %s on this lattice without overlaps; take a larger cell (width, "
+        "depth, height), or another generator or spacing: its stages press it together",
+        clx_unit_text(p->mass, "kg"), clx_unit_text(p->config.mass, "kg"));
     CLX_TRY(begin_phase(p, CLAST_PACK_LOAD));
     CLX_TRY(clx_pack_load_begin(p));
 done:
@@ -346,9 +348,10 @@ static clast_status look(clast_pack *p)
         return begin_phase(p, CLAST_PACK_DONE);
     }
     CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
-              "the bed is not still after %g s of damping: its mean height moves by more than %g m "
-              "in %g s, its fastest grain at %g m/s",
-              c->max_damping_time, c->height_change, c->check_time, clast_dem_max_speed(p->dem));
+              "the bed is not still after %s of damping: its mean height moves by more than %s in "
+              "%s, its fastest grain at %s",
+              clx_unit_text(c->max_damping_time, "s"), clx_unit_text(c->height_change, "m"),
+              clx_unit_text(c->check_time, "s"), clx_unit_text(clast_dem_max_speed(p->dem), "m/s"));
 done:
     return status;
 }

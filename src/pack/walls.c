@@ -97,9 +97,9 @@ clast_status clx_pack_walls_check(const clast_pack *p)
     for (int32_t i = 0; i < p->input.n_wall; ++i) {
         const double speed = speed_of(&p->input.wall[i]);
         CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
-                  "wall %d, '%s', would move at %g m/s, faster than half of what contacts of the "
-                  "smallest grains stop (%g m/s); move it slower, or take stiffer contacts",
-                  i + 1, c->wall.item[i], speed, limit);
+                  "wall %d, '%s', would move at %s, faster than half of what contacts of the "
+                  "smallest grains stop (%s); move it slower, or take stiffer contacts",
+                  i + 1, c->wall.item[i], clx_unit_text(speed, "m/s"), clx_unit_text(limit, "m/s"));
     }
     for (int32_t k = 0; k < c->stages.n && c->dem.domain != CLAST_DEM_CELL; ++k) {
         clx_wall_stage s;
@@ -108,11 +108,11 @@ clast_status clx_pack_walls_check(const clast_pack *p)
             const double speed = s.drive[d].kind == CLX_WALL_SPEED     ? fabs(s.drive[d].aim)
                                  : s.drive[d].kind == CLX_WALL_PRESSED ? c->load_rate * p->tall
                                                                        : 0.0;
-            CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
-                      "stage %d, '%s': a wall would move at %g m/s, faster than half of what "
-                      "contacts of the smallest grains stop (%g m/s); take a lower speed "
-                      "(load_rate), or stiffer contacts",
-                      k + 1, c->stages.item[k], speed, limit);
+            CLX_CHECK(
+                speed <= limit, CLAST_E_CONFIG,
+                "stage %d, '%s': a wall would move at %s, faster than half of what contacts of the "
+                "smallest grains stop (%s); take a lower speed (load_rate), or stiffer contacts",
+                k + 1, c->stages.item[k], clx_unit_text(speed, "m/s"), clx_unit_text(limit, "m/s"));
         }
         CLX_TRY(check_areas(p, k, &s));
     }
@@ -392,10 +392,11 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
         *over = p->mass - p->mass_left <= s->until;
     }
     CLX_CHECK(*over || s->end == CLX_UNTIL_TIME || time < p->config.max_load_time, CLAST_E_CONVERGE,
-              "stage %d, '%s', has not come to its end in %g s (max_load_time): pressure of its "
-              "wall %.4g Pa, farthest way of a wall %.4g m, %.4g kg of grains inside",
-              p->load.stage + 1, p->config.stages.item[p->load.stage], time, l->pressure + 0.0,
-              l->way, p->mass - p->mass_left);
+              "stage %d, '%s', has not come to its end in %s (max_load_time): pressure of its wall "
+              "%s, farthest way of a wall %s, %s of grains inside",
+              p->load.stage + 1, p->config.stages.item[p->load.stage], clx_unit_text(time, "s"),
+              clx_unit_text(l->pressure + 0.0, "Pa"), clx_unit_text(l->way, "m"),
+              clx_unit_text(p->mass - p->mass_left, "kg"));
 done:
     return status;
 }

@@ -30,8 +30,8 @@ clast_status clast_chart_pairs(const clast_pairs *pairs, const char *path)
         r[k] = k > 0 ? sqrt(low[k] * high[k]) : 0.5 * high[k];
         from += expected[k] < least_expected ? 1 : 0;
     }
-    CLX_CHECK(from < t->n_row, CLAST_E_USAGE, "a uniform cloud has no pair within %g m",
-              pairs->radius);
+    CLX_CHECK(from < t->n_row, CLAST_E_USAGE, "a uniform cloud has no pair within %s",
+              clx_unit_text(pairs->radius, "m"));
     for (int64_t k = from; k < t->n_row; ++k) {
         most = fmax(most, g_high[k]);
     }

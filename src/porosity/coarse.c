@@ -157,8 +157,8 @@ static clast_status spread_contacts(grid *g, const clast_assembly *a, const clx_
         CLX_CHECK(v3_is_finite(branch) && v3_is_finite(force), CLAST_E_FORMAT,
                   "contact %lld has no finite force and branch", (long long)k + 1);
         CLX_CHECK(v3_norm(branch) <= MOST_WIDTHS * g->width, CLAST_E_FORMAT,
-                  "contact %lld has a branch of %g m, above %g widths of %g m", (long long)k + 1,
-                  v3_norm(branch), MOST_WIDTHS, g->width);
+                  "contact %lld has a branch of %s, above %g widths of %s", (long long)k + 1,
+                  clx_unit_text(v3_norm(branch), "m"), MOST_WIDTHS, clx_unit_text(g->width, "m"));
         spread_branch(g, from, branch, force);
         if (c->b[k] < 0.0) {
             v3_add(end, from, branch);

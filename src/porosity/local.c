@@ -362,7 +362,8 @@ clast_status clast_porosity_local(const clast_assembly *assembly, const clast_be
               "a bed that is periodic in all three directions is taken whole, from %g to %g",
               bed->floor, bed->ceiling);
     CLX_CHECK(z_high > z_low && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
-              "a bed from %g to %g over %g m2 holds nothing", z_low, z_high, clast_bed_area(bed));
+              "a bed from %s to %s over %s holds nothing", clx_unit_text(z_low, "m"),
+              clx_unit_text(z_high, "m"), clx_unit_text(clast_bed_area(bed), "m^2"));
     CLX_TRY(take_spheres(assembly, &d));
     CLX_TRY(make_grid(&d));
     CLX_TRY(clast_table_init(&made, "local", d.n));

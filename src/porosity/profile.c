@@ -263,7 +263,8 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
     double high[3];
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
     CLX_CHECK(options->layer > 0.0 && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
-              "slices of %g m over %g m2 hold nothing", options->layer, clast_bed_area(bed));
+              "slices of %s over %s hold nothing", clx_unit_text(options->layer, "m"),
+              clx_unit_text(clast_bed_area(bed), "m^2"));
     clast_assembly_bounds(assembly, low, high);
     for (int32_t i = 0; i < assembly->n_grain && options->method == CLAST_POROSITY_SPHERES; ++i) {
         const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
@@ -282,8 +283,8 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
             : fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
     CLX_TRY(check_images(assembly, bed));
     CLX_CHECK(n <= SLICE_LIMIT, CLAST_E_LIMIT,
-              "%g slices of %g m; at most %d (coordinates in another unit?)", n, options->layer,
-              SLICE_LIMIT);
+              "%g slices of %s; at most %d (coordinates in another unit?)", n,
+              clx_unit_text(options->layer, "m"), SLICE_LIMIT);
     CLX_TRY(clast_table_init(&made, "profile", (int64_t)n));
     CLX_TRY(fill_columns(assembly, bed, options, &made));
     *table = made;
@@ -343,8 +344,8 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
     made.z_low = bed->floor + options->trim;
     made.z_high = made.top - options->trim;
     CLX_CHECK(made.z_high > made.z_low, CLAST_E_GEOMETRY,
-              "the bed is %g m high: trimming %g m at both ends leaves nothing",
-              made.top - bed->floor, options->trim);
+              "the bed is %s high: trimming %s at both ends leaves nothing",
+              clx_unit_text(made.top - bed->floor, "m"), clx_unit_text(options->trim, "m"));
     const bool cuts_low = options->trim > 0.0 || is_endless;
     const double edge[2] = {cuts_low ? made.z_low : -HUGE_VAL, made.z_high};
     double solid[1] = {0.0};
@@ -353,8 +354,8 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
     const double whole[2] = {made.z_low, made.z_high};
     double volume = 0.0;
     clast_bed_volumes(bed, 1, whole, &volume);
-    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY, "the bed has no volume between %g and %g m",
-              made.z_low, made.z_high);
+    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY, "the bed has no volume between %s and %s",
+              clx_unit_text(made.z_low, "m"), clx_unit_text(made.z_high, "m"));
     made.porosity = 1.0 - made.solid / volume;
     *bulk = made;
 done:

@@ -42,9 +42,9 @@ static clast_status check(int32_t n, const clast_table *profile, const clast_tab
                   CLAST_E_USAGE, "table %d is no porosity profile", i);
         for (int64_t k = 0; k < profile[i].n_row; ++k) {
             CLX_CHECK(fabs(low[k] - edge[k]) <= 1e-6 * (top[k] - edge[k]), CLAST_E_USAGE,
-                      "slice %lld of bed %d begins at %g m, that of another at %g m; give the same "
+                      "slice %lld of bed %d begins at %s, that of another at %s; give the same "
                       "--layer, --floor and container",
-                      (long long)k, i + 1, low[k], edge[k]);
+                      (long long)k, i + 1, clx_unit_text(low[k], "m"), clx_unit_text(edge[k], "m"));
         }
     }
 done:

@@ -77,8 +77,8 @@ clast_status clast_stress(const clast_table *table, const clast_bed *bed, const 
     double volume = 0.0;
     CLX_TRY(clx_contacts_read(table, &c));
     clast_bed_volumes(bed, 1, z, &volume);
-    CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %g and %g m", z[0],
-              z[1]);
+    CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %s and %s",
+              clx_unit_text(z[0], "m"), clx_unit_text(z[1], "m"));
     for (int64_t k = 0; k < c.n; ++k) {
         add_between(&c, k, z[0], z[1], sum);
     }

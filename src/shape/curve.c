@@ -41,11 +41,12 @@ static clast_status check_sieves(int32_t n_class, const double *sieve)
     CLX_CHECK(n_class >= 1, CLAST_E_CONFIG, "a sieve curve of %d classes", n_class);
     for (int32_t i = 0; i <= n_class; ++i) {
         CLX_CHECK(sieve[i] >= SIZE_MIN_M && sieve[i] <= SIZE_MAX_M, CLAST_E_CONFIG,
-                  "sieve %d: a size of %g m is not between %g and %g m", i + 1, sieve[i],
-                  SIZE_MIN_M, SIZE_MAX_M);
+                  "sieve %d: a size of %s is not between %s and %s", i + 1,
+                  clx_unit_text(sieve[i], "m"), clx_unit_text(SIZE_MIN_M, "m"),
+                  clx_unit_text(SIZE_MAX_M, "m"));
         CLX_CHECK(i == 0 || sieve[i] > sieve[i - 1], CLAST_E_CONFIG,
-                  "sieve %d: %g m is not larger than the one before, %g m; sieves must ascend",
-                  i + 1, sieve[i], sieve[i - 1]);
+                  "sieve %d: %s is not larger than the one before, %s; sieves must ascend", i + 1,
+                  clx_unit_text(sieve[i], "m"), clx_unit_text(sieve[i - 1], "m"));
     }
 done:
     return status;

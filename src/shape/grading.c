@@ -258,7 +258,8 @@ static clast_status check_size(double size, const char *what)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(size >= SIZE_MIN_M && size <= SIZE_MAX_M, CLAST_E_CONFIG,
-              "%s: a size of %g m is not between %g and %g m", what, size, SIZE_MIN_M, SIZE_MAX_M);
+              "%s: a size of %s is not between %s and %s", what, clx_unit_text(size, "m"),
+              clx_unit_text(SIZE_MIN_M, "m"), clx_unit_text(SIZE_MAX_M, "m"));
 done:
     return status;
 }
@@ -272,7 +273,8 @@ static clast_status fill_rows(const clast_sizes *sizes, bool by_mass, clast_grad
         const double high = sizes->high[i];
         CLX_TRY(check_size(low, "list"));
         CLX_TRY(check_size(high, "list"));
-        CLX_CHECK(low <= high, CLAST_E_CONFIG, "list: a bin from %g to %g m", low, high);
+        CLX_CHECK(low <= high, CLAST_E_CONFIG, "list: a bin from %s to %s", clx_unit_text(low, "m"),
+                  clx_unit_text(high, "m"));
         CLX_CHECK(isfinite(sizes->count[i]) && sizes->count[i] >= 0.0, CLAST_E_CONFIG,
                   "list: a count of %g is not a number from 0 up", sizes->count[i]);
         if (sizes->count[i] > 0.0) {
@@ -312,9 +314,9 @@ clast_status clast_grading_of_sizes(const clast_sizes *sizes, bool by_mass, clas
     for (int64_t i = 1; i < made->n_piece; ++i) {
         const piece *x = &made->item[i - 1];
         const piece *y = &made->item[i];
-        CLX_CHECK(y->low >= x->high, CLAST_E_CONFIG,
-                  "list: the bins %g to %g m and %g to %g m overlap", x->low, x->high, y->low,
-                  y->high);
+        CLX_CHECK(y->low >= x->high, CLAST_E_CONFIG, "list: the bins %s to %s and %s to %s overlap",
+                  clx_unit_text(x->low, "m"), clx_unit_text(x->high, "m"),
+                  clx_unit_text(y->low, "m"), clx_unit_text(y->high, "m"));
     }
     CLX_TRY(sum_pieces(made));
     *grading = made;
@@ -331,8 +333,8 @@ clast_status clast_grading_uniform(double low, double high, clast_grading **grad
     clast_grading *made = NULL;
     CLX_TRY(check_size(low, "uniform sizes"));
     CLX_TRY(check_size(high, "uniform sizes"));
-    CLX_CHECK(low <= high, CLAST_E_CONFIG, "uniform sizes: from %g to %g m; the first is larger",
-              low, high);
+    CLX_CHECK(low <= high, CLAST_E_CONFIG, "uniform sizes: from %s to %s; the first is larger",
+              clx_unit_text(low, "m"), clx_unit_text(high, "m"));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     *made = (clast_grading){.kind = LAW_UNIFORM, .low = low, .high = high};
     made->mean_cube = 0.25 * (low + high) * (low * low + high * high);
@@ -360,10 +362,11 @@ static clast_status check_lognormal(double mean, double deviation, double low, d
     clast_status status = CLAST_OK;
     CLX_TRY(check_size(mean, "log-normal sizes: mean"));
     CLX_CHECK(deviation > 0.0 && deviation <= 1e3 * mean, CLAST_E_CONFIG,
-              "log-normal sizes: a deviation of %g m is not above 0 and below 1000 means",
-              deviation);
+              "log-normal sizes: a deviation of %s is not above 0 and below 1000 means",
+              clx_unit_text(deviation, "m"));
     CLX_CHECK(low >= 0.0 && high > low, CLAST_E_CONFIG,
-              "log-normal sizes: the limits %g and %g m are not 0 <= low < high", low, high);
+              "log-normal sizes: the limits %s and %s are not 0 <= low < high",
+              clx_unit_text(low, "m"), clx_unit_text(high, "m"));
 done:
     return status;
 }
@@ -384,8 +387,8 @@ clast_status clast_grading_lognormal(double mean, double deviation, double low, 
     const double b = normal_place(made, high);
     made->cut_part = normal_between(a, b);
     CLX_CHECK(made->cut_part >= LEAST_PART, CLAST_E_CONFIG,
-              "log-normal sizes: only %.2g of the grains lie between %g and %g m", made->cut_part,
-              low, high);
+              "log-normal sizes: only %.2g of the grains lie between %s and %s", made->cut_part,
+              clx_unit_text(low, "m"), clx_unit_text(high, "m"));
     made->mean_cube = exp(3.0 * made->mu + 4.5 * variance) *
                       normal_between(a - 3.0 * made->sigma, b - 3.0 * made->sigma) / made->cut_part;
     *grading = made;

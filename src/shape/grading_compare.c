@@ -34,8 +34,8 @@ static clast_status check_grains(const clast_grading_sample *sample)
         const double d = sample->size[i];
         const double v = volume_of(sample, i);
         CLX_CHECK(d > 0.0 && isfinite(d) && v > 0.0 && isfinite(v), CLAST_E_CONFIG,
-                  "grain %lld: size %g m, volume %g m3; both must be finite and above 0",
-                  (long long)i, d, v);
+                  "grain %lld: size %s, volume %s; both must be finite and above 0", (long long)i,
+                  clx_unit_text(d, "m"), clx_unit_text(v, "m^3"));
     }
 done:
     return status;

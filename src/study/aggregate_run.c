@@ -233,9 +233,10 @@ static clast_status check_stop(const run *r)
         const clast_aggregate_result *result = &r->report.result[i];
         if (result->stop == CLAST_STOP_LIST) {
             return clx_fail(CLAST_E_CONVERGE,
-                            "all %d particles are placed and no stop criterion is met: mass %g kg, "
-                            "d_agg %g m, porosity %g; raise replicate",
-                            result->n_particle, result->mass, result->d_agg, result->porosity[0]);
+                            "all %d particles are placed and no stop criterion is met: mass %s, "
+                            "d_agg %s, porosity %g; raise replicate",
+                            result->n_particle, clx_unit_text(result->mass, "kg"),
+                            clx_unit_text(result->d_agg, "m"), result->porosity[0]);
         }
     }
     return CLAST_OK;

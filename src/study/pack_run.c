@@ -284,8 +284,8 @@ static clast_status begin(run *r, const char *folder, bool force)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(folder != NULL || r->config->frame_time == 0.0, CLAST_E_USAGE,
-              "frame_time %g s: frames are written into a run's folder; give one (-o)",
-              r->config->frame_time);
+              "frame_time %s: frames are written into a run's folder; give one (-o)",
+              clx_unit_text(r->config->frame_time, "s"));
     CLX_CHECK(folder != NULL || !force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
     if (folder != NULL && is_first(r)) {

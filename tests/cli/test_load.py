@@ -76,7 +76,7 @@ class Load(Case):
         self.assertEqual(whole.code, 0, whole.err)
         kept = (run / "summary.json").read_bytes()
         for _ in range(2):  # the second replaces what the first left
-            self.assert_fails(5, *lost, "--force", "-o", run, says=("not come to its end in 0.02 s", "until then is in", "run.new"))
+            self.assert_fails(5, *lost, "--force", "-o", run, says=("not come to its end in 20 ms", "until then is in", "run.new"))
             self.assertEqual((run / "summary.json").read_bytes(), kept)
             self.assertGreater(len(rows(new / "load.csv")), 1)
             self.assertEqual(list(new.glob("checkpoint*")), [])

@@ -187,10 +187,10 @@ class Pack(Case):
         curve = self.folder / "two.csv"
         curve.write_text("size_mm\n" + "4\n" * 400 + "30\n")
         self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "50mm",
-                          "--height", "0.5m", "--quiet", says=("reaches 0.03 m across", "half the period", "seed"))
+                          "--height", "0.5m", "--quiet", says=("reaches 30 mm across", "half the period", "seed"))
 
     def test_bad_input_is_one_line(self):
-        self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.319e-06 s or less", "contact_scheme exact"))
+        self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.31935 us or less", "contact_scheme exact"))
         self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
         self.assert_fails(2, *SMALL, "--layer", "10nm", says=("1e+07 slices", "layer"))  # known before the run, not after it
         self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "11mm", "--mass", "1g", says=("half the period",))

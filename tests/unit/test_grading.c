@@ -440,7 +440,7 @@ static void bad_laws_are_refused(void **state)
     (void)state;
     clast_grading *g = NULL;
     CHECK_REFUSED(clast_grading_uniform(2.0, 1.0, &g), "the first is larger");
-    CHECK_REFUSED(clast_grading_uniform(0.0, 1.0, &g), "0 m");
+    CHECK_REFUSED(clast_grading_uniform(0.0, 1.0, &g), "0 mm");
     CHECK_REFUSED(clast_grading_uniform((double)NAN, 1.0, &g), "nan m");
     CHECK_REFUSED(clast_grading_lognormal(1e-3, 0.0, 0.0, HUGE_VAL, &g), "deviation of 0");
     CHECK_REFUSED(clast_grading_lognormal(1e-3, 1e-3, 2e-3, 1e-3, &g), "limits");

@@ -1,8 +1,10 @@
 /* Unit: labels of keys and columns, and numbers in the units that people read. */
 #include "support.h"
 
+#include "base/status.h"
 #include "report/quantity.h"
 #include <clast/field.h>
+#include <math.h>
 #include <string.h>
 
 #define MICRO "\302\265"
@@ -98,12 +100,49 @@ static void the_terminal_reads_the_same_units(void **state)
     assert_true(factor == 1.0);
 }
 
+/* Refusals printed SI: "the cell holds 0.000710419 kg of 0.001 kg". */
+static void a_refusal_reads_the_same_units(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *si_unit, *text;
+    } cases[] = {
+        {7.10419e-4, "kg", "710.419 mg"},
+        {1e-3, "kg", "1 g"},
+        {2e-5, "m", "20 um"},
+        {-0.25, "m", "-250 mm"},
+        {1e6, "m", "1e+06 m"},
+        {1e-10, "m", "0.1 nm"},
+        {0.0, "m", "0 mm"},
+        {0.0, "Pa", "0 Pa"},
+        {0.0, "s", "0 s"},
+        {NAN, "m", "nan m"},
+        {HUGE_VAL, "Pa", "inf Pa"},
+        {-HUGE_VAL, "kg", "-inf kg"},
+        {6.3192e-6, "s", "6.3192 us"},
+        {3600.0, "s", "3600 s"},
+        {2e-5, "m^2", "20 mm^2"},
+        {2650.0, "kg/m^3", "2650 kg/m^3"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        assert_string_equal(clx_unit_text(cases[k].value, cases[k].si_unit), cases[k].text);
+    }
+    const char *text[8];
+    for (int k = 0; k < 8; ++k) { // as many in one message
+        text[k] = clx_unit_text(k + 1.0, "m");
+    }
+    assert_string_equal(text[0], "1 m");
+    assert_string_equal(text[7], "8 m");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_are_found_with_their_units),
         cmocka_unit_test(a_number_reads_in_the_unit_of_its_size),
         cmocka_unit_test(the_terminal_reads_the_same_units),
+        cmocka_unit_test(a_refusal_reads_the_same_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
