@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """The three cases that eight open-source DEM codes were compared on (Dosta and others, Computer Physics Communications 296 (2024) 109066), made smaller.
 
-Geometry, densities, friction and speeds are those of public scripts for the comparison (YADE's, MercuryDPM's, peclet's); its start files were not
-at hand, so beds are poured here. Grains are larger by --factor (their number falls with its cube), the modulus is lower (1e9 Pa there), and one
-restitution stands for its three to five.
+Geometry, densities, moduli, friction and restitution by pairs, and speeds are those of public scripts for the comparison (YADE's, MercuryDPM's, peclet's);
+its start files were not at hand, so beds are poured here. Grains are larger by --factor (their number falls with its cube) and their moduli lower by --softer:
+those published, 1, ask for steps of 1 us, which 0.1 s of an impact can have and 5 s of a silo had better not.
 
-    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 2] [--time 5] [--orifice 0.06] [--grains 25000]
+    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 2] [--softer 50] [--time 5] [--orifice 0.06] [--grains 25000]
 
 Writes FOLDER/CASE.csv.
 """
@@ -18,13 +18,30 @@ import random
 import subprocess
 
 CLAST = os.environ.get("CLAST", "clast")
-COMMON = ["--law", "hertz", "--poisson", "0.2", "--fluid-density", "0", "--restitution", "0.5", "--friction", "0.3", "--wall-friction", "0.2",
-          "--shake-amplitude", "0", "--rule", "speed", "--still-speed", "0.03", "--quiet", "-j", "1", "--force"]
+COMMON = ["--law", "hertz", "--poisson", "0.2", "--fluid-density", "0", "--shake-amplitude", "0", "--rule", "speed", "--quiet", "-j", "1", "--force"]
+YOUNG = {"m1": 1e9, "m2": 5e8, "steel": 2.1e11}  # Pa
+CONTACTS = {("m1", "m1"): (0.3, 0.5), ("m1", "m2"): (0.2, 0.45), ("m2", "m2"): (0.4, 0.4), ("m1", "steel"): (0.2, 0.4), ("m2", "steel"): (0.2, 0.4),
+            ("steel", "steel"): (0.5, 0.6)}  # friction, restitution
 
 
 def clast(*arguments):
     out = subprocess.run([CLAST, *map(str, arguments), "--json"], check=True, stdout=subprocess.PIPE)
     return json.loads(out.stdout)
+
+
+def step_of(diameter, softer):
+    """A time step for spheres of M1 (s): a 30th of a collision at 1 m/s, or less."""
+    return 5e-3 * diameter * math.sqrt(softer / 200)
+
+
+def materials(softer, *grains):
+    """Options for spheres of these materials, a shape each, between walls of steel."""
+    out = [word for name in grains for word in ("--shapes", "sphere", "--material", name)]
+    for (a, b), (friction, restitution) in CONTACTS.items():
+        for x, y in ([(a, b)] if {a, b} <= set(grains) else []) + ([(a, "walls")] if a in grains and b == "steel" else []):
+            young = ",".join(f"{YOUNG[side] / softer:g}" for side in ((a, b) if x != y else (a,)))
+            out += ["--contacts", f"{x} {y} friction {friction} restitution {restitution} young {young}"]
+    return out
 
 
 def write_off(path, vertices, triangles):
@@ -57,12 +74,14 @@ def capped(vertices, triangles, which, n=64):
 
 
 def write_start(path, grains):
-    """Rows of a bed that begins: (x, y, z, diameter, density)."""
+    """Rows of a bed that begins: (x, y, z, diameter, density); grains of another density are another shape, in the order in which they come."""
+    shapes = {}
     with open(path, "w", encoding="utf-8", newline="") as file:
         out = csv.writer(file)
         out.writerow("shape x_m y_m z_m qw qx qy qz scale density_kg/m^3".split())
         for x, y, z, d, density in grains:
-            out.writerow(["1-sphere", x, y, z, 1, 0, 0, 0, d, density])
+            shape = shapes.setdefault(density, f"{len(shapes) + 1}-sphere")
+            out.writerow([shape, x, y, z, 1, 0, 0, 0, d, density])
 
 
 def loose(n, d, low, sides, round_=False):
@@ -99,7 +118,7 @@ def silo(folder, options):
     radius = options.orifice / 2
     cone = 0.1 - radius
     lip = -0.0554222 if radius > 0.025 else -0.0593008
-    diameter, n = 4e-3 * options.factor, round(100000 / options.factor ** 3)
+    diameter, n, softer = 4e-3 * options.factor, round(100000 / options.factor ** 3), options.softer or 200
     v, t = rings([0.1, 0.1, radius], [lip + cone + 0.5, lip + cone, lip])
     write_off(os.path.join(folder, "silo.off"), v, t)
     v, t = rings([radius + 5e-4], [lip + 1e-6])
@@ -108,8 +127,8 @@ def silo(folder, options):
     run = os.path.join(folder, "silo")
     mass = n * 2500 * math.pi / 6 * diameter ** 3
     write_start(os.path.join(folder, "silo_start.csv"), loose(n, diameter, lip + 0.6 * diameter, lambda z: (2 * (min(0.1, radius + z - lip) - 0.75 * diameter),) * 2, round_=True))
-    clast("pack", *COMMON, "--start", f"{folder}/silo_start.csv", "--young", "5e6", "--time-step", 2e-5 * options.factor, "--still-speed", "0.1",
-          "--shaking-time", "0", "--domain", "cylinder", "--width", "0.1999m", "--height", "1m", "--floor=no", "--wall", f"silo {folder}/silo.off m",
+    clast("pack", *COMMON, "--start", f"{folder}/silo_start.csv", *materials(softer, "m1"), "--time-step", step_of(diameter, softer),
+          "--still-speed", "0.1", "--shaking-time", "0", "--domain", "cylinder", "--width", "0.1999m", "--height", "1m", "--floor=no", "--wall", f"silo {folder}/silo.off m",
           "--wall", f"gate {folder}/gate.off m", "--outlet", f"z<{lip - diameter}m", "--stages", f"open gate until time {options.time or 5}s",
           "--series-time", "0.02s", "-o", run)
     rows = [row for row in table(run, "walls.csv") if row["stage"] == 1]
@@ -127,7 +146,8 @@ def silo(folder, options):
 
 def drum(folder, options):
     """Drum of radius 0.1 m and depth 0.06 m, 2 rad/s, up at x > 0: 30,000 spheres of 2 mm (2500 kg/m3) lie on 8,000 of 4 mm (2000 kg/m3)."""
-    factor, time, step = options.factor, options.time or 5.0, 1e-5 * options.factor
+    factor, time, softer = options.factor, options.time or 5.0, options.softer or 200
+    step = step_of(2e-3 * factor, softer)
     v, t = rings([0.1, 0.1], [-0.03, 0.03], along_y=True)
     capped(v, t, 0)
     capped(v, t, 1)
@@ -147,7 +167,7 @@ def drum(folder, options):
             assert z < 0.08, "the drum is full: take a greater factor"
     write_start(os.path.join(folder, "drum.csv"), grains)
     run = os.path.join(folder, "drum")
-    bed = ["pack", *COMMON, "--start", f"{folder}/drum.csv", "--young", "5e6", "--time-step", step, "--shaking-time", "0", "--container",
+    bed = ["pack", *COMMON, "--start", f"{folder}/drum.csv", *materials(softer, "m2", "m1"), "--still-speed", "0.03", "--time-step", step, "--shaking-time", "0", "--container",
            f"{folder}/drum.off", "--container-unit", "m", "--floor=no", "--wall", "container axis 0,-1,0 rotate 2rad/s", "-o", run]
     clast(*bed, "--stages", "container until time 1us")
     begun = table(run, "walls.csv")[-1]["step"]
@@ -167,7 +187,7 @@ def drum(folder, options):
         print("%5.2f s turned: share of the small and large grains in zone 1 (x, z > 0) %.4f, %.4f, in zone 2 (x, z < 0) %.4f, %.4f" % out[-1], flush=True)
 
 
-def struck(folder, grains, step, name, speed, *more):
+def struck(folder, grains, softer, step, name, speed, *more):
     """A run of these grains and a sphere of steel 0.15 m above the floor that a plate strikes down at this speed."""
     v, t = rings([0.02], [BEGIN + 0.01])
     capped(v, t, 0)
@@ -176,7 +196,7 @@ def struck(folder, grains, step, name, speed, *more):
         file.write(f"time_s,z_m\n0,0\n0.004,{-0.004 * speed}\n")
     write_start(os.path.join(folder, name + ".csv"), [*grains, (0.0, 0.0, BEGIN, 0.02, 7200.0)])
     run = os.path.join(folder, name)
-    clast("pack", *COMMON, "--start", f"{folder}/{name}.csv", "--young", "2e7", "--time-step", step, *BOX, "--height", "0.4m", "--shaking-time", "1s",
+    clast("pack", *COMMON, "--start", f"{folder}/{name}.csv", *materials(softer, *["m1"] * bool(grains), "steel"), "--time-step", step, *BOX, "--height", "0.4m", "--shaking-time", "1s",
           "--wall", f"plate {folder}/plate.off m table {folder}/plate.csv", "--wall-forces", "--series-time", "0.5ms", "-o", run, *more)
     return run
 
@@ -194,17 +214,20 @@ def impact(folder, options):
     """A steel sphere (20 mm, 7200 kg/m3) comes at 5 m/s, 0.15 m above the floor of a box of 0.1 by 0.06 m, onto 25,000 or 100,000 spheres of 2 mm (2500 kg/m3).
 
     Grains of a start are at rest: a plate strikes the sphere, at the speed that alone gives it 5 m/s."""
-    d, n, time, step = 2e-3 * options.factor, round(options.grains / options.factor ** 3), options.time or 0.1, 5e-6 * options.factor
-    bed = os.path.join(folder, "bed")
-    write_start(os.path.join(folder, "bed.csv"), loose(n, d, 0.6 * d, lambda z: (0.1 - d, 0.06 - d)))
-    clast("pack", *COMMON, "--start", f"{folder}/bed.csv", "--young", "2e6", "--time-step", 3 * step, *BOX, "--height", "0.6m", "--still-speed", "0.05",
-          "--shaking-time", "0", "-o", bed)
-    lying = [(row["x_m"], row["y_m"], row["z_m"], d, 2500.0) for row in table(bed, "grains.csv")]
+    d, n, time, softer = 2e-3 * options.factor, round(options.grains / options.factor ** 3), options.time or 0.1, options.softer or 50
+    step = step_of(d, softer)
+    lying = loose(n, d, 0.6 * d, lambda z: (0.1 - d, 0.06 - d))
+    for k in sorted({500.0, max(20.0, softer), softer}, reverse=True):  # what weight presses together does not fly apart once moduli are higher
+        write_start(os.path.join(folder, "bed.csv"), lying)
+        bed = os.path.join(folder, f"bed{k:g}")
+        clast("pack", *COMMON, "--start", f"{folder}/bed.csv", *materials(k, "m1"), "--time-step", step_of(d, k), *BOX, "--height", "0.6m",
+              "--still-speed", "0.05" if k > softer else "0.01", "--shaking-time", "0", "-o", bed)
+        lying = [(row["x_m"], row["y_m"], row["z_m"], d, 2500.0) for row in table(bed, "grains.csv")]
     top = sorted(g[2] for g in lying)[-n // 100] + d / 2
     print(f"{n} spheres of {1e3 * d:g} mm, top of the bed {1e3 * top:.1f} mm above the floor", flush=True)
     speed, flown, late = 10 / 3, 0.008, 0.0
     for _ in range(3):  # the sphere alone: 5 m/s where it would have begun, `late` after the start of the run
-        run = struck(folder, [], step, "alone", speed, "--max-steps", round(flown / step))
+        run = struck(folder, [], softer, step, "alone", speed, "--max-steps", round(flown / step))
         first = height(run)
         clast("pack", "--resume", run, "--quiet", "--max-steps", round(2 * flown / step))
         v = (first - height(run)) / (step * (round(2 * flown / step) - round(flown / step))) - 9.81 * 1.5 * flown
@@ -217,7 +240,7 @@ def impact(folder, options):
     for k in range(1, round(time / 0.0025) + 1):
         steps = ["--max-steps", round((late + k * 0.0025) / step)]
         if k == 1:
-            run = struck(folder, lying, step, "impact", speed, *steps)
+            run = struck(folder, lying, softer, step, "impact", speed, *steps)
         else:
             clast("pack", "--resume", run, "--quiet", *steps)
         out.append((k * 0.0025, height(run) - BEGIN))
@@ -234,6 +257,7 @@ def main():
     parser.add_argument("case", choices=("silo", "drum", "impact"))
     parser.add_argument("folder")
     parser.add_argument("--factor", type=float, default=4)
+    parser.add_argument("--softer", type=float)
     parser.add_argument("--time", type=float)
     parser.add_argument("--orifice", type=float, choices=(0.06, 0.04), default=0.06)
     parser.add_argument("--grains", type=int, default=25000)

@@ -49,9 +49,11 @@ double clx_pack_speed_limit(const clast_pack *p)
     clx_pack_densities(p, &light, &heavy);
     const double r = 0.5 * low;
     const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
-    double least = clx_law_speed(&p->dem->law, mass, r, r);
-    for (int32_t k = 0; k < p->dem->laws.n * p->dem->laws.n; ++k) {
-        least = fmin(least, clx_law_speed(&p->dem->laws.law[k], mass, r, r));
+    double least = INFINITY;
+    for (int32_t i = 0; i < p->dem->n_body; ++i) {
+        for (int32_t k = 0; k < clx_n_law(p->dem); ++k) {
+            least = fmin(least, clx_law_speed(clx_law_at(p->dem, i, k), mass, r, r));
+        }
     }
     return FASTEST * least;
 }

@@ -187,6 +187,11 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall + " rotate 3rpm", says=("wall 1", "no axis"))
         self.assert_fails(2, *bed, "--wall", wall, "--wall", wall, says=("wall 2", "has this name"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-40m/s", says=("wall 1", "faster than half"))
+        stiff = [word for pair in ("grains grains", "grains walls") for word in ("--contacts", pair + " collision_time 10us")]
+        fast = ["--wall", wall + " move 0,0,-20m/s", "--time-step", "0.2us", "--max-steps", "1", "-o", self.folder / "fast"]
+        self.assert_fails(2, *bed, *fast, says=("wall 1", "faster than half"))
+        done = clast(*bed, *fast, *stiff)
+        self.assertEqual(done.code, 0, done.err)  # what no two sides have does not count
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate=1kPa", says=("stage 1", "direction"))
         self.assert_fails(2, *bed, "--wall", wall + " press 1,0,0", "--stages", "plate=1kPa until stress", says=("stage 1", "no area"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate until time 1s", says=("stage 1", "no motion"))
