@@ -160,9 +160,8 @@ done:
 
 static clast_status bad_range(const clast_field *f, const char *text)
 {
-    const bool has_unit = f->unit != NULL && strcmp(f->unit, "-") != 0;
-    return clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%g, %g]%s%s", f->name, text, f->low,
-                    f->high, has_unit ? " " : "", has_unit ? f->unit : "");
+    return clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%s, %s]", f->name, text,
+                    clx_unit_text(f->low, f->unit), clx_unit_text(f->high, f->unit));
 }
 
 /// A number of the field; `is_si`: bare ones are SI, else lengths and angles need a unit.

@@ -20,9 +20,11 @@ static int32_t n_choice(const clast_field *f)
 static clast_status check_number(const clast_field *f, double value)
 {
     const bool is_inside = isfinite(value) && value >= f->low && value <= f->high;
-    return is_inside || value == f->value ? CLAST_OK
-                                          : clx_fail(CLAST_E_CONFIG, "%s: %g is outside [%g, %g]",
-                                                     f->name, value, f->low, f->high);
+    return is_inside || value == f->value
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%s, %s]", f->name,
+                          clx_unit_text(value, f->unit), clx_unit_text(f->low, f->unit),
+                          clx_unit_text(f->high, f->unit));
 }
 
 static clast_status check_numbers(const clast_field *f, const clast_f64_list *list)

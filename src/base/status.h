@@ -29,7 +29,8 @@ CLX_SHARED const char *clx_errno_text(void);
 const char *clx_error_text(int error);
 
 /// A number in a person's unit (clast_unit_for) for messages, "710.419 mg" of 7.10419e-4 kg: six
-/// digits, as refusals compare numbers that lie close. Lives until the thread's 8th call after it.
+/// digits, as refusals compare numbers that lie close. NULL or "-": the number alone. Lives until
+/// the thread's 8th call after it.
 CLX_SHARED const char *clx_unit_text(double value, const char *si_unit);
 
 #define CLX_CHECK(condition, code, ...)                                                            \

@@ -193,8 +193,10 @@ const char *clx_unit_text(double value, const char *si_unit)
     static _Thread_local unsigned next;
     char *out = shown[next++ % 8];
     double factor = 1.0;
-    const char *name = clast_unit_for(value, si_unit, &factor);
-    (void)clx_number_print(out, sizeof shown[0], "%g %s", value * factor, name);
+    const bool is_plain = si_unit == NULL || strcmp(si_unit, "-") == 0;
+    const char *name = is_plain ? "" : clast_unit_for(value, si_unit, &factor);
+    (void)clx_number_print(out, sizeof shown[0], "%g%s%s", value * factor, is_plain ? "" : " ",
+                           name);
     return out;
 }
 

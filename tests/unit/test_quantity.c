@@ -124,6 +124,8 @@ static void a_refusal_reads_the_same_units(void **state)
         {3600.0, "s", "3600 s"},
         {2e-5, "m^2", "20 mm^2"},
         {2650.0, "kg/m^3", "2650 kg/m^3"},
+        {0.3, "-", "0.3"},
+        {0.3, NULL, "0.3"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         assert_string_equal(clx_unit_text(cases[k].value, cases[k].si_unit), cases[k].text);
