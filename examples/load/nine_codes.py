@@ -221,7 +221,7 @@ def impact(folder, options):
         write_start(os.path.join(folder, "bed.csv"), lying)
         bed = os.path.join(folder, f"bed{k:g}")
         clast("pack", *COMMON, "--start", f"{folder}/bed.csv", *materials(k, "m1"), "--time-step", step_of(d, k), *BOX, "--height", "0.6m",
-              "--still-speed", "0.05" if k > softer else "0.01", "--shaking-time", "0", "-o", bed)
+              "--still-speed", "0.05", "--shaking-time", "0", "-o", bed)
         lying = [(row["x_m"], row["y_m"], row["z_m"], d, 2500.0) for row in table(bed, "grains.csv")]
     top = sorted(g[2] for g in lying)[-n // 100] + d / 2
     print(f"{n} spheres of {1e3 * d:g} mm, top of the bed {1e3 * top:.1f} mm above the floor", flush=True)
