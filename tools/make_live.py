@@ -8,6 +8,7 @@ import hashlib
 import html
 import json
 import pathlib
+import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -25,13 +26,18 @@ def inside(text):
     return text
 
 
+def bare(script):
+    """A script without indentation and lines of comment, which this repository keeps."""
+    return re.sub(r"^ *(//.*\n)?", "", script, flags=re.M)
+
+
 def packed(data):
     return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
 
 
 def page(build):
     web = ROOT / "web"
-    scripts = ["\n" + inside("\n".join((web / f"live/{name}.js").read_text() for name in names)) for names in (SCRIPTS, (LAST,))]
+    scripts = ["\n" + inside(bare("\n".join((web / f"live/{name}.js").read_text() for name in names))) for names in (SCRIPTS, (LAST,))]
     digests = " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts)
     policy = (f"default-src 'none'; script-src {digests} blob: 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; "
               "img-src data: blob:; connect-src blob:; base-uri 'none'; form-action 'none'")

@@ -5,6 +5,7 @@ import hashlib
 import io
 import json
 import pathlib
+import shlex
 import subprocess
 import tempfile
 import time
@@ -182,6 +183,132 @@ class Split(page.Live):
         self.assertIn("--mesh=boxes", self.text("command"))
         self.open("split=AAAA")
         self.assertIn("damaged", self.text("error"))
+
+    TABLES = {"bare.csv": b"100,250,0\n300,350,0\n400,150,0\n", "upper.csv": b"id,X,Y\n1,0.1,0.25\n2,0.3,0.35\n3,0.4,0.15\n", "quoted.csv": b'"x (mm)","y (mm)"\r\n1,2.5\r\n3,3.5\r\n4,1.5\r\n',
+              "named.tsv": b"y_um\tx_um\n250\t100\n350\t300\n150\t400\n", "semi.csv": b"x; y; z\n0.1; 0.25; 0.5\n0.3; 0.35; 0.6\n0.4; 0.15; 0.9\n"}
+
+    def test_columns_that_the_picture_shows_are_those_that_clast_reads(self):
+        """A table without header, with X, or with units in its names was drawn and then refused; a column z of zeros gave a domain that is none."""
+        for name, content in self.TABLES.items():
+            with self.subTest(name):
+                self.drop(name, content)
+                self.split()
+                self.assertEqual(self.text("error"), "")
+                self.assertEqual(self.browser.value("state.result.json.n"), 3)
+                self.assertEqual(self.browser.value("JSON.stringify(domainBox().map((ends, a) => ends.map((v, e) => Math.abs(v / state.result.cells[`${'xy'[a]}_${e ? 'high' : 'low'}_m`][0] - 1) < 1e-9)))"),
+                                 "[[true,true],[true,true]]")
+                with page.Folder() as folder:
+                    (folder / name).write_bytes(content)
+                    self.native(folder, *shlex.split(self.text("command"))[1:])
+                    self.assertEqual(hashlib.sha256((folder / "cells/cells.csv").read_bytes()).hexdigest(), self.text("hash"))
+
+    def test_columns_that_may_be_anything_are_not_guessed(self):
+        for content in (b"1,0.1,0.2,0.3\n2,0.3,0.4,0.2\n", b"id,radius,height\n1,0.1,0.2\n2,0.3,0.4\n"):
+            self.drop("any.csv", content)
+            self.split()
+            self.assertIn("no column of numbers named 'x'; it has", self.text("error"))
+
+    def test_points_in_one_place_have_no_box(self):
+        """The box around them, of no size, was what the command refused, not what is wrong with them."""
+        for content, said in ((b"x,y\n0.1,nan\n0.3,0.4\n", "point 1 has a coordinate that is not finite"), (b"x,y\n0.1,0.2\n", "")):
+            self.drop("few.csv", content)
+            self.assertTrue(self.text("given").endswith("in 2 dimensions, its domain is to be given"), self.text("given"))
+            self.assertEqual(self.browser.value("document.getElementById('domain').value"), "box:0,0,1,1")
+            self.split()
+            self.assertIn(said, self.text("error"))
+            self.assertEqual(said == "", self.text("error") == "")
+
+    def test_a_decimal_comma_is_told(self):
+        """Its digits became columns, and the domain around them was what the command refused."""
+        self.drop("comma.csv", b"x;y\n0,134;0,5\n0,2;0,1\n")
+        self.assertEqual(self.browser.value("document.getElementById('domain').value"), "box:0,0,1,1")
+        self.split()
+        self.assertIn("a decimal comma?", self.text("error"))
+
+    def test_cells_are_drawn_in_the_unit_that_is_typed(self):
+        """Cells in metres were drawn beside points in micrometres: none was seen."""
+        self.drop("drops.csv", b"x,y\n100,250\n300,350\n400,150\n900,450\n")
+        for domain, more in (("box:0,0,1000,500", "--unit um"), ("box:0mm,0mm,1mm,500um", "--unit=um")):
+            with self.subTest(domain):
+                self.set(domain=domain, more=more)
+                self.split()
+                self.assertEqual(self.text("error"), "")
+                box = "(() => { const s = scaleOf(); const { cells } = state.result; return [s.x(cells.x_low_m[0]), s.x(cells.x_high_m[0])].map(Math.round); })()"
+                self.assertEqual(self.browser.value(box), [14, 626])
+
+    def test_a_link_is_copied_and_the_result_stays(self):
+        """The address that it set opened itself: the result went, and a run with it."""
+        self.click("[data-make=cluster]")
+        self.split()
+        self.click("#share")
+        time.sleep(0.3)
+        self.assertFalse(self.browser.value("document.getElementById('result').hidden"))
+        self.assertTrue(self.browser.value("location.hash.startsWith('#split=')"))
+
+    def test_a_painted_cloud_opens_as_one(self):
+        """Painting on in a cloud that a link had brought emptied it."""
+        self.browser.value("take(new File(['x,y\\n0.1,0.2\\n0.3,0.1\\n'], 'painted.csv'))")
+        self.open(f"split={self.browser.value('shared()')}")
+        self.click("#paint")
+        self.assertEqual(self.text("given"), "painted.csv: 2 points in 2 dimensions")
+
+    def test_painting_after_a_table_of_another_size(self):
+        """The domain of the table before stayed, and no stroke fell into it."""
+        self.drop("wide.csv", b"x,y\n100,200\n300,400\n500,100\n")
+        self.click("#paint")
+        self.browser.value("(() => { const box = $('picture').getBoundingClientRect(); state.strokes.push([]); for (let k = 0; k < 9; k += 1) spray({clientX: box.left + 200, clientY: box.top + 200}); })()")
+        self.assertRegex(self.text("given"), r"^painted.csv: \d+ points")
+        self.drop("few.csv", b"x,y\n0.1,0.2\n0.3,0.1\n")
+        self.assertEqual(self.browser.value("document.getElementById('paint').getAttribute('aria-pressed')"), "false")
+
+    def test_painting_by_keyboard(self):
+        self.click("#paint")
+        self.browser.value("document.getElementById('picture').focus()")
+        for key in ("ArrowLeft", "ArrowUp", " ", "ArrowUp", " "):
+            for kind in ("keyDown", "keyUp"):
+                self.browser.call("Input.dispatchKeyEvent", type=kind, key=key)
+        self.assertRegex(self.text("given"), r"^painted.csv: \d+ points")
+        self.assertIn("Space paints", self.browser.value("document.getElementById('picture').getAttribute('aria-label')"))
+        self.click("#undo")
+        self.assertRegex(self.text("given"), r"^painted.csv: [1-6] points?")
+
+    def test_what_is_no_table_leaves_the_points(self):
+        self.click("[data-make=cluster]")
+        self.split()
+        self.drop("grain.stl", b"solid x\nendsolid x\n")
+        self.assertEqual(self.text("error"), "grain.stl is a surface; the rooms Grow and Pour take it")
+        self.assertFalse(self.browser.value("document.getElementById('result').hidden"))
+        self.browser.value("rooms.split.take([new File(['x,y\\n1,2\\n3,4\\n'], 'one.csv'), new File(['x,y\\n'], 'two.csv')])")
+        self.until("state.name === 'one.csv' && document.getElementById('error').textContent === 'one table at a time: two.csv is left out'", 5)
+
+    def test_numbers_of_a_cell_go_with_it(self):
+        self.click("[data-make=cluster]")
+        self.split()
+        self.browser.value("pick(0)")
+        self.click("[data-make=even]")
+        self.assertRegex(self.text("picked"), "^Point at a cell")
+        self.assertEqual(self.text("state"), "")
+
+    def test_a_million_points_are_drawn_at_once(self):
+        """A rectangle for each took 40 s, again at every cell pointed at."""
+        self.browser.value("(() => { const draw_ = draws(3); const rows = Array.from({length: 1e6}, () => `${draw_().toFixed(6)},${draw_().toFixed(6)}`); setPoints('m.csv', `x,y\\n${rows.join('\\n')}\\n`); })()")
+        begun = self.browser.cpu()
+        self.browser.value("draw(), new Promise((go) => requestAnimationFrame(() => setTimeout(go, 50)))")
+        self.assertLess(self.browser.cpu() - begun, 3)
+        dark = "[...$('picture').getContext('2d').getImageData(200, 200, 200, 200).data].filter((v, k) => k % 4 === 3 && v > 60).length"
+        self.assertGreater(self.browser.value(dark), 35000)
+        self.browser.value("window.drawn = 0, drawMany = ((real) => (...given) => { window.drawn += 1; real(...given); })(drawMany), 0")
+        self.browser.value("state.result = {json: {n_cell: 1}, cells: {x_low_m: [0], x_high_m: [1], y_low_m: [0], y_high_m: [1], count: [1e6], density: [1e6], pair_integral: [5e11]}}, pick(0)")
+        self.assertEqual(self.browser.value("window.drawn"), 0)
+
+    def test_a_phone_scrolls_downwards_alone(self):
+        """The digest was wider than the page, and on a small one the field of files."""
+        self.click("[data-make=cluster]")
+        self.split()
+        for wide in (400, 320):
+            self.browser.screen(wide, 800, False)
+            self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), wide)
+        self.browser.screen(1280, 900, False)
 
 
 if __name__ == "__main__":

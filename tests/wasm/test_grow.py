@@ -87,6 +87,22 @@ class Grow(page.Live):
         self.click("#to-split")
         self.until("rooms.split.engine.isReady", 60)
 
+    def test_a_button_that_rests_hands_the_focus_on(self):
+        """The keyboard's focus fell to the page when Grow was pressed, and when Cancel was."""
+        focus = "document.activeElement.id"
+
+        def press():
+            for kind in ("keyDown", "keyUp"):
+                self.browser.call("Input.dispatchKeyEvent", type=kind, key="Enter", windowsVirtualKeyCode=13, **({"text": "\r"} if kind == "keyDown" else {}))
+        self.set(replicate="400", rays="64", orientations="32")
+        self.browser.value("document.getElementById('grow-run').focus()")
+        press()
+        self.assertEqual(self.browser.value(focus), "grow-cancel")
+        press()
+        self.assertEqual(self.text("grow-state"), "cancelled")
+        self.until("rooms.grow.engine.isReady", 30)
+        self.assertEqual(self.browser.value(focus), "grow-run")
+
     def test_a_cancelled_run_shows_nothing_later(self):
         """Cancelled while its digest was computed, it was shown, and ended the run that had begun since."""
         self.set(replicate="2", rays="1", orientations="1")

@@ -102,6 +102,14 @@ class Pour(page.Live):
                 self.run_room()
                 self.assertRegex(self.text("pour-error"), "^clast pack: ")
 
+    def test_the_view_says_how_many_grains_it_shows(self):
+        """It went on saying how many there were in its first picture."""
+        self.set(**SMALL, max_steps="2000", curve="uniform", shape="ellipsoid")
+        self.run_room()
+        n = self.browser.value("rooms.pour.result.json.n_grain")
+        self.assertGreater(n, 1)
+        self.assertIn(f"3-D view of {n} grains.", self.browser.value("document.querySelector('#pour-view .view-stage').getAttribute('aria-label')"))
+
     def test_undo_and_a_link(self):
         self.set(**SMALL, max_steps="600")
         self.run_room()

@@ -92,6 +92,15 @@ function fillTable(table, heads, rows) {
   }));
 }
 
+/// Which of two buttons can be pressed; one that rests hands the keyboard's focus to the other, as soon as that can.
+function setButtons(run, cancel, canRun, canCancel) {
+  const held = document.activeElement;
+  run.disabled = !canRun;
+  cancel.disabled = !canCancel && (canRun || held !== cancel);
+  if (held === run && canCancel) cancel.focus();
+  if (held === cancel && canRun) run.focus();
+}
+
 function figure(value, name) {
   const box = tag('div', '', 'figure');
   box.append(tag('b', value), tag('span', name));

@@ -71,8 +71,7 @@ class Room {
   }
 
   setReady() {
-    this.$('run').disabled = !this.engine.isReady || Boolean(this.running);
-    this.$('cancel').disabled = !this.running;
+    setButtons(this.$('run'), this.$('cancel'), this.engine.isReady && !this.running, this.running);
   }
 
   // Sliders: each writes into the text beside it, with its unit; what is typed turns the slider.
@@ -228,7 +227,7 @@ class Room {
     const kept = { values, files: Object.fromEntries([...files].map(([name, bytes]) => [name, base64Of(bytes)])) };
     const word = packed(kept);
     if (word.length > MOST_SHARED) { this.say('these files are too large for an address; take the zip'); return; }
-    location.hash = `${this.name}=${word}`;
+    history.replaceState(null, '', `#${this.name}=${word}`);
     copy(location.href, 'copied', (text) => this.say(text));
   }
 

@@ -2,9 +2,13 @@
 const SIZE = 640; // of the picture, in its own pixels
 const EDGE = 14;
 const FIELDS = ['domain', 'variant', 'mesh', 'beta_dt', 'more'];
+const PAINTED = 'painted.csv';
+const FLAT = 'box:0,0,1,1'; // domain of what is painted
+const under = new OffscreenCanvas(SIZE, SIZE).getContext('2d'); // the picture without marks
+const HINT = $('picked').textContent;
 const state = {
-  name: null, text: null, columns: [], bounds: null, // the table and what the picture shows of it
-  strokes: [], painting: false, result: null, picked: -1, running: false,
+  name: null, text: null, columns: [], names: '', unit: '', // the table and what the picture shows of it
+  strokes: [], painting: false, brush: [0.5, 0.5], result: null, picked: -1, running: false,
   turn: 0, arrival: 0, past: [], last: null, // runs and tables so far: the newest counts; what undo goes back to
 };
 
@@ -12,27 +16,37 @@ function say(text) { $('state').textContent = text; }
 function fail(text) { $('error').textContent = text; }
 
 function setReady() {
-  $('run').disabled = state.text === null || !splitter.isReady;
-  $('cancel').disabled = true;
+  setButtons($('run'), $('cancel'), state.text !== null && splitter.isReady && !state.running, state.running);
 }
 
 // Points.
 
-/// The numbers of the first columns x, y, z of a table with commas, tabs or blanks, for the picture; clast reads the text itself.
+/// Of a table, for the picture: its columns x, y, z or else the first ones, their names for --columns where clast does not look for them
+/// by itself, and the unit in them. clast reads the text itself.
 function glance(text) {
   const lines = text.split(/\r?\n/).filter((line) => line.trim() && !/^\s*#/.test(line));
-  const cut = (line) => line.trim().split(/[,;\t ]+/);
-  let names = cut(lines[0] ?? '');
-  let first = 1;
-  if (names.every((name) => name !== '' && Number.isFinite(Number(name)))) { names = names.map((_, k) => `column_${k + 1}`); first = 0; }
-  const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split('_')[0] === axis)).filter((k) => k >= 0);
-  const from = wanted.length > 1 ? wanted : names.slice(0, 3).map((_, k) => k);
-  const columns = from.map(() => new Float64Array(Math.max(0, lines.length - first)));
-  for (let i = first; i < lines.length; i += 1) {
-    const cells = cut(lines[i]);
-    from.forEach((k, axis) => { columns[axis][i - first] = Number(cells[k]); });
-  }
-  return columns.length >= 2 && columns[0].length > 0 && columns.every((c) => c.every(Number.isFinite)) ? columns : [];
+  const by = [';', '\t', ','].find((c) => lines[0]?.includes(c)) ?? /\s+/;
+  const cut = (line) => line.trim().split(by);
+  let names = cut(lines[0] ?? '').map((name) => name.trim().replace(/^"(.*)"$/, '$1'));
+  const isBare = names.every((name) => name !== '' && Number.isFinite(Number(name)));
+  if (isBare) names = names.map((_, k) => `column_${k + 1}`);
+  else lines.shift();
+  const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split(/[_ (]/)[0] === axis)).filter((k) => k >= 0);
+  const isKnown = wanted.length > 1 || (isBare && names.length < 4);
+  let from = wanted.length > 1 ? wanted : names.slice(0, 3).map((_, k) => k);
+  let columns = from.map(() => new Float64Array(lines.length));
+  lines.forEach((line, i) => {
+    const cells = cut(line);
+    from.forEach((k, axis) => { columns[axis][i] = Number(cells[k]?.trim() || NaN); });
+  });
+  if (columns.length < 2 || !columns.every((c) => c.some(Number.isFinite))) return { columns: [], names: '', unit: '' };
+  const isWide = (k) => columns[k].some((v) => v !== columns[k][0]);
+  if (isKnown && columns.length === 3 && isWide(0) && isWide(1) && !isWide(2)) [from, columns] = [from.slice(0, 2), columns.slice(0, 2)]; // flat
+  const chosen = from.map((k) => names[k]);
+  const units = chosen.map((name) => /[_ (](\w+)\)?$/.exec(name)?.[1]);
+  const unit = isKnown && FROM_UNIT.has(units[0]) && units.every((u) => u === units[0]) ? units[0] : '';
+  const isFound = !isKnown || chosen.join() === ['x', 'y', 'z'].filter((axis, k) => k < chosen.length || names.includes(axis)).join();
+  return { columns, names: isFound ? '' : chosen.join(), unit };
 }
 
 /// A box around the points, its corners rounded outwards to two digits of its size.
@@ -40,8 +54,8 @@ function boxAround(columns) {
   const low = [];
   const high = [];
   for (const column of columns) {
-    const least = column.reduce((a, b) => Math.min(a, b), Infinity);
-    const most = column.reduce((a, b) => Math.max(a, b), -Infinity);
+    const least = column.reduce((a, b) => (b < a ? b : a), Infinity);
+    const most = column.reduce((a, b) => (b > a ? b : a), -Infinity);
     const unit = 10 ** (Math.floor(Math.log10(most - least || Math.abs(most) || 1)) - 1);
     const digits = Math.max(0, -Math.round(Math.log10(unit)));
     low.push(Number((Math.floor(least / unit) * unit).toFixed(digits)));
@@ -50,26 +64,28 @@ function boxAround(columns) {
   return { low, high };
 }
 
+/// Metres of a number that is typed without a unit, where More options say; of one in the table.
+function bare() { return FROM_UNIT.get(/--unit[= ]+(\S+)/.exec($('more').value)?.[1]); }
+function metres() { return bare() ?? FROM_UNIT.get(state.unit) ?? 1; }
+
+/// Other points, or none.
 function setPoints(name, text, domain) {
   if (state.running) cancel();
+  else if (splitter.isReady) say('');
   state.arrival += 1;
-  state.name = name;
-  state.text = text;
-  state.columns = typeof text === 'string' ? glance(text) : [];
-  state.result = null;
-  state.picked = -1;
+  Object.assign(state, { name, text, columns: [], names: '', unit: '', result: null, picked: -1 }, typeof text === 'string' ? glance(text) : {});
+  setPainting(state.painting && (text === null || name === PAINTED));
   $('result').hidden = true;
   fail('');
   const d = state.columns.length;
   const n = d > 0 ? state.columns[0].length : 0;
-  $('given').textContent = n > 0 ? `${name}: ${n} points in ${d} dimensions` : `${name}: no columns to draw before it is split`;
-  if (n > 0) {
-    const box = boxAround(state.columns);
-    $('domain').value = domain ?? `box:${[...box.low, ...box.high].join(',')}`;
-  }
-  const names = 'xyz';
+  const { low, high } = boxAround(state.columns);
+  const isBox = n > 0 && low.every((v, k) => v < high[k]);
+  const box = domain ?? (isBox ? `box:${[...low, ...high].map((v) => v + state.unit)}` : '');
+  if (box) $('domain').value = box;
+  $('given').textContent = text === null ? 'no points yet' : n > 0 ? `${name}: ${n} point${n === 1 ? '' : 's'} in ${d} dimensions${box ? '' : ', its domain is to be given'}` : `${name}: not drawn here; clast reads it, its domain is to be given`;
   const pairs = d > 2 ? [[0, 1], [0, 2], [1, 2]] : [[0, 1]];
-  $('axes').replaceChildren(...pairs.map(([a, b]) => new Option(`${names[a]}, ${names[b]}`, `${a},${b}`)));
+  $('axes').replaceChildren(...pairs.map(([a, b]) => new Option(`${'xyz'[a]}, ${'xyz'[b]}`, `${a},${b}`)));
   setReady();
   draw();
 }
@@ -95,7 +111,7 @@ function make(kind) {
     }
     if (u.every((c) => c > 0 && c < 1)) rows.push(u.map((c) => c.toFixed(5)).join(','));
   }
-  setPoints(`${kind}.csv`, `${'x,y,z'.slice(0, 2 * d - 1)}\n${rows.join('\n')}\n`, d === 3 ? 'box:0,0,0,1,1,1' : 'box:0,0,1,1');
+  setPoints(`${kind}.csv`, `${'x,y,z'.slice(0, 2 * d - 1)}\n${rows.join('\n')}\n`, d === 3 ? 'box:0,0,0,1,1,1' : FLAT);
   note();
 }
 
@@ -104,19 +120,18 @@ function paintedText() {
 }
 
 function usePainted() {
-  if (state.strokes.length > 0) setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
+  if (state.strokes.length > 0) setPoints(PAINTED, paintedText(), FLAT);
   else noPoints();
   note();
 }
 
-function noPoints() {
-  if (state.running) cancel();
-  state.arrival += 1;
-  Object.assign(state, { name: null, text: null, columns: [], result: null });
-  $('result').hidden = true;
-  $('given').textContent = 'no points yet';
-  setReady();
-  draw();
+function noPoints() { setPoints(null, null); }
+
+function setPainting(isOn) {
+  state.painting = isOn;
+  $('paint').setAttribute('aria-pressed', String(isOn));
+  const hint = isOn ? 'Paint with the pointer, or in the picture by arrow keys and Space.' : HINT;
+  if ($('picked').textContent !== hint) $('picked').textContent = hint; // it is read aloud when it changes
 }
 
 // Undo: of points, strokes and options.
@@ -154,9 +169,9 @@ function domainBox() {
   const axes = $('axes').value.split(',').map(Number);
   const d = state.columns.length || 2;
   const words = /^box:(.*)$/.exec($('domain').value.trim());
-  const numbers = words ? words[1].split(',').map(Number) : [];
+  const numbers = words ? words[1].split(',').map((word) => siOf(word) * (/[a-z\u00b5]\s*$/i.test(word) ? 1 : bare() ?? 1)) : [];
   if (numbers.length === 2 * d && numbers.every(Number.isFinite)) return axes.map((a) => [numbers[a], numbers[d + a]]);
-  if (d > 0 && state.columns.length > 0) { const box = boxAround(state.columns); return axes.map((a) => [box.low[a], box.high[a]]); }
+  if (d > 0 && state.columns.length > 0) { const box = boxAround(state.columns); return axes.map((a) => [metres() * box.low[a], metres() * box.high[a]]); }
   return [[0, 1], [0, 1]];
 }
 
@@ -196,11 +211,41 @@ function colouring(cells) {
 
 function isFlat(cells) { return !('z_low_m' in cells); }
 
+function nameOfColour(cells) {
+  const by = $('colour').value;
+  if (by === 'count' || (by === 'value' && cells.events)) return $('colour').selectedOptions[0].text;
+  return `${by === 'value' ? 'pair integral' : by} (1/m^${isFlat(cells) ? 2 : 3})`;
+}
+
+/// Many points, pixel by pixel: a rectangle for each takes seconds.
+function drawMany(c, x, y, ink) {
+  const image = new ImageData(SIZE, SIZE);
+  const wide = x.length > 20000 ? 1 : 2;
+  for (let i = 0; i < x.length; i += 1) {
+    for (let k = 0; k < wide * wide; k += 1) {
+      const px = Math.floor(x[i] + (k >> 1));
+      const py = Math.floor(y[i] + (k & 1));
+      const at = 4 * (py * SIZE + px) + 3;
+      if (px >= 0 && px < SIZE && py >= 0 && py < SIZE) image.data[at] += (255 - image.data[at]) * (wide === 1 ? 0.5 : 0.85);
+    }
+  }
+  const layer = new OffscreenCanvas(SIZE, SIZE);
+  const over = layer.getContext('2d');
+  over.putImageData(image, 0, 0);
+  over.globalCompositeOperation = 'source-in';
+  over.fillStyle = ink;
+  over.fillRect(0, 0, SIZE, SIZE);
+  c.drawImage(layer, 0, 0);
+}
+
 function cornersOf(cells) {
   const axes = $('axes').value.split(',').map(Number).map((a) => 'xyz'[a]);
   const at = axes.map((a) => [cells[`${a}_low_m`], cells[`${a}_high_m`]]);
   return at.every(([low]) => low) ? at : null;
 }
+
+/// A cell's place in the picture: x, y, width, height.
+function boxOf([[x0, x1], [y0, y1]], i, s) { return [s.x(x0[i]), s.y(y1[i]), s.x(x1[i]) - s.x(x0[i]), s.y(y0[i]) - s.y(y1[i])]; }
 
 function drawCells(c, s) {
   const { cells } = state.result;
@@ -208,19 +253,19 @@ function drawCells(c, s) {
   if (!at) return;
   const paint = colouring(cells);
   for (let i = 0; i < at[0][0].length; i += 1) {
-    const box = [s.x(at[0][0][i]), s.y(at[1][1][i]), s.x(at[0][1][i]) - s.x(at[0][0][i]), s.y(at[1][0][i]) - s.y(at[1][1][i])];
+    const box = boxOf(at, i, s);
     c.globalAlpha = isFlat(cells) ? 0.75 : 0.12;
     c.fillStyle = paint.of(i);
     c.fillRect(...box);
     c.globalAlpha = 1;
-    c.strokeStyle = i === state.picked ? '#d55e00' : '#80808080';
-    c.lineWidth = i === state.picked ? 4 : 1;
+    c.strokeStyle = '#80808080';
+    c.lineWidth = 1;
     c.strokeRect(...box);
   }
   const number = (v) => Number(v.toPrecision(3)).toString();
   $('legend').style.backgroundImage = paint.ends ? `linear-gradient(90deg, ${COLOURS.join(',')})` : 'none';
   $('legend').replaceChildren(...(paint.ends
-    ? [number(paint.ends[0]), `${$('colour').selectedOptions[0].text}${paint.ends[2] ? ' (logarithmic)' : ''}`, number(paint.ends[1])]
+    ? [number(paint.ends[0]), `${nameOfColour(cells)}${paint.ends[2] ? ', logarithmic' : ''}`, number(paint.ends[1])]
     : ['label 0 to 7, one colour each']).map((t) => Object.assign(document.createElement('span'), { textContent: t })));
 }
 
@@ -238,15 +283,41 @@ function draw() {
   c.strokeStyle = style.getPropertyValue('--soft');
   c.lineWidth = 1.5;
   c.strokeRect(s.x(x0), s.y(y1), s.x(x1) - s.x(x0), s.y(y0) - s.y(y1));
+  const keys = state.painting ? ': arrow keys move the brush, Space paints' : state.result ? ': arrow keys go through the cells' : '';
+  let told = 'no points yet';
   if (state.columns.length > 0) {
     const n = state.columns[0].length;
-    const r = n > 20000 ? 0.6 : n > 3000 ? 1 : 1.6;
+    const [x, y] = [s.x, s.y].map((to, k) => state.columns[axes[k]].map((v) => to(metres() * v)));
     c.fillStyle = style.getPropertyValue('--ink');
-    c.globalAlpha = n > 20000 ? 0.4 : 0.85;
-    for (let i = 0; i < n; i += 1) c.fillRect(s.x(state.columns[axes[0]][i]) - r, s.y(state.columns[axes[1]][i]) - r, 2 * r, 2 * r);
-    c.globalAlpha = 1;
-    canvas.setAttribute('aria-label', `${n} points${state.result ? ` in ${state.result.json.n_cell} cells` : ''}`);
-  } else canvas.setAttribute('aria-label', 'no points yet');
+    if (n > 3000) drawMany(c, x, y, c.fillStyle);
+    else {
+      c.globalAlpha = 0.85;
+      for (let i = 0; i < n; i += 1) c.fillRect(x[i] - 1.6, y[i] - 1.6, 3.2, 3.2);
+      c.globalAlpha = 1;
+    }
+    told = `${n} points${state.result ? ` in ${state.result.json.n_cell} cells` : ''}`;
+  }
+  canvas.setAttribute('aria-label', told + keys);
+  under.clearRect(0, 0, SIZE, SIZE);
+  under.drawImage(canvas, 0, 0);
+  mark();
+}
+
+/// What moves over the picture, which is kept: to draw a million points or cells anew takes long.
+function mark() {
+  const c = $('picture').getContext('2d');
+  c.clearRect(0, 0, SIZE, SIZE);
+  c.drawImage(under.canvas, 0, 0);
+  const at = state.result && state.picked >= 0 && cornersOf(state.result.cells);
+  c.strokeStyle = '#d55e00';
+  c.lineWidth = 4;
+  if (at) c.strokeRect(...boxOf(at, state.picked, scaleOf()));
+  if (!state.painting) return;
+  c.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--accent');
+  c.lineWidth = 2;
+  c.beginPath();
+  c.arc(SIZE * state.brush[0], SIZE * state.brush[1], 20, 0, 7);
+  c.stroke();
 }
 
 function pick(i) {
@@ -257,7 +328,7 @@ function pick(i) {
   const name = cells.events ? 'events' : 'pair integral';
   $('picked').textContent = `cell ${k} of ${n}: ${cells.count[k]} points, density ${cells.density[k].toPrecision(4)} 1/m^${isFlat(cells) ? 2 : 3}, `
     + `${name} ${(cells.events ?? cells.pair_integral)[k].toPrecision(4)}${cells.label ? `, label ${cells.label[k]} of pass ${cells.pass[k]}` : ''}`;
-  draw();
+  mark();
 }
 
 function pointAt(event) {
@@ -280,20 +351,37 @@ function pickAt(event) {
 }
 
 function spray(event) {
-  const [x, y] = pointAt(event);
+  if ($('domain').value !== FLAT) setPoints(PAINTED, paintedText(), FLAT);
+  const [x, y] = pointAt(event).map((v) => v / (bare() ?? 1));
+  const box = $('picture').getBoundingClientRect();
+  state.brush = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
   const stroke = state.strokes[state.strokes.length - 1];
   for (let k = 0; k < 6; k += 1) {
     const p = [x + 0.03 * normal(Math.random), y + 0.03 * normal(Math.random)];
     if (p.every((c) => c > 0 && c < 1)) stroke.push(p.map((c) => c.toFixed(4)).join(','));
   }
   $('undo').disabled = false;
-  setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
+  setPoints(PAINTED, paintedText(), FLAT);
+}
+
+/// Arrow keys move the brush, Space paints where it is.
+function paintByKey(key, step) {
+  if (step) {
+    state.brush = state.brush.map((place, k) => Math.min(1, Math.max(0, place + 0.04 * step[k])));
+    mark();
+    return;
+  }
+  const box = $('picture').getBoundingClientRect();
+  state.strokes.push([]);
+  spray({ clientX: box.left + state.brush[0] * box.width, clientY: box.top + state.brush[1] * box.height });
+  note();
 }
 
 // Running.
 
 function wordsNow() {
   const words = ['decompose', state.name, `--domain=${$('domain').value.trim()}`];
+  if (state.names && !$('more').value.includes('--columns')) words.push(`--columns=${state.names}`);
   for (const key of ['variant', 'mesh', 'beta_dt']) {
     const value = $(key).value.trim();
     if (value) words.push(`--${key.replace('_', '-')}=${value}`);
@@ -310,12 +398,11 @@ async function start() {
   const { turn } = state;
   state.words = wordsNow();
   state.begun = performance.now();
-  $('run').disabled = true;
-  $('cancel').disabled = false;
   say('computing');
   $('result').hidden = true;
   state.result = null;
   state.running = true;
+  setReady();
   draw();
   try {
     await finish(await splitter.run(state.words, { [state.name]: state.text }), turn);
@@ -329,9 +416,11 @@ async function start() {
 }
 
 function cancel() {
+  if (!state.running) return;
   state.turn += 1;
   state.running = false;
   splitter.cancel();
+  setReady();
   say('cancelled');
 }
 
@@ -353,6 +442,7 @@ async function finish(ended, turn) {
   const text = (name) => new TextDecoder().decode(result.files[name]);
   state.result = { json: JSON.parse(result.stdout), hash, files: result.files, cells: columnsOf(text('cells/cells.csv')) };
   state.picked = -1;
+  setPainting(state.painting);
   $('colour').querySelector('[value=label]').disabled = !state.result.cells.label;
   if (!state.result.cells.label && $('colour').value === 'label') $('colour').value = 'density';
   show();
@@ -366,7 +456,7 @@ function show() {
   $('figures').replaceChildren(
     figure(short(r.n), `points in ${r.dimension} dimensions`), figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'),
     figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
-    figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}` : `above ${short(r[`${key}_low`])}`,
+    figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
       r.resolved ? '95 % interval' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
   fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), short(t.p), t.reject ? 'rejects' : '']));
   $('stop').textContent = r.stop ?? '';
@@ -384,13 +474,17 @@ function shared() {
 }
 
 function openSplit(kept) {
-  setPoints(plainName(String(kept.name), 'points'), String(kept.text), String(kept.domain));
-  for (const key of FIELDS.slice(1)) $(key).value = String(kept[key] ?? '');
+  const text = String(kept.text);
+  setPoints(plainName(String(kept.name), 'points'), text, String(kept.domain));
+  for (const key of FIELDS) $(key).value = String(kept[key] ?? '');
+  state.strokes = state.name === PAINTED ? [text.trim().split('\n').slice(1)] : [];
   state.last = snapshot();
+  draw();
 }
 
 async function take(file) {
   if (!file) return;
+  if (/\.(stl|obj|off)$/i.test(file.name)) { fail(`${file.name} is a surface; the rooms Grow and Pour take it`); return; }
   const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
   state.arrival += 1;
   const { arrival } = state;
@@ -407,12 +501,12 @@ async function take(file) {
 function listenSplit() {
   $('form').addEventListener('submit', (event) => { event.preventDefault(); if (!$('run').disabled) start(); });
   $('cancel').addEventListener('click', cancel);
-  $('file').addEventListener('change', () => take($('file').files[0]));
+  $('file').addEventListener('change', () => { take($('file').files[0]); $('file').value = ''; });
   document.querySelectorAll('[data-make]').forEach((b) => b.addEventListener('click', () => make(b.dataset.make)));
   $('paint').addEventListener('click', () => {
-    state.painting = !state.painting;
-    $('paint').setAttribute('aria-pressed', String(state.painting));
+    setPainting(!state.painting);
     if (state.painting) usePainted();
+    else draw();
   });
   $('undo').addEventListener('click', undo);
   $('clear').addEventListener('click', () => { state.strokes = []; usePainted(); });
@@ -429,19 +523,23 @@ function listenSplit() {
     else if (event.buttons > 0) spray(event);
   });
   picture.addEventListener('keydown', (event) => {
-    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-    if (step && state.result) { event.preventDefault(); pick(state.picked + step); }
+    const step = { ArrowRight: [1, 0], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowUp: [0, -1] }[event.key];
+    const isPaint = state.painting && (step || event.key === ' ');
+    if (!isPaint && !(step && state.result)) return;
+    event.preventDefault();
+    if (isPaint) paintByKey(event.key, step);
+    else pick(state.picked + step[0] + step[1]);
   });
-  for (const id of ['colour', 'axes', 'domain']) $(id).addEventListener('change', draw);
+  for (const id of ['colour', 'axes', 'domain', 'more']) $(id).addEventListener('change', draw);
   for (const key of FIELDS) $(key).addEventListener('change', note);
   state.last = snapshot();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
   $('copy').addEventListener('click', () => copy(commandOf(state.words), 'copied', say));
   $('zip').addEventListener('click', () => save(zipOf({ [state.name]: state.text, ...state.result.files }), 'cells.zip'));
   $('share').addEventListener('click', () => {
-    const word = typeof state.text === 'string' ? shared() : '';
-    if (!word || word.length > MOST_SHARED) { say('these points are too many for an address; take the zip'); return; }
-    location.hash = `split=${word}`;
+    const word = typeof state.text === 'string' && state.text.length < MOST_SHARED ? shared() : '';
+    if (!word || word.length > MOST_SHARED) { say('these points do not fit into an address; take the zip'); return; }
+    history.replaceState(null, '', `#split=${word}`);
     copy(location.href, 'copied', say);
   });
 }
@@ -453,6 +551,9 @@ const splitRoom = {
   fail,
   listen: listenSplit,
   open: openSplit,
-  take: (files) => take(files[0]),
+  take: async (files) => {
+    await take(files[0]);
+    if (files[1]) fail(`one table at a time: ${files[1].name} is left out`);
+  },
   shown: draw,
 };

@@ -53,7 +53,8 @@ function grow(view, n) {
   const drawn = view.meshes.reduce((sum, mesh) => sum + mesh.count, 0);
   const all = isEnd(view) ? view.data.n_grain : view.meshes.reduce((sum, mesh) => sum + mesh.userData.grain.length, 0);
   const share = drawn === all ? '' : `${drawn.toLocaleString('en')} of `;
-  view.note.textContent = `${share}${all.toLocaleString('en')} grains`;
+  view.note.textContent = `${share}${all.toLocaleString('en')} ${all === 1 ? 'grain' : 'grains'}`;
+  view.stage.setAttribute('aria-label', `3-D view of ${view.note.textContent}. ${KEYS}`);
   view.draw();
 }
 
@@ -221,7 +222,6 @@ export function listen(view) {
   let down = null;
   stage.tabIndex = 0;
   stage.setAttribute('role', 'application');
-  stage.setAttribute('aria-label', `3-D view of ${view.data.n_grain.toLocaleString('en')} grains. ${KEYS}`);
   stage.title = '';
   stage.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
