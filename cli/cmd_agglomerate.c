@@ -294,6 +294,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain));
     CLI_TRY(load(common, c, &l));
     l.input.domain = &domain;
+    cli_warn_of_units(common, &domain, &l.cloud[0]);
     CLI_TRY(clast_agglomerate(&l.input, &c->agglomerate, &result));
     out = summary(c, &result, cli_clock() - begun);
     cli_range_warn(common, &result.range);

@@ -224,6 +224,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(cli_agree(common, status));
     CLI_TRY(read_input(common, c, &domain, &cloud, &f));
     CLI_TRY(decompose(common, c, &domain, &cloud, &result, &f));
+    cli_warn_of_units(common, &domain, &cloud);
     if (c->n_size > 0) {
         const clast_decompose_parts parts = {c->n_size, c->regular};
         CLI_TRY(

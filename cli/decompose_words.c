@@ -197,13 +197,15 @@ static void print_passes(const clast_decomposition *r)
     }
 }
 
-static void print_events(const clast_decomposition *r)
+static void print_events(const clast_decomposition *r, int64_t n_repeated)
 {
     if (isnan(r->events_low)) {
-        (void)printf("%d cell%s, no %s: so many points repeat the place of another, and there is "
-                     "no density at such a place; leave copies out\n",
-                     r->cells.n, cli_plural(r->cells.n),
-                     r->beta_dt > 0.0 ? "number of events" : "pair integral");
+        (void)printf("%d cell%s, no %s: %s\n", r->cells.n, cli_plural(r->cells.n),
+                     r->beta_dt > 0.0 ? "number of events" : "pair integral",
+                     n_repeated > 0 ? "so many points repeat the place of another, and there is "
+                                      "no density at such a place; leave copies out"
+                                    : "points lie closer together than cells of this domain can "
+                                      "tell");
         return;
     }
     char high[32] = "-";
@@ -262,7 +264,7 @@ void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *
     }
     print_passes(r);
     (void)printf("stop: %s\n", clast_decompose_stop_text(r->stop));
-    print_events(r);
+    print_events(r, f->n_repeated);
     if (r->n_pass > 0 && r->points_per_bin < 10.0) {
         (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
                      "their noise; compare "

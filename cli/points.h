@@ -1,5 +1,6 @@
 #pragma once
 // Options that say how a file of points is read and which columns hold what.
+#include "command.h"
 #include <clast/clast.h>
 #include <jansson.h>
 
@@ -31,3 +32,8 @@ void cli_domain_json(json_t *out, const char *text, const clast_domain *domain);
 
 /// The domain in m; one of a file as it was typed.
 void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME]);
+
+/// Positions in um in a domain in m all lie in a corner of it: says so on stderr. Called by all
+/// ranks.
+void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
+                       const clast_cloud *cloud);

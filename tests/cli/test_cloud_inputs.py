@@ -67,6 +67,11 @@ class CloudInputs(Case):
                           says=["column 'x_mm' is in mm by its name", "um"])
         self.assert_fails(2, "decompose", mm, "--domain", CUBE, "--unit", "kg", says=["kg"])
         self.assert_fails(2, "decompose", mm, "--domain", "box:0,0,0,1kg,1,1", says=["domain 'box:0,0,0,1kg,1,1'"])
+        corner = self.write("um.csv", [[1e2 * c for c in p] for p in ROWS], "x_um,y_um,z_um\n")
+        for command in (["decompose"], ["agglomerate", "--constant", "1e-3", "--n-step", "1"]):
+            for domain, is_told in (("box:0,0,0,100,100,100", True), ("box:0,0,0,100um,100um,100um", False)):
+                r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
+                self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "repeat the place" in r.out), (is_told, False), r.err)
         agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]
         a = clast("agglomerate", mm, "--domain", "box:0,0,0,1m,1m,1m", "--unit", "mm", *agglomerate)
         b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)
