@@ -4,6 +4,7 @@
 #include "command.h"
 #include "decompose_pairs.h"
 #include "json.h"
+#include "quantity.h"
 #include <clast/decompose.h>
 #include <math.h>
 #include <stdio.h>
@@ -174,7 +175,7 @@ static void print_tests(const clast_uniformity *u, const clast_domain *domain,
             (void)snprintf(name, sizeof name, "%s %s,%s", v->name, axis_name(domain, v->axis[0]),
                            axis_name(domain, v->axis[1]));
         }
-        (void)printf("%-16s %12.6g %12.4g%s\n", name, v->statistic, v->p,
+        (void)printf("%-16s %12.6g %12s%s\n", name, v->statistic, cli_p_value(v->p),
                      v->reject ? "  rejects" : "");
     }
     cli_evenness_print(&f->evenness);

@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "json.h"
+#include "quantity.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,8 +60,8 @@ const char *cli_evenness_text(const cli_evenness *evenness)
 void cli_evenness_print(const cli_evenness *evenness)
 {
     if (evenness->has_spacing) {
-        (void)printf("%-16s %12.6g %12.4g%s\n", "spacing", evenness->spacing.ratio,
-                     evenness->spacing.p,
+        (void)printf("%-16s %12.6g %12s%s\n", "spacing", evenness->spacing.ratio,
+                     cli_p_value(evenness->spacing.p),
                      evenness->spacing.p >= level    ? ""
                      : evenness->spacing.ratio > 1.0 ? "  more even"
                                                      : "  less even");

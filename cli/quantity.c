@@ -5,15 +5,22 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { TEXT_SIZE = 64 };
+
+static char *next_text(void)
+{
+    static char shown[8][TEXT_SIZE];
+    static unsigned next;
+    return shown[next++ % 8];
+}
+
 const char *cli_quantity_as(double value, const char *si_unit, double like)
 {
-    static char shown[8][64];
-    static unsigned next;
-    char *out = shown[next++ % 8];
+    char *out = next_text();
     double factor = 1.0;
     const char *unit = clast_unit_for(like, si_unit, &factor);
     const double size = fabs(value * factor);
-    (void)snprintf(out, sizeof shown[0], size >= 1e4 && size < 1e6 ? "%.0f %s" : "%.4g %s",
+    (void)snprintf(out, TEXT_SIZE, size >= 1e4 && size < 1e6 ? "%.0f %s" : "%.4g %s",
                    value * factor, unit);
     return out;
 }
@@ -21,4 +28,11 @@ const char *cli_quantity_as(double value, const char *si_unit, double like)
 const char *cli_quantity(double value, const char *si_unit)
 {
     return cli_quantity_as(value, si_unit, value);
+}
+
+const char *cli_p_value(double p)
+{
+    char *out = next_text();
+    (void)snprintf(out, TEXT_SIZE, p == 0.0 ? "< 1e-300" : "%.4g", p);
+    return out;
 }

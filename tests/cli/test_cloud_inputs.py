@@ -72,6 +72,7 @@ class CloudInputs(Case):
             for domain, is_told in (("box:0,0,0,100,100,100", True), ("box:0,0,0,100um,100um,100um", False)):
                 r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
                 self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "repeat the place" in r.out), (is_told, False), r.err)
+                self.assertEqual("< 1e-300  rejects" in r.out, is_told and command[0] == "decompose", r.out)
         agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]
         a = clast("agglomerate", mm, "--domain", "box:0,0,0,1m,1m,1m", "--unit", "mm", *agglomerate)
         b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)

@@ -458,7 +458,7 @@ function show() {
     figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
     figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
       r.resolved ? '95 % interval' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
-  fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), short(t.p), t.reject ? 'rejects' : '']));
+  fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), t.p === 0 ? '< 1e-300' : short(t.p), t.reject ? 'rejects' : '']));
   $('stop').textContent = r.stop ?? '';
   $('passes_card').hidden = !(r.passes?.length > 0);
   fillTable($('passes'), ['bins', 'threshold', 'score', 'expected'], (r.passes ?? []).map((p) => [p.bins.join(' x '), short(p.lambda), short(p.score), short(p.ideal_score)]));
