@@ -3,7 +3,7 @@
 
 python3 tools/load_nine.py FOLDER [--library build/release/libclast_view.so] [-o docs/validation/load]
 
-FOLDER holds folders silo*, drum and impactFACTOR, one a run. Writes NAME_silo.csv, NAME_rates.csv, NAME_drum.csv and NAME_impact.csv, with the library
+FOLDER holds folders silo*, drumFACTOR, impactFACTOR (25,000 spheres of 2 mm) and deepFACTOR (100,000), one a run. Writes NAME_silo.csv, NAME_rates.csv, NAME_drum.csv and NAME_impact.csv, with the library
 NAME_silo.svg, NAME_drum.svg and NAME_impact.svg.
 """
 import argparse
@@ -11,6 +11,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -66,26 +67,31 @@ def silos(folder, name, library):
 
 
 def drums(folder, name, library):
-    rows = read(folder / "drum" / "zones.csv")
-    write(f"{name}_drum.csv", tuple(rows[0]), [tuple(r.values()) for r in rows])
-    small = [(r["time_s"], r["small_zone_2"]) for r in rows]
-    turns = [(x, y) for (_, a), (x, y), (_, b) in zip(small, small[1:], small[2:]) if (y - a) * (b - y) <= 0 and y != a]
-    print("drum: small grains in zone 2 turn at " + ", ".join(f"{x:.1f} s ({y:.3f})" for x, y in turns))
+    runs = {run.name: read(run / "zones.csv") for run in sorted(folder.glob("drum*"))}
+    write(f"{name}_drum.csv", ("run", *next(iter(runs.values()))[0]), [(run, *r.values()) for run, rows in runs.items() for r in rows])
+    lines = []
+    for run, rows in runs.items():
+        small = [(r["time_s"], r["small_zone_2"]) for r in rows]
+        turns = [(x, y) for (_, a), (x, y), (_, b) in zip(small, small[1:], small[2:]) if (y - a) * (b - y) <= 0 and y != a]
+        print(f"{run}: small grains in zone 2 turn at " + ", ".join(f"{x:.1f} s ({y:.3f})" for x, y in turns))
+        lines.append(chart.line(f"small, {2 * float(re.sub('[a-z]', '', run)):g} mm", len(lines), small))
     if library:
-        series = [chart.line("small", 0, small), chart.line("large", 1, [(r["time_s"], r["large_zone_2"]) for r in rows])]
-        series.append(chart.points("small, LIGGGHTS at full size: troughs", 2, [(1.4, 0.0), (3.4, 0.0)]))
-        chart.draw(library, f"{name}_drum.svg", "Drum: share of grains in zone 2 (x, z < 0)", "time turned (s)", "share (-)", series)
+        lines.append(chart.points("small of 2 mm, LIGGGHTS: troughs", len(lines), [(1.4, 0.0), (3.4, 0.0)]))
+        chart.draw(library, f"{name}_drum.svg", "Drum: share of grains in zone 2 (x, z < 0)", "time turned (s)", "share (-)", lines)
 
 
 def impacts(folder, name, library):
-    curves = {run.name: [(r["time_s"], r["displacement_m"]) for r in read(run / "way.csv")] for run in sorted(folder.glob("impact*"))}
+    runs = sorted(folder.glob("impact*")) + sorted(folder.glob("deep*"))
+    curves = {run.name: [(r["time_s"], r["displacement_m"]) for r in read(run / "way.csv")] for run in runs}
     write(f"{name}_impact.csv", ("run", "time_s", "displacement_m"), [(run, *p) for run, xy in curves.items() for p in xy])
     for run, xy in curves.items():
         least = min(xy, key=lambda p: p[1])
         print(f"{run}: deepest {1e3 * least[1]:.1f} mm at {least[0]:.4f} s, {1e3 * xy[-1][1]:.1f} mm at {xy[-1][0]:.3f} s")
     if library:
-        lines = [chart.line(f"{2 * float(run[6:]):g} mm", i, [(t, 1e3 * z) for t, z in xy]) for i, (run, xy) in enumerate(curves.items())]
-        lines.append(chart.points("25k, deepest: LIGGGHTS, MUSEN", len(lines), [(0.03, -139), (0.03, -138)]))
+        lines = [chart.line(f"{'deep bed, ' if run[0] == 'd' else ''}{2 * float(re.sub('[a-z]', '', run)):g} mm", i, [(t, 1e3 * z) for t, z in xy])
+                 for i, (run, xy) in enumerate(curves.items())]
+        lines.append(chart.points("deepest: LIGGGHTS, MUSEN", len(lines), [(0.03, -139), (0.03, -138)]))
+        lines.append(chart.points("deep bed, at rest: LIGGGHTS, MUSEN", len(lines), [(0.1, -90.5), (0.1, -90.9)]))
         chart.draw(library, f"{name}_impact.svg", "Way of a sphere that strikes a bed", "time (s)", "displacement (mm)", lines)
 
 

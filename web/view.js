@@ -3,7 +3,7 @@ import {
   AmbientLight, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { grow, listen, makeControls, showChains } from './view/controls.js';
+import { dark, grow, listen, makeControls, showChains } from './view/controls.js';
 import { makeCut, setCut, turnCap } from './view/cut.js';
 import { isEnd, readData } from './view/data.js';
 import { dropDots, measureSpeed, setLevel, settle, timeDrawing, touch } from './view/dots.js';
@@ -351,6 +351,8 @@ function print(view) {
   view.renderer.setPixelRatio(ratio);
   drawScale(view, PAPER.height);
 }
+
+window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', ({ matches }) => open.forEach((view) => dark(view, matches)));
 
 window.addEventListener('beforeprint', () => {
   waiting.slice(0, Math.max(0, MAX_VIEWS - open.length)).forEach((first) => first());

@@ -91,17 +91,29 @@ class Grow(page.Live):
         """The keyboard's focus fell to the page when Grow was pressed, and when Cancel was."""
         focus = "document.activeElement.id"
 
-        def press():
-            for kind in ("keyDown", "keyUp"):
-                self.browser.call("Input.dispatchKeyEvent", type=kind, key="Enter", windowsVirtualKeyCode=13, **({"text": "\r"} if kind == "keyDown" else {}))
+        def press(held=0):
+            for kind, more in [("keyDown", {"text": "\r"}), *[("keyDown", {"text": "\r", "autoRepeat": True})] * held, ("keyUp", {})]:
+                self.browser.call("Input.dispatchKeyEvent", type=kind, key="Enter", windowsVirtualKeyCode=13, **more)
         self.set(replicate="400", rays="64", orientations="32")
         self.browser.value("document.getElementById('grow-run').focus()")
-        press()
-        self.assertEqual(self.browser.value(focus), "grow-cancel")
+        press(held=3)
+        self.assertEqual((self.browser.value(focus), self.browser.value("Boolean(rooms.grow.running)")), ("grow-cancel", True))
         press()
         self.assertEqual(self.text("grow-state"), "cancelled")
         self.until("rooms.grow.engine.isReady", 30)
         self.assertEqual(self.browser.value(focus), "grow-run")
+        self.browser.value("document.getElementById('grow-undo').focus()")
+        while self.browser.value("!document.getElementById('grow-undo').disabled"):
+            press()
+        self.assertEqual(self.browser.value(focus), "grow-run")
+
+    def test_the_view_follows_the_system_in_dark_and_light(self):
+        self.set(replicate="2", rays="1", orientations="1")
+        self.click("#grow-run")
+        self.until("Boolean(rooms.grow.view?.renderer)", 60)
+        for theme, is_dark in (("dark", True), ("light", False)):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": theme}])
+            self.until(f"rooms.grow.view.dark === {str(is_dark).lower()}", 5)
 
     def test_a_cancelled_run_shows_nothing_later(self):
         """Cancelled while its digest was computed, it was shown, and ended the run that had begun since."""

@@ -101,6 +101,13 @@ function setButtons(run, cancel, canRun, canCancel) {
   if (held === cancel && canRun) run.focus();
 }
 
+/// Whether undo can be pressed; when it no more can, the keyboard's focus goes on.
+function setUndo(undo, can, next) {
+  const isHeld = document.activeElement === undo;
+  undo.disabled = !can;
+  if (isHeld && !can) next.focus();
+}
+
 function figure(value, name) {
   const box = tag('div', '', 'figure');
   box.append(tag('b', value), tag('span', name));

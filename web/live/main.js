@@ -59,6 +59,9 @@ function listenPage() {
       if (kind === 'drop' && event.dataTransfer.files.length > 0) rooms[shown].take([...event.dataTransfer.files]);
     });
   }
+  document.addEventListener('keydown', (event) => { // Enter that is held would go from Run to Cancel
+    if (event.repeat && event.key === 'Enter' && event.target.matches('button')) event.preventDefault();
+  });
   window.addEventListener('hashchange', () => openAddress(location.hash));
 }
 

@@ -66,7 +66,7 @@ class Room {
   undo() {
     const before = this.past.pop();
     if (before) this.restore(before);
-    this.$('undo').disabled = this.past.length === 0;
+    setUndo(this.$('undo'), this.past.length > 0, this.$('run'));
     this.say('undone');
   }
 

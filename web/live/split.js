@@ -158,7 +158,7 @@ function undo() {
   else if (before.text !== state.text || before.name !== state.name) setPoints(before.name, before.text);
   FIELDS.forEach((key, k) => { $(key).value = before.fields[k]; });
   state.last = before;
-  $('undo').disabled = state.past.length === 0;
+  setUndo($('undo'), state.past.length > 0, $('run'));
   draw();
   say('undone');
 }

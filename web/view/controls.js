@@ -240,4 +240,4 @@ export function listen(view) {
   });
 }
 
-export { grow, showChains };
+export { dark, grow, showChains };
