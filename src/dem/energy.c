@@ -167,6 +167,13 @@ static void meet(const clast_dem *dem, const clx_dem_pair *pair, const clx_dem_t
     }
 }
 
+/// Stiffness of the tangential spring as the book has it: without friction the law stretches it so
+/// that spring and dashpot cancel, and it holds nothing.
+static double tangential_of(const clx_meeting *m, const clx_springs *s)
+{
+    return m->friction > 0.0 ? s->tangential : 0.0;
+}
+
 /// What the springs of a contact hold at the middle of the step.
 static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_held *held)
 {
@@ -193,7 +200,7 @@ static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_
         share * (dem->law.has_neck
                      ? clx_law_energy(law, m.overlap, 0.0, m.mass, m.radius)
                      : (dem->law.kind == CLAST_DEM_LINEAR ? 0.5 : 0.4) * s.elastic * m.overlap);
-    held->tangential += share * 0.5 * s.tangential * v3_dot(pair->slide, ahead);
+    held->tangential += share * 0.5 * tangential_of(&m, &s) * v3_dot(pair->slide, ahead);
     // a pull that grows with the overlap is a spring, too; a constant one has its way
     held->attraction -= law->cohesion == CLAST_DEM_AREA
                             ? share * 0.5 * clx_law_pull(law, &m) * m.overlap
@@ -419,7 +426,8 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     const double spring = dt * share * s.elastic * by.apart;
     const double pull = -dt * share * clx_law_pull(law, &m) * by.apart;
     const double normal = dt * v3_dot(f->force, t.normal) * by.apart;
-    const double across = -dt * share * s.tangential * v3_dot(pair->slide, by.velocity);
+    const double stiffness = tangential_of(&m, &s);
+    const double across = -dt * share * stiffness * v3_dot(pair->slide, by.velocity);
     const double sheared = by.work + by.cell - normal - by.rolling - across;
     sum[CLX_WORK_NORMAL] += spring;
     sum[CLX_WORK_PULL] += pull;
@@ -431,13 +439,15 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
         // A dashpot that alone exceeds the limit stretches the spring against the force (xi . F >
         // 0): energy that the law makes and takes back, which is no friction.
         const bool is_stretched =
-            m.friction == 0.0 ||
             v3_dot(pair->slide, f->force) >
                 v3_dot(pair->slide, t.normal) * v3_dot(f->force, t.normal) ||
             v3_dot(before, f->force) > v3_dot(before, t.normal) * v3_dot(f->force, t.normal);
-        const double slipped = 0.5 * share * s.tangential * v3_dot(turned, slip);
+        const double slipped = 0.5 * share * stiffness * v3_dot(turned, slip);
         sum[CLX_LOST_SLIDING] -= sheared;
-        sum[CLX_LOST_FRICTION + wall] += fmax((is_stretched ? -across : slipped) - sheared, 0.0);
+        if (m.friction > 0.0) {
+            sum[CLX_LOST_FRICTION + wall] +=
+                fmax((is_stretched ? -across : slipped) - sheared, 0.0);
+        }
     } else {
         sum[CLX_LOST_DAMPING + wall] -= sheared;
     }
