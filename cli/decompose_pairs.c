@@ -77,6 +77,18 @@ json_t *cli_decompose_pairs_json(const clast_decomposition *r)
     return out;
 }
 
+void cli_points_needed_print(double n)
+{
+    const double unit = pow(10.0, floor(log10(n)) - 1.0); // two digits of it are told
+    if (!isfinite(n)) {
+        (void)printf("how many points would do cannot be told");
+    } else if (n < 1e6) {
+        (void)printf("about %.0f points would do", unit * round(n / unit));
+    } else {
+        (void)printf("about %.2g points would do", n);
+    }
+}
+
 static void print_interval(const clast_estimate *e)
 {
     if (e->resolved) {
@@ -145,12 +157,10 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells",
         r->estimator == CLAST_ESTIMATOR_PAIRS && is_capped ? ", up to each cell's cap" : "");
     if (!i->estimate.resolved) {
-        (void)printf("pairs do not resolve the cloud: ");
-        (void)printf(isfinite(i->n_needed)
-                         ? "about %.2g points would do\n"
-                         : "g rises down to the nearest pairs there are; how many "
-                           "points would do cannot be told\n",
-                     i->n_needed);
+        (void)printf("pairs do not resolve the cloud: %s",
+                     isfinite(i->n_needed) ? "" : "g rises down to the nearest pairs there are; ");
+        cli_points_needed_print(i->n_needed);
+        (void)printf("\n");
     }
     print_within(r);
     if (r->disagree) {

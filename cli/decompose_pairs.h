@@ -13,3 +13,6 @@ void cli_decompose_pairs_print(const clast_decomposition *result);
 
 /// pairs.csv, and the chart pairs.
 clast_status cli_decompose_pairs_write(const cli_decompose_job *job, const char *folder);
+
+/// How many points would resolve the cloud: about 2500, 1.2e+09, cannot be told.
+void cli_points_needed_print(double n);

@@ -155,10 +155,9 @@ static void print_resolved(const clast_decomposition *r)
     if (isfinite(r->cells_bias)) {
         (void)printf("; pairs in these cells are off by %+.2g %%, --mesh tree resolves them",
                      100.0 * r->cells_bias);
-    } else if (isfinite(r->points_needed)) {
-        (void)printf("; about %.2g points would do", r->points_needed);
     } else {
-        (void)printf("; how many points would do cannot be told");
+        (void)printf("; ");
+        cli_points_needed_print(r->points_needed);
     }
     (void)printf("\n");
 }

@@ -44,6 +44,10 @@ static const double most_poled = 0.08;   ///< of the value with poles over that 
 static const double most_size = 0.125;   ///< of the domain's: pairs closer than that and than the
                                          ///< narrowest s must be so many
 static const double least_pairs = 500.0;
+static const double least_spatial = 700.0; ///< points that resolve anything in three dimensions: of
+                                           ///< fewer whether it is called so moves the value
+static const double form_error = 0.01;    ///< half width that no number of pairs takes away: shapes
+                                          ///< stand for jumps and frames to so much
 static const double least_even = 1000.0;  ///< the same where nothing narrower than that size shows
 static const double most_repeated = 0.05; ///< share of repeated points' pairs in the window
 static const double chi2_95 = 3.841458820694124;
@@ -401,10 +405,15 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const double least = smooth.s < size ? least_pairs : least_even;
     const double close = pairs_within(in, fmin(smooth.s, size));
     const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
-    e->resolved = is_seen && is_allowed && doubt <= most_doubt && close >= least;
-    const bool is_chance = e->resolved && (fabs(log(kinked.value / smooth.value)) > most_between ||
-                                           !is_steady(in, &smooth, &kinked, f, e));
-    e->resolved = e->resolved && !is_chance;
+    const double least_points = in->d > 2 ? least_spatial : 0.0;
+    const bool is_met = is_seen && is_allowed && doubt <= most_doubt && close >= least;
+    const bool is_chance = is_met && (fabs(log(kinked.value / smooth.value)) > most_between ||
+                                      !is_steady(in, &smooth, &kinked, f, e));
+    e->resolved = is_met && !is_chance && in->n >= least_points;
+    if (e->resolved) {
+        e->low = e->value * exp(-hypot(log(e->value / e->low), form_error));
+        e->high = e->value * exp(hypot(log(e->high / e->value), form_error));
+    }
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
     made.n_needed = in->n;
@@ -412,7 +421,8 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     if (!e->resolved) { // the doubt falls as the root of the pairs
         const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
         const double steady = is_chance ? 1.0 / fewer : 1.1; // these are then the fewer points
-        made.n_needed = is_seen && is_allowed ? in->n * fmax(steady, more) : (double)INFINITY;
+        made.n_needed = is_seen && is_allowed ? fmax(least_points, in->n * fmax(steady, more))
+                                              : (double)INFINITY;
         e->high = INFINITY;
     }
     if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {

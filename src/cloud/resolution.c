@@ -63,20 +63,27 @@ static double step_at(const clx_ladder *l, int32_t r)
     return fmax(fmax(seen, before / expected_ratio), error_between(l, r, r - 2));
 }
 
-/// Least ratio of what successive halvings add: the measured one less its standard error. Where
-/// nothing is seen to fall that of a jump, or the lower one of the rung before.
+/// Ratio of what successive halvings add, less its standard error, by those that end at rung r;
+/// NAN where nothing is seen to fall.
+static double seen_ratio(const clx_ladder *l, int32_t r)
+{
+    CLAST_ASSERT(r >= 3 && r < l->n);
+    const double before = l->pairs[r - 1] - l->pairs[r - 3];
+    const double before_error = error_between(l, r - 1, r - 3);
+    const double ratio = (before - before_error) / (step_at(l, r) + error_between(l, r, r - 2));
+    return before < 2.0 * before_error ? (double)NAN : fmin(smooth, fmax(least_ratio, ratio));
+}
+
+/// Least ratio of what successive halvings add: the measured one. Where nothing is seen to fall
+/// that of a jump, or the lower one of the rung before. What ends at the first rung has no ratio of
+/// its own: that of a jump, or the lower one of the next, which poles show.
 static double least_ratio_at(const clx_ladder *l, int32_t r)
 {
     if (r < 3) {
-        return jump;
+        return l->n > 3 && l->n_pair[3] >= least_pairs ? fmin(jump, seen_ratio(l, 3)) : jump;
     }
-    const double before = l->pairs[r - 1] - l->pairs[r - 3];
-    const double before_error = error_between(l, r - 1, r - 3);
-    if (before < 2.0 * before_error) {
-        return fmin(jump, least_ratio_at(l, r - 1));
-    }
-    const double ratio = (before - before_error) / (step_at(l, r) + error_between(l, r, r - 2));
-    return fmin(smooth, fmax(least_ratio, ratio));
+    const double ratio = seen_ratio(l, r);
+    return isnan(ratio) ? fmin(jump, least_ratio_at(l, r - 1)) : ratio;
 }
 
 static reading read_rung(const clx_ladder *l, int32_t r)

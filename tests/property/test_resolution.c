@@ -159,7 +159,8 @@ static void pairs_resolve_what_cells_do_not(void **state)
 /* Densities with poles, or with structure in all sizes, and too few points for any. One cloud of a
  * cascade with 1e5 points: 11 of 17 of them were called resolved, 4 to 10 % low. A third in a wide
  * blob: smooth and kinked shapes fit alike and differ by 15 %; half of these clouds, those that
- * came out strong, were called resolved. */
+ * came out strong, were called resolved. A pole whose largest cells alone seemed to end it: 4 of 5
+ * resolved clouds excluded the truth. A plume of 300 points: those that came out weak, 8 % low. */
 static void pairs_do_not_resolve_what_nothing_can(void **state)
 {
     (void)state;
@@ -172,7 +173,8 @@ static void pairs_do_not_resolve_what_nothing_can(void **state)
     } rows[] = {
         {"power_40", PLACE_BOX, 3, 1000, 24, 2},      {"cascade_6", PLACE_BOX, 3, 1e5, 1, 0},
         {"cascade_6", PLACE_SURFACE, 3, 300, 24, 0},  {"inertia_01", PLACE_BOX, 3, 1000, 24, 2},
-        {"blob_third_12", PLACE_BOX, 3, 1000, 24, 6}, {"sheet_02", PLACE_BOX, 3, 300, 24, 2}};
+        {"blob_third_12", PLACE_BOX, 3, 1000, 24, 6}, {"sheet_02", PLACE_BOX, 3, 300, 24, 0},
+        {"power_25", PLACE_BOX, 2, 1e5, 16, 5},       {"plume_08", PLACE_CYLINDER, 3, 300, 24, 0}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o =
             run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d, rows[k].n,
