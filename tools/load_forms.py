@@ -4,11 +4,13 @@ and one picture.
 
 python3 tools/load_forms.py form-small [--library build/release/libclast_view.so] [-o docs/validation/load_forms]
 
-Writes NAME.csv (a row a curve, form and pressure: porosity, contacts without rattlers, mean over seeds) and, with the library, NAME.svg.
+Writes NAME.csv (a row a curve, form and pressure: porosity and its standard error, contacts without rattlers, means over seeds) and, with the
+library, NAME.svg. Prints what is left of each curve's difference between hulls and ellipsoids.
 """
 import argparse
 import csv
 import json
+import math
 import pathlib
 import statistics
 import sys
@@ -47,6 +49,15 @@ def gather(folder):
     return found
 
 
+def mean(values, k):
+    return statistics.mean(v[k] for v in values)
+
+
+def standard_error(values):
+    """Of the mean porosity over seeds; NaN of one."""
+    return statistics.stdev(v[0] for v in values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
@@ -57,16 +68,24 @@ def main():
     if not found:
         raise SystemExit(f"{options.folder}: no run with a load.csv")
     with open(options.output.with_suffix(".csv"), "w", encoding="utf-8") as file:
-        file.write("curve,form,pressure_Pa,n,porosity,coordination_held\n")
+        file.write("curve,form,pressure_Pa,n,porosity,porosity_error,coordination_held\n")
         for (curve, form, pressure), values in sorted(found.items()):
-            porosity, held = (statistics.mean(v[k] for v in values) for k in (0, 1))
-            file.write(f"{curve},{form},{pressure:g},{len(values)},{porosity:.5f},{held:.4f}\n")
-            print(f"{curve:18s} {form:10s} {pressure / 1e3:8g} kPa  porosity {porosity:.4f}  contacts {held:.3f}")
+            porosity, error, held = mean(values, 0), standard_error(values), mean(values, 1)
+            file.write(f"{curve},{form},{pressure:g},{len(values)},{porosity:.5f},{'' if math.isnan(error) else f'{error:.5f}'},{held:.4f}\n")
+            print(f"{curve:18s} {form:10s} {pressure / 1e3:8g} kPa  porosity {porosity:.4f} +- {error:.4f}  contacts {held:.3f}")
+    for curve, pressure in sorted({(c, p) for c, _, p in found}):
+        two = [found.get((curve, form, pressure), []) for form in ("hulls", "ellipsoids")]
+        if all(two):
+            print(f"{curve:18s} hulls less ellipsoids {pressure / 1e3:8g} kPa  {mean(two[0], 0) - mean(two[1], 0):+.4f} "
+                  f"+- {math.hypot(*map(standard_error, two)):.4f}")
     if options.library:
         names = sorted({(curve, form) for curve, form, _ in found})
-        series = [chart.line(f"{curve}, {form}", i // 2, [(p / 1e3, statistics.mean(v[0] for v in values))
-                                                         for (c, f, p), values in sorted(found.items()) if (c, f) == (curve, form)],
-                             dashed=form == "ellipsoids") for i, (curve, form) in enumerate(names)]
+        series = []
+        for i, (curve, form) in enumerate(names):
+            own = [(p / 1e3, values) for (c, f, p), values in sorted(found.items()) if (c, f) == (curve, form)]
+            xy = [(p, mean(values, 0)) for p, values in own]
+            series += [chart.line(f"{curve}, {form}", i // 2, xy, dashed=form == "ellipsoids"),
+                       chart.points(None, i // 2, xy, [standard_error(values) for _, values in own])]
         chart.draw(options.library, options.output.with_suffix(".svg"), "Porosity under load", "pressure (kPa)", "porosity (-)", series,
                    x_log=True)
 
