@@ -158,8 +158,12 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         r->estimator == CLAST_ESTIMATOR_PAIRS && is_capped ? ", up to each cell's cap" : "");
     if (!i->estimate.resolved) {
         (void)printf("pairs do not resolve the cloud: %s",
-                     isfinite(i->n_needed) ? "" : "g rises down to the nearest pairs there are; ");
-        cli_points_needed_print(i->n_needed);
+                     r->keeps_apart          ? "the points keep apart"
+                     : isfinite(i->n_needed) ? ""
+                                             : "g rises down to the nearest pairs there are; ");
+        if (!r->keeps_apart) {
+            cli_points_needed_print(i->n_needed);
+        }
         (void)printf("\n");
     }
     print_within(r);
@@ -167,9 +171,9 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         (void)printf("warning: events by pairs and by cells have no number in common; the cells "
                      "hide structure, or points keep apart: look at g(r)\n");
     } else if (i->fit_p < 1e-3) {
-        (void)printf("warning: g(r) is not that of points drawn from a density (p = %.2g): it does "
+        (void)printf("warning: g(r) is not that of points drawn from a density (p %s%s): it does "
                      "not fall smoothly from r = 0\n",
-                     i->fit_p);
+                     i->fit_p == 0.0 ? "" : "= ", cli_p_value(i->fit_p));
     }
 }
 

@@ -130,6 +130,7 @@ json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found
     (void)json_object_set_new(out, "labels", json_labels(r));
     json_events(out, r);
     cli_json_bool(out, "resolved", r->resolved);
+    cli_json_bool(out, "keeps_apart", r->keeps_apart);
     cli_json_number(out, "points_needed", r->points_needed);
     cli_json_number(out, "cells_bias", r->cells_bias);
     cli_json_number(out, "points_per_bin",
@@ -148,6 +149,13 @@ json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found
 static void print_resolved(const clast_decomposition *r)
 {
     if (r->resolved) {
+        return;
+    }
+    if (r->keeps_apart) {
+        (void)printf(
+            "not resolved: the points keep apart (seeded evenly, stratified or repelling), so "
+            "pairs in small cells say nothing of their density; the lower bound, of large "
+            "cells, alone holds\n");
         return;
     }
     (void)printf("not resolved: the points do not show their own structure, the lower bound alone "

@@ -42,9 +42,12 @@ struct particles {
     explicit particles(std::size_t n)
         : x(2 * n), velocity(2 * n), radius(n, 1.0), mass(n, 1.0), monomers(n, 1), owner(n)
     {
+        std::uint64_t dice = 1; // independent of each other, see couple_flow.c
+        for (double &coordinate : x) {
+            dice = dice * 6364136223846793005U + 1442695040888963407U;
+            coordinate = static_cast<double>(dice >> 11U) * 0x1p-53;
+        }
         for (std::size_t i = 0; i < n; ++i) {
-            x[2 * i] = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(i), 1.0);
-            x[2 * i + 1] = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(i), 1.0);
             owner[i] = static_cast<std::int64_t>(i);
         }
     }
@@ -79,6 +82,7 @@ class coupling
 
   public:
     const clast_decomposition *mesh = nullptr;
+    double hidden = 0.0; ///< pairs that cells hide, as the last ones knew that were resolved
 
     coupling()
     {
@@ -122,9 +126,10 @@ class coupling
         for (std::size_t i = 0, k = 0; i < n; ++i) {
             cell[i] = p.monomers[i] > 0 ? mesh->cells.of_point[k++] : -1;
         }
+        hidden = mesh->resolved ? mesh->smoothing_bias : hidden;
         volume.assign(mesh->cells.volume, mesh->cells.volume + mesh->cells.n);
         for (double &v : volume) {
-            v *= 1.0 + mesh->smoothing_bias;
+            v *= 1.0 + hidden;
         }
     }
 
@@ -168,7 +173,7 @@ void run()
             std::printf(
                 "step %d: %lld particles, %d cells, pairs corrected by %+.1f %%, %lld events\n",
                 step, static_cast<long long>(loop.mesh->n - n_event), loop.mesh->cells.n,
-                100.0 / (1.0 + loop.mesh->smoothing_bias) - 100.0, static_cast<long long>(n_event));
+                100.0 / (1.0 + loop.hidden) - 100.0, static_cast<long long>(n_event));
         }
     }
 }

@@ -324,10 +324,12 @@ typedef struct clast_decomposition {
                                                      ///< times the integral; with pairs
     clast_estimator estimator;                       ///< of the two: which one `events` is
     clast_within_cells within;                       ///< with pairs, else {0}
-    bool disagree;  ///< both are resolved and their intervals have no number in common
-    bool resolved;  ///< the points show all of their own structure that counts: the bias of events
-                    ///< is at most 2 %
-    bool has_drawn; ///< ghosts, or the part of weighted points that is tested
+    bool disagree; ///< both are resolved and their intervals have no number in common
+    bool resolved; ///< the points show all of their own structure that counts: the bias of events
+                   ///< is at most 2 %
+    bool keeps_apart; ///< points keep apart (seeded, stratified, a lattice), so that small cells
+                      ///< tell nothing of their density: not resolved by any number of them
+    bool has_drawn;   ///< ghosts, or the part of weighted points that is tested
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

@@ -2781,6 +2781,7 @@ clast_decomposition._fields_ = [
     ('within', clast_within_cells),
     ('disagree', c_bool),
     ('resolved', c_bool),
+    ('keeps_apart', c_bool),
     ('has_drawn', c_bool),
 ]
 
@@ -2970,7 +2971,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
     'clast_porosity_fit': (288, {'model': (0, 128), 'ranking': (128, 32), 'trials': (160, 32), 'terms': (192, 32), 'rows': (224, 32), 'n_removed': (256, 4), 'condition': (264, 8), 'r2_held_out': (272, 8), 'p_value': (280, 8)}),
-    'clast_decomposition': (5472, {'n': (0, 8), 'n_outside': (8, 8), 'n_here': (16, 8), 'n_test': (24, 8), 'dimension': (32, 4), 'n_capped': (36, 4), 'before': (40, 232), 'n_pass': (272, 4), 'pass': (280, 4608), 'stop': (4888, 4), 'cells': (4896, 128), 'events': (5024, 8), 'events_low': (5032, 8), 'events_high': (5040, 8), 'points_needed': (5048, 8), 'events_cross': (5056, 8), 'points_per_bin': (5064, 8), 'search': (5072, 32), 'cells_bias': (5104, 8), 'bias_estimate': (5112, 8), 'smoothing_bias': (5120, 8), 'beta_dt': (5128, 8), 'volume': (5136, 8), 'seed': (5144, 8), 'pairs': (5152, 168), 'events_by_cells': (5320, 32), 'events_by_pairs': (5352, 32), 'estimator': (5384, 4), 'within': (5392, 72), 'disagree': (5464, 1), 'resolved': (5465, 1), 'has_drawn': (5466, 1)}),
+    'clast_decomposition': (5472, {'n': (0, 8), 'n_outside': (8, 8), 'n_here': (16, 8), 'n_test': (24, 8), 'dimension': (32, 4), 'n_capped': (36, 4), 'before': (40, 232), 'n_pass': (272, 4), 'pass': (280, 4608), 'stop': (4888, 4), 'cells': (4896, 128), 'events': (5024, 8), 'events_low': (5032, 8), 'events_high': (5040, 8), 'points_needed': (5048, 8), 'events_cross': (5056, 8), 'points_per_bin': (5064, 8), 'search': (5072, 32), 'cells_bias': (5104, 8), 'bias_estimate': (5112, 8), 'smoothing_bias': (5120, 8), 'beta_dt': (5128, 8), 'volume': (5136, 8), 'seed': (5144, 8), 'pairs': (5152, 168), 'events_by_cells': (5320, 32), 'events_by_pairs': (5352, 32), 'estimator': (5384, 4), 'within': (5392, 72), 'disagree': (5464, 1), 'resolved': (5465, 1), 'keeps_apart': (5466, 1), 'has_drawn': (5467, 1)}),
 }
 
 VALUES: dict[str, int] = {

@@ -35,6 +35,7 @@ class Decomposition:
     pair_integral_low: float
     pair_integral_high: float
     resolved: bool
+    keeps_apart: bool  #: seeded evenly, stratified or repelling: not resolved
     points_needed: float
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
@@ -287,5 +288,5 @@ def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposi
     return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
-                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved, sizes=sizes,
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,
                          points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

@@ -305,6 +305,7 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
     const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
     r->estimator = shown->is_by_pairs ? CLAST_ESTIMATOR_PAIRS : CLAST_ESTIMATOR_CELLS;
     r->resolved = shown->resolved;
+    r->keeps_apart = shown->is_apart;
     r->points_needed = shown->n_factor * (double)r->n;
     r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
     if (shown->resolved && is_one_cell(n, shown, all)) {
@@ -313,7 +314,9 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
         n->is_certified = true;
         return;
     }
-    if (n->is_plain) {
+    if (shown->is_apart) { // no number of points is known to lie between two others
+        n->pairs = fmax(plain, shown->low * share);
+    } else if (n->is_plain) {
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
     } else if (shown->resolved || shown->is_by_pairs) {
         n->pairs = shown->value * share; // not resolved: a guess
@@ -486,7 +489,7 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_ladder *la
     found->relative = found->cells = clx_resolution_of(ladder);
     const bool asks = n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain &&
                       n->cloud->weight == NULL && !found->cells.resolved &&
-                      !found->cells.is_repeated && r->n >= 2;
+                      !found->cells.is_repeated && !found->cells.is_apart && r->n >= 2;
     CLAST_ASSERT(clx_comm_is_same(n->sample->comm, asks)); // what follows is done by all or none
     if (asks) {
         if (cached == NULL || n->config->pairs || !carry_over(cached, ladder, &found->relative)) {

@@ -447,6 +447,7 @@ static void choose_rungs(const ladder_walk *w, clx_ladder *ladder)
     }
     ladder->first = last < CLX_LADDER_RUNGS ? 0 : last + 1 - CLX_LADDER_RUNGS;
     ladder->n = last + 1 - ladder->first;
+    ladder->is_deepest = last == DEEPEST - 1;
 }
 
 /// Whether a comes before b, both with one code.

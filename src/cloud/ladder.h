@@ -13,6 +13,7 @@ typedef struct clx_ladder {
     int32_t first, n; ///< halvings of rung 0; number of rungs
     int32_t d;
     double n_repeated;              ///< pairs closer than 2^-18 of the unit cube: repeated points
+    bool is_deepest;                ///< no cells lie below the last rung; else these hold few pairs
     double pairs[CLX_LADDER_RUNGS]; ///< sum of w_i w_j / V over i != j in one cell of real volume V
     double n_pair[CLX_LADDER_RUNGS];                       ///< mean number of such pairs, each once
     double covariance[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< of `pairs`, for Poisson points

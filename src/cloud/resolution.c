@@ -17,7 +17,10 @@ static const double most_share = 0.5;    ///< the same over its standard error
 static const double witness = 2.5;       ///< finer cells may lie so many standard errors higher
 static const double least_ratio = 1.1, smooth = 4.0, jump = 2.0, expected_ratio = 2.5;
 static const double bound_errors = 2.3;    ///< standard errors, for the greatest of some bounds
-static const double bound_pairs = 50.0;    ///< a lower bound needs so many
+static const double bound_pairs = 50.0;    ///< a lower bound needs so many, and 2^d as many in the
+                                           ///< cells before: the least number came out great else
+static const double apart_pairs = 50.0;    ///< expected in cells that show points apart
+static const double apart_errors = 5.0;    ///< standard errors by which these have fewer
 static const double most_repeated = 0.05;  ///< share of repeated points' pairs in such a rung
 static const double allowed_pairs = 30.0;  ///< a rung that a value may not lie below
 static const double falling_pairs = 100.0; ///< a rung that what a halving adds is looked at
@@ -86,6 +89,26 @@ static double least_ratio_at(const clx_ladder *l, int32_t r)
     return isnan(ratio) ? fmin(jump, least_ratio_at(l, r - 1)) : ratio;
 }
 
+/// Whether points keep apart, as seeded or stratified ones do: finer cells hold fewer pairs per
+/// volume than coarser ones, where those of independent points hold as many or more.
+static bool keeps_apart(const clx_ladder *l)
+{
+    for (int32_t r = 0; r < l->n; ++r) {
+        double expected = l->n_pair[r] - l->n_repeated;
+        for (int32_t m = r + 1; m < l->n + (l->is_deepest ? 0 : 1); ++m) {
+            expected *= ldexp(1.0, -l->d);                              // at least
+            const double own = l->pairs[r] / sqrt(fmax(1.0, expected)); // of so many pairs
+            const double error =
+                m < l->n ? error_between(l, r, m) : sqrt(fmax(0.0, l->covariance[r][r]));
+            const double fewer = l->pairs[r] - (m < l->n ? l->pairs[m] : 0.0);
+            if (expected >= apart_pairs && fewer > apart_errors * hypot(error, own)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static reading read_rung(const clx_ladder *l, int32_t r)
 {
     reading made = {0};
@@ -115,13 +138,15 @@ static reading read_rung(const clx_ladder *l, int32_t r)
     return made;
 }
 
-/// Greatest lower bound: pairs of any cells fall short of the integral. NAN where those of repeated
-/// points weigh in all of them.
-static double lower_bound(const clx_ladder *l)
+/// Greatest lower bound of the first n rungs: pairs of any cells fall short of the integral. NAN
+/// where those of repeated points weigh in all of them.
+static double lower_bound(const clx_ladder *l, int32_t n)
 {
     double most = 0.0;
     bool is_repeated = false;
-    for (int32_t r = 0; r < l->n && l->n_pair[r] >= bound_pairs; ++r) {
+    const double before = ldexp(bound_pairs, l->d);
+    for (int32_t r = 0;
+         r < n && l->n_pair[r] >= bound_pairs && (r == 0 || l->n_pair[r - 1] >= before); ++r) {
         if (l->n_repeated > most_repeated * l->n_pair[r]) {
             is_repeated = true;
             break; // finer ones have fewer
@@ -134,6 +159,9 @@ static double lower_bound(const clx_ladder *l)
 
 bool clx_resolution_allows(const clx_ladder *l, double value)
 {
+    if (keeps_apart(l)) {
+        return false;
+    }
     int32_t base = 0;    // the last rung with the pairs of one that decides
     int32_t falling = 0; // the last rung whose steps tell
     for (int32_t r = 0; r < l->n; ++r) {
@@ -194,6 +222,7 @@ static double factor_needed(const clx_ladder *l, int32_t r)
 clx_resolution clx_resolution_of(const clx_ladder *l)
 {
     clx_resolution made = {.high = INFINITY, .n_factor = INFINITY};
+    const bool is_apart = keeps_apart(l);
     double least = INFINITY; // error of the value so far
     int32_t last = 2;
     bool is_deep = false;
@@ -210,12 +239,13 @@ clx_resolution clx_resolution_of(const clx_ladder *l)
                                     .halvings = l->first + r};
         }
     }
-    made.resolved = is_deep;
+    made.resolved = is_deep && !is_apart;
+    made.is_apart = is_apart;
     if (!made.resolved) {
-        made.low = lower_bound(l);
+        made.low = lower_bound(l, is_apart ? 1 : l->n); // large cells know no distances
         made.is_repeated = isnan(made.low);
         made.high = INFINITY;
-        made.n_factor = l->n > 2 ? factor_needed(l, last) : (double)INFINITY;
+        made.n_factor = l->n > 2 && !is_apart ? factor_needed(l, last) : (double)INFINITY;
     }
     return made;
 }

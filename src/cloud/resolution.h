@@ -14,13 +14,14 @@ typedef struct clx_resolution {
     int32_t halvings; ///< of the cells whose pairs decide
     bool is_repeated; ///< repeated points make up so many pairs that there is no lower bound: NAN
     bool is_by_pairs; ///< by pairs of all distances instead
+    bool is_apart;    ///< points keep apart: pairs in small cells tell nothing of their density
 } clx_resolution;
 
 /// Reads a ladder. [docs/theory/decompose.md section 8]
 clx_resolution clx_resolution_of(const clx_ladder *ladder);
 
 /// Whether a value that pairs of all distances gave may stand beside the ladder: no rung lies
-/// higher, and what a halving adds has begun to fall.
+/// higher, what a halving adds has begun to fall, and points do not keep apart.
 ///
 /// @param value  as clx_resolution's
 bool clx_resolution_allows(const clx_ladder *ladder, double value);
