@@ -204,6 +204,7 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     set_column(out, "n_cell", h, "n_cell");
     cli_json_count(out, "repeats", c->agglomerate.repeats);
     cli_json_count(out, "n_rebuilt", r->n_rebuilt);
+    cli_json_count(out, "n_unresolved", r->n_unresolved);
     set_column(out, "gel_fraction", h, "gel_fraction");
     cli_json_number(out, "gel_time", r->gel_time);
     cli_json_bool(out, "is_gelation", r->is_gelation);
@@ -250,6 +251,13 @@ static void print_words(const config *c, const clast_agglomeration *r)
             (void)printf(" %12.8g", fixed[i]);
         }
         (void)putchar('\n');
+    }
+    if (r->n_unresolved > 0) {
+        (void)printf(
+            "\nwarning: %d of %d times that cells were made the particles did not show their own "
+            "structure (clast decompose tells more): collisions there are a best guess, rather "
+            "too few than too many\n",
+            r->n_unresolved, r->n_rebuilt + 1);
     }
     if (r->is_gelation) {
         (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "

@@ -375,6 +375,7 @@ static clast_status finish_first(const clx_evolution *run, const columns *c,
                                  clast_agglomeration *made)
 {
     made->n_cell = run->n_cell;
+    made->n_unresolved = run->n_unresolved;
     for (int64_t row = 0; row < made->history.n_row; ++row) {
         made->n_rebuilt += c->rebuilt[row] > 0.0 ? 1 : 0;
     }

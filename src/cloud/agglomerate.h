@@ -19,6 +19,7 @@ typedef struct clx_evolution {
     int32_t n_cell;
     int64_t at;                ///< the last snapshot
     bool is_rebuilt;           ///< there
+    int32_t n_unresolved;      ///< meshes of points that did not show their own structure
     double n_event;            ///< collisions of real particles since the start
     double time;               ///< since the start [s]
     clast_range_report *range; ///< grows; NULL beside, on the user's mesh

@@ -495,6 +495,7 @@ static clast_status bring_mesh(clx_evolution *r, int64_t snapshot)
     r->is_rebuilt = is_new && snapshot > 0;
     if (is_new) {
         CLX_TRY(make_mesh(r));
+        r->n_unresolved += r->mesh.resolved ? 0 : 1;
     } else {
         locate(r);
     }

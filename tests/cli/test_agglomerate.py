@@ -100,6 +100,17 @@ class Agglomerate(Case):
         self.assertGreater(r.json["fixed"]["events"][-1], 20)
         self.assertGreaterEqual(r.json["fixed"]["n_particle"][-1], 200)
 
+    def test_cells_of_particles_that_do_not_show_their_structure_are_told(self):
+        even = [[(i % 40 + 0.5) / 40, (i // 40 + 0.5) / 40] for i in range(1600)]
+        random.seed(7)
+        drawn = [[random.random(), random.random()] for _ in range(1600)]
+        for name, points, times in (("even", even, 1), ("drawn", drawn, 0)):
+            file = write(self.folder / f"{name}.csv", ["x", "y"], points)
+            options = (file, "--domain", "box:0,0,1,1", "--constant", "1e-6")
+            self.assertEqual(clast("agglomerate", *options, "--json").json["n_unresolved"], times)
+            said = "warning: 1 of 1 times that cells were made the particles did not show their own structure"
+            self.assertEqual(said in clast("agglomerate", *options).out, times == 1)
+
     def test_snapshots_move_particles_and_renew_cells_when_they_must(self):
         random.seed(5)
         here = [[random.random() for _ in range(2)] for _ in range(600)]
