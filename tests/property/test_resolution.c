@@ -174,7 +174,7 @@ static void pairs_do_not_resolve_what_nothing_can(void **state)
         {"power_40", PLACE_BOX, 3, 1000, 24, 2},      {"cascade_6", PLACE_BOX, 3, 1e5, 1, 0},
         {"cascade_6", PLACE_SURFACE, 3, 300, 24, 0},  {"inertia_01", PLACE_BOX, 3, 1000, 24, 2},
         {"blob_third_12", PLACE_BOX, 3, 1000, 24, 6}, {"sheet_02", PLACE_BOX, 3, 300, 24, 0},
-        {"power_25", PLACE_BOX, 2, 1e5, 16, 5},       {"plume_08", PLACE_CYLINDER, 3, 300, 24, 0}};
+        {"power_25", PLACE_BOX, 2, 1e5, 8, 3},        {"plume_08", PLACE_CYLINDER, 3, 300, 24, 0}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const outcome o =
             run(CLAST_ESTIMATOR_AUTO, rows[k].name, rows[k].place, rows[k].d, rows[k].n,
