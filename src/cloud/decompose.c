@@ -582,8 +582,8 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, cached, &ladder, result));
+    to_domain(sample->domain, &result->cells); // pairs within the cells are of its volumes
     CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &ladder, result));
-    to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
         CLX_TRY(crossfit(sample->comm, cloud, config, sample->domain, &result->events_cross));
