@@ -32,8 +32,9 @@ static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {
     {"test_only", .offset = offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
-     "run the uniformity tests alone, exit code 1 when not uniform", NULL, .common = true,
-     .group = "what is made"},
+     "run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points "
+     "(not tested)",
+     NULL, .common = true, .group = "what is made"},
     {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "format of charts", "svg|png|pdf"},
     {"sizes", .offset = offsetof(config, n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
@@ -136,7 +137,7 @@ static clast_status tell(const cli_common *common, const config *c, const cli_de
         cli_json_number(summary, "wall_s", cli_clock() - f->begun);
         CLI_TRY(cli_print_json(json_incref(summary)));
     } else {
-        cli_decompose_print(j, f, c->test_only);
+        cli_decompose_print(j, f);
     }
 done:
     json_decref(summary);
@@ -236,7 +237,8 @@ static clast_status run(const cli_common *common, void *values)
                            .sizes = &sizes,
                            .name = f.domain,
                            .chart_end = chart_end[c->charts],
-                           .has_drawn = result.has_drawn || c->n_size > 0};
+                           .has_drawn = result.has_drawn || c->n_size > 0,
+                           .tests_alone = c->decompose.variant == CLAST_VARIANT_TEST};
     CLI_TRY(report(common, c, &j, &f, folder));
 done:
     clast_run_folder_destroy(folder);

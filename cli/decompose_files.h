@@ -14,6 +14,7 @@ typedef struct cli_decompose_job {
     const char *name;         ///< of the domain, in m
     const char *chart_end;    ///< "svg"
     bool has_drawn;           ///< the seed mattered
+    bool tests_alone;         ///< no cells and no events were asked for
 } cli_decompose_job;
 
 enum { CLI_DECOMPOSE_NOTE = 1024 };

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double least_told = 1e-9; ///< relative; beneath, a bias is rounding
+
 /// Axes of the unit cube that a mapped domain is tested in have names of their own.
 static const char *axis_name(const clast_domain *domain, int32_t axis)
 {
@@ -95,7 +97,7 @@ static void json_events(json_t *out, const clast_decomposition *r)
     (void)snprintf(unit, sizeof unit, "1/m^%d", r->dimension);
     cli_json_text(out, "pair_integral_unit", unit);
     cli_json_number(out, "n_capped", (double)NAN);
-    if (given == 0) {
+    if (given == 0 && is_bound) {
         cli_json_count(out, "n_capped", r->n_capped);
     }
 }
@@ -120,24 +122,31 @@ json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found
     cli_json_count(out, "n_test", r->n_test);
     cli_json_count(out, "dimension", r->dimension);
     (void)json_object_set_new(out, "tests", json_tests(&r->before, j->domain));
-    cli_json_bool(out, "reject", r->before.reject);
+    (void)json_object_set_new(out, "reject",
+                              f->evenness.is_tested ? json_boolean(r->before.reject) : json_null());
     cli_evenness_json(out, &f->evenness);
     cli_json_number(out, "score", r->before.score);
     cli_json_number(out, "ideal_score", r->before.ideal);
     (void)json_object_set_new(out, "passes", json_passes(r));
     cli_json_text(out, "stop", clast_decompose_stop_text(r->stop));
-    cli_json_count(out, "n_cell", r->cells.n);
+    (void)json_object_set_new(out, "n_cell",
+                              j->tests_alone ? json_null() : json_integer(r->cells.n));
     (void)json_object_set_new(out, "labels", json_labels(r));
     json_events(out, r);
-    cli_json_bool(out, "resolved", r->resolved);
-    cli_json_bool(out, "keeps_apart", r->keeps_apart);
+    (void)json_object_set_new(out, "resolved",
+                              j->tests_alone ? json_null() : json_boolean(r->resolved));
+    (void)json_object_set_new(out, "keeps_apart",
+                              j->tests_alone ? json_null() : json_boolean(r->keeps_apart));
     cli_json_number(out, "points_needed", r->points_needed);
     cli_json_number(out, "cells_bias", r->cells_bias);
     cli_json_number(out, "points_per_bin",
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
-    cli_json_number(out, "smoothing_bias", r->smoothing_bias);
-    cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+    cli_json_number(out, "smoothing_bias", isnan(r->events_low) ? (double)NAN : r->smoothing_bias);
+    cli_json_text(out, "estimator",
+                  j->tests_alone                          ? NULL
+                  : r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs"
+                                                          : "cells");
     if (r->pairs.n > 0) {
         (void)json_object_set_new(out, "pairs", cli_decompose_pairs_json(r));
     }
@@ -173,6 +182,10 @@ static void print_resolved(const clast_decomposition *r)
 static void print_tests(const clast_uniformity *u, const clast_domain *domain,
                         const cli_decompose_found *f)
 {
+    if (u->n_test == 0) {
+        (void)printf("\n\nnot tested: fewer than 5 points, nothing is rejected\n");
+        return;
+    }
     (void)printf("\n\n%-16s %12s %12s\n", "test", "statistic", "p");
     for (int32_t k = 0; k < u->n_test; ++k) {
         const clast_vote *v = &u->vote[k];
@@ -235,7 +248,8 @@ static void print_events(const clast_decomposition *r, int64_t n_repeated)
         (void)printf("counted by pairs of all distances (--pairs shows them): cells of no size "
                      "resolve the cloud\n");
     }
-    if (r->smoothing_bias != 0.0 && r->resolved && r->estimator == CLAST_ESTIMATOR_CELLS) {
+    if (fabs(r->smoothing_bias) >= least_told && r->resolved &&
+        r->estimator == CLAST_ESTIMATOR_CELLS) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);
@@ -250,7 +264,7 @@ static void print_events(const clast_decomposition *r, int64_t n_repeated)
     }
 }
 
-void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *f, bool test_only)
+void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *f)
 {
     const clast_decomposition *r = j->result;
     (void)printf("%lld point%s in %d dimension%s", (long long)r->n, cli_plural(r->n), r->dimension,
@@ -267,7 +281,7 @@ void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *
                      (long long)f->n_repeated);
     }
     print_tests(&r->before, j->domain, f);
-    if (test_only) {
+    if (j->tests_alone) {
         return;
     }
     print_passes(r);

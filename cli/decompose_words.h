@@ -18,5 +18,4 @@ typedef struct cli_decompose_found {
 json_t *cli_decompose_json(const cli_decompose_job *job, const cli_decompose_found *found);
 
 /// The same on stdout; of the tests alone where nothing else was asked for.
-void cli_decompose_print(const cli_decompose_job *job, const cli_decompose_found *found,
-                         bool test_only);
+void cli_decompose_print(const cli_decompose_job *job, const cli_decompose_found *found);

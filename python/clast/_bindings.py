@@ -4306,7 +4306,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'dataset': ('text', '', '-', None, None, None, 'array or folder of an HDF5 file'),
         'frame': ('integer', 0.0, '-', -1000000000000.0, 1000000000000.0, None, 'snapshot of a LAMMPS dump, from 0; -1: the last'),
         'domain_unit': ('text', '', '-', None, None, None, 'unit of bare numbers in --domain and of mesh:FILE; none: --unit'),
-        'test_only': ('flag', False, '-', None, None, None, 'run the uniformity tests alone, exit code 1 when not uniform'),
+        'test_only': ('flag', False, '-', None, None, None, 'run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points (not tested)'),
         'charts': ('choice', 'svg', '-', None, None, 'svg|png|pdf', 'format of charts'),
         'sizes': ('integer', 0.0, '-', 0.0, 40.0, None, 'events of random parts of n, n/2, n/4 .. points, so many sizes, as a table and a chart; 0: none'),
         'regular': ('integer', 0.0, '-', 0.0, 200.0, None, 'with --sizes: a regular mesh of so many cells an axis beside; 0: none'),

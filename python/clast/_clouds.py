@@ -24,7 +24,7 @@ class Decomposition:
     n: int
     n_outside: int
     dimension: int
-    reject: bool
+    reject: bool | None  #: None of fewer than 5 points, which are not tested
     score: float
     stop: str
     n_cell: int
@@ -285,7 +285,7 @@ def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposi
     none = (nan, nan, nan)
     events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
     estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
-    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
+    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject if r.before.n_test > 0 else None, score=r.before.score,
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
                          pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,

@@ -528,7 +528,7 @@ def decompose(
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
-        test_only: run the uniformity tests alone, exit code 1 when not uniform (default False)
+        test_only: run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points (not tested) (default False)
         sizes: events of random parts of n, n/2, n/4 .. points, so many sizes, as a table and a chart; 0: none (0 to 40; default 0)
         regular: with --sizes: a regular mesh of so many cells an axis beside; 0: none (0 to 200; default 0)
         outside: points outside the domain: refuse the file, or leave them out (error, drop; default error)

@@ -570,6 +570,27 @@ done:
     return status;
 }
 
+/// The tests alone: their one cell says nothing of events, least of all in a cloud just rejected.
+static void forget_events(clast_decomposition *r)
+{
+    for (int32_t c = 0; c < r->cells.n; ++c) {
+        r->cells.events[c] = (double)NAN;
+    }
+    r->events = r->events_low = r->events_high = (double)NAN;
+    r->points_needed = r->cells_bias = r->bias_estimate = r->smoothing_bias = (double)NAN;
+    r->events_cross = (double)NAN;
+    r->n_capped = 0;
+    r->resolved = r->keeps_apart = false;
+}
+
+/// Whether so many points repeat the place of another that their density has no lower bound.
+static bool is_repeated(const clx_shown *cached, const clx_ladder *ladder)
+{
+    return cached != NULL && cached->is_known
+               ? cached->cells.is_repeated
+               : ladder->n > 0 && clx_resolution_of(ladder).is_repeated;
+}
+
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
                                   const clast_decompose_config *config, clx_shown *cached,
                                   clast_decomposition *result)
@@ -582,8 +603,16 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, cached, &ladder, result));
+    if (config->variant == CLAST_VARIANT_TEST) {
+        to_domain(sample->domain, &result->cells);
+        forget_events(result);
+        goto done;
+    }
+    if (is_repeated(cached, &ladder)) { // cells at their cap have no bound either
+        result->events_low = (double)NAN;
+    }
+    to_domain(sample->domain, &result->cells); // pairs within the cells are of its volumes
     CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &ladder, result));
-    to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
         CLX_TRY(crossfit(sample->comm, cloud, config, sample->domain, &result->events_cross));

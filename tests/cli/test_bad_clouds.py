@@ -44,6 +44,19 @@ class BadClouds(Case):
             self.assertIn("so many points repeat the place of another, and there is no density at such a place", words)
             self.assertNotIn("nan", words)
 
+    def test_points_at_one_place_have_no_number_with_beta_dt_either(self):
+        # without beta dt there was none; with it "events 150 [133.951, -]", a bound that "holds (97.5 %)"
+        path = self.write("one_place.csv", [[0.5, 0.5, 0.5]] * 300)
+        words = []
+        for more in ((), ("--beta-dt", "1e-6")):
+            r = clast("decompose", path, "--domain", CUBE, "--json", *more).json
+            keys = [what + end for what in ("events", "pair_integral") for end in ("", "_low", "_high")] + ["n_capped", "smoothing_bias"]
+            self.assertEqual({key: r[key] for key in keys}, dict.fromkeys(keys))
+            self.assertFalse(r["resolved"])
+            words.append(clast("decompose", path, "--domain", CUBE, *more).out.replace("number of events", "pair integral"))
+        self.assertIn("no pair integral: so many points repeat the place of another", words[0])
+        self.assertEqual(words[0], words[1])
+
     def test_long_boxes_score_like_cubes(self):
         random.seed(2)
         near = [[random.random() for _ in range(3)] for _ in range(200)]

@@ -135,6 +135,45 @@ class TrueWords(Case):
         self.assertTrue(json.loads((out / "summary.json").read_text())["reject"])
         self.assertRegex(clast("decompose", "--help").out, r"--test-only .*exit code 1")
 
+    def test_the_tests_alone_give_no_number_of_what_they_do_not_compute(self):
+        # a cloud just rejected had the pair integral of one cell, 124750
+        none = ["n_cell", "labels", "resolved", "points_needed", "cells_bias", "points_per_bin", "bias_estimate", "smoothing_bias",
+                "estimator", "n_capped", "seed"]
+        none += [what + end for what in ("events", "pair_integral") for end in ("", "_low", "_high", "_cross")]
+        for more in ((), ("--beta-dt", "1e-6")):
+            for path, domain, code in ((B3, CUBE, 1), (U2, SQUARE, 0)):
+                for option in (("--test-only",), ("--variant", "test")):
+                    r = self.decompose(path, domain, *option, *more, code=code if len(option) == 1 else 0)
+                    self.assertEqual(({key: r[key] for key in none}, r["passes"]), (dict.fromkeys(none), []))
+                    self.assertEqual((r["reject"], len(r["tests"])), (code == 1, 5))
+                    words = clast("decompose", path, "--domain", domain, *option, *more).out
+                    self.assertNotRegex(words, r"cell|pair integral|events|resolved|stop")
+        out = self.folder / "out"
+        self.assertEqual(clast("decompose", B3, "--domain", CUBE, "--variant", "test", "-o", out).code, 0)
+        _, rows = table(out / "cells.csv")
+        self.assertEqual(rows[0]["pair_integral"], "")
+
+    def test_too_few_points_are_not_tested(self):
+        path = self.write("four.csv", [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6], [0.7, 0.8, 0.9], [0.2, 0.8, 0.5]])
+        for more in ((), ("--test-only",)):
+            r = self.decompose(path, CUBE, *more)
+            self.assertEqual((r["reject"], r["evenness"], r["tests"]), (None, None, []))
+            words = clast("decompose", path, "--domain", CUBE, *more).out
+            self.assertEqual(words.count("not tested: fewer than 5 points, nothing is rejected\n"), 1)
+        self.assertRegex(clast("decompose", "--help-all").out, r"--test-only[^-]*exit code 1 when not uniform, 0\s+with\s+fewer\s+than\s+5\s+points")
+
+    def test_a_bias_of_rounding_is_not_told(self):
+        # one cell of a cylinder was "off by +2.2e-14 %; this is taken off"
+        random.seed(4)
+        points = []
+        while len(points) < 3000:
+            p = [random.uniform(-1, 1), random.uniform(-1, 1)]
+            if math.hypot(*p) < 1:
+                points.append([0.1 * p[0], 0.1 * p[1], 0.7 * random.random()])
+        words = clast("decompose", self.write("pipe.csv", points), "--domain", "cylinder:10cm,70cm")
+        self.assertEqual(words.code, 0, words.err)
+        self.assertNotIn("this is taken off", words.out)
+
     def test_a_lattice_is_more_even_than_uniform(self):
         for d, m in ((2, 20), (3, 8), (3, 10)):
             path = self.write("lattice.csv", [[(c + 0.5) / m for c in p] for p in itertools.product(range(m), repeat=d)])

@@ -2,6 +2,8 @@
 #include "support.h"
 
 #include "math/rng.h"
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static clast_decomposition decompose(const clast_cloud *cloud, const char *domain, double beta_dt)
@@ -119,6 +121,66 @@ static void resolved_structure_lies_in_the_cells(void **state)
     clast_cloud_free(&cloud);
 }
 
+/* Points of the unit cube carried to a box of this side, or to a cylinder of this radius that is
+ * twice as long, evenly. */
+static clast_decomposition decompose_scaled(const clast_cloud *cube, double size, bool is_cylinder)
+{
+    clast_cloud cloud = {0};
+    char domain[64];
+    (void)snprintf(domain, sizeof domain, is_cylinder ? "cylinder:%g,%g" : "box:0,0,0,%g,%g,%g",
+                   size, is_cylinder ? 2.0 * size : size, size);
+    CHECK_OK(clast_cloud_alloc(cube->n, 3, &cloud));
+    for (int64_t i = 0; i < cube->n; ++i) {
+        const double *u = &cube->x[3 * i];
+        double *x = &cloud.x[3 * i];
+        const double r = is_cylinder ? size * sqrt(u[0]) : 0.0;
+        x[0] = is_cylinder ? r * cos(2.0 * CLAST_PI * u[1]) : size * u[0];
+        x[1] = is_cylinder ? r * sin(2.0 * CLAST_PI * u[1]) : size * u[1];
+        x[2] = (is_cylinder ? 2.0 : 1.0) * size * u[2];
+    }
+    clast_decomposition made = decompose(&cloud, domain, 0.0);
+    clast_cloud_free(&cloud);
+    return made;
+}
+
+/* The same cloud in a domain of another size or form: cells had the volumes of the unit cube still,
+ * so that in a box of 1 mm pairs were 1e9 times those of even cells of an edge of metres. */
+static void ratios_do_not_depend_on_the_size_of_the_domain(void **state)
+{
+    (void)state;
+    const double size[2] = {1e-3, 20.0};
+    for (int kind = 0; kind < 4; ++kind) { /* even points or pairs, a box or a cylinder */
+        const bool is_cylinder = kind >= 2;
+        const double unit = is_cylinder ? 2.0 * CLAST_PI : 1.0; /* m^3 of size 1 */
+        clast_cloud cube = cloud_of(3000, kind % 2 == 0 ? 0.0 : 0.5, 1e-3, 0.0, 11);
+        clast_decomposition one = decompose_scaled(&cube, 1.0, is_cylinder);
+        assert_true(one.within.is_structured == (kind % 2 == 1));
+        if (one.cells.n == 1) {
+            CHECK_REL(one.within.even, 0.5 * 3000 * 2999 / unit, 1e-12);
+            CHECK_REL(one.within.cell, cbrt(unit), 1e-12);
+        }
+        if (kind % 2 == 0) {
+            assert_true(one.within.g_low < 1.1 && one.within.g_high > 0.9);
+        }
+        for (int k = 0; k < 2; ++k) {
+            clast_decomposition r = decompose_scaled(&cube, size[k], is_cylinder);
+            const double volume = size[k] * size[k] * size[k];
+            assert_int_equal(r.cells.n, one.cells.n);
+            assert_true(r.within.is_structured == one.within.is_structured);
+            assert_int_equal(r.within.n_pair, one.within.n_pair);
+            CHECK_REL(r.within.even * volume, one.within.even, 1e-9);
+            CHECK_REL(r.within.cell / size[k], one.within.cell, 1e-9);
+            CHECK_REL(r.within.g, one.within.g, 1e-6);
+            CHECK_REL(r.within.g_low, one.within.g_low, 1e-6);
+            CHECK_REL(r.within.g_high, one.within.g_high, 1e-6);
+            CHECK_REL(1.0 + r.within.length / size[k], 1.0 + one.within.length, 1e-9);
+            clast_decomposition_free(&r);
+        }
+        clast_decomposition_free(&one);
+        clast_cloud_free(&cube);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -127,6 +189,7 @@ int main(void)
         cmocka_unit_test(few_close_pairs_lie_below_the_cells),
         cmocka_unit_test(even_points_have_none),
         cmocka_unit_test(resolved_structure_lies_in_the_cells),
+        cmocka_unit_test(ratios_do_not_depend_on_the_size_of_the_domain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
