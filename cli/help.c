@@ -39,6 +39,12 @@ static const char *length_unit(double value, double *factor)
     return units[k].name;
 }
 
+/// Whether a value is typed with this unit: m^d is the m^2 or m^3 of a bare number.
+static bool is_typed(const char *unit)
+{
+    return strstr(unit, "m^d") == NULL;
+}
+
 /// A default as it is typed: 1deg, 104mm, 2650kg/m^3.
 static void quantity_text(double value, const char *unit, char *text, size_t size)
 {
@@ -49,7 +55,7 @@ static void quantity_text(double value, const char *unit, char *text, size_t siz
         name = "deg";
     } else if (strcmp(unit, "m") == 0 && value != -1.0) {
         name = length_unit(value, &factor);
-    } else if (strcmp(unit, "-") == 0 || value == -1.0) {
+    } else if (strcmp(unit, "-") == 0 || value == -1.0 || !is_typed(unit)) {
         name = "";
     }
     (void)snprintf(text, size, "%g%s", value / factor, value == 0.0 ? "" : name);
@@ -89,7 +95,8 @@ static const char *looks_like(const clast_field *f)
             return look[k][1];
         }
     }
-    return f->unit != NULL && strcmp(f->unit, "-") != 0 && strcmp(f->unit, CLAST_UNIT_OUTPUT) != 0
+    return f->unit != NULL && strcmp(f->unit, "-") != 0 &&
+                   strcmp(f->unit, CLAST_UNIT_OUTPUT) != 0 && is_typed(f->unit)
                ? f->unit
                : "";
 }

@@ -31,6 +31,10 @@ typedef struct clast_f64_list {
 /// Unit of a text that names a file or a folder to write.
 #define CLAST_UNIT_OUTPUT "output"
 
+/// Text of a number whose bare values are SI also where it is a length or an angle: options that
+/// had no unit once.
+#define CLAST_BARE_SI "SI"
+
 /// One field; a table of them ends with {0}. The members stand in the order that tables give them
 /// in.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
@@ -43,7 +47,7 @@ typedef struct clast_field {
     const char *unit;  ///< SI unit of the stored number, "-" for none; inputs may carry any unit of
                        ///< that dimension
     const char *help;  ///< one line
-    const char *text;  ///< choices "a|b|c", or the default text, or default list "a,b"
+    const char *text;  ///< choices "a|b|c", the default text, default list "a,b", or CLAST_BARE_SI
     const char *group; ///< heading of this field and of those after it, up to the next heading
     bool common;       ///< most runs need it: --help shows it, --help-all shows every field
 } clast_field;
@@ -68,7 +72,7 @@ CLAST_API const char *clast_fields_nearest(const clast_field *fields, const char
 
 /// Parses a text ("675 um", "50deg", "true", "exact") into a field. Lists: replaces by one item, or
 /// appends. A bare length or angle is refused (`270um`, never `270`), but for 0 and for a -1 that
-/// stands for "none"; any other bare number is SI.
+/// stands for "none" and for CLAST_BARE_SI; any other bare number is SI.
 /// @return CLAST_E_CONFIG with the key, the text, the range and the unit in the message
 CLAST_API clast_status clast_field_set(const clast_field *field, void *config, const char *text,
                                        bool append);

@@ -167,9 +167,11 @@ static clast_status bad_range(const clast_field *f, const char *text)
 /// A number of the field; `is_si`: bare ones are SI, else lengths and angles need a unit.
 static clast_status parse_number(const clast_field *f, const char *text, bool is_si, double *value)
 {
-    const bool is_none = f->low == -1.0 && strcmp(text, "-1") == 0;
+    const bool may_be_bare =
+        (f->low == -1.0 && strcmp(text, "-1") == 0) ||
+        (f->type == CLAST_FIELD_F64 && f->text != NULL && strcmp(f->text, CLAST_BARE_SI) == 0);
     const char *unit = f->unit != NULL ? f->unit : "-";
-    const clast_status status = is_si || is_none
+    const clast_status status = is_si || may_be_bare
                                     ? clast_unit_parse(text, unit, value)
                                     : clx_unit_parse_asked(text, unit, f->value, value);
     if (status != CLAST_OK) {

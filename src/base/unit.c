@@ -76,6 +76,12 @@ static const unit units[] = {
     {"mJ/m^2", "J/m^2", 1e-3},
     {"N", "N", 1.0},
     {"N/m", "N/m", 1.0},
+    {"1/m^3", "1/m^3", 1.0},
+    {"1/m3", "1/m^3", 1.0},
+    {"1/cm^3", "1/m^3", 1e6},
+    {"1/cm3", "1/m^3", 1e6},
+    {"1/mm^3", "1/m^3", 1e9},
+    {"1/mm3", "1/m^3", 1e9},
     {"B", "B", 1.0},
     {"kB", "B", 1e3},
     {"MB", "B", 1e6},
@@ -110,8 +116,9 @@ static clast_status unknown(const char *name, const char *si)
 {
     char known[KNOWN_SIZE];
     list_known(si, known);
-    return clx_fail(CLAST_E_CONFIG, "unknown unit '%s'; known here: %s", name,
-                    known[0] != '\0' ? known : si);
+    return known[0] != '\0'
+               ? clx_fail(CLAST_E_CONFIG, "unknown unit '%s'; known here: %s", name, known)
+               : clx_fail(CLAST_E_CONFIG, "unknown unit '%s'; give a bare number in %s", name, si);
 }
 
 clast_status clast_unit_factor(const char *name, const char *si_unit, double *factor)
@@ -122,6 +129,10 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
             *factor = units[i].factor;
             return CLAST_OK;
         }
+    }
+    if (strcmp(name, si_unit) == 0) { // "m^d", whose d is the cloud's
+        *factor = 1.0;
+        return CLAST_OK;
     }
     return unknown(name, si_unit);
 }

@@ -60,7 +60,7 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
-    {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "-",
+    {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "m^d",
      "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]", NULL,
      .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
@@ -81,10 +81,10 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_BOOL, pairs), 0, 0, 0, "-",
      "count pairs by distance: g(r), and events by pairs beside those by cells", NULL,
      .common = true, .group = "pairs"},
-    {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "-",
-     "greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three "
-     "mean spacings in 3-D",
-     NULL},
+    {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "m",
+     "greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean "
+     "spacings in 3-D",
+     CLAST_BARE_SI},
     {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_AUTO, 0, 0, "-",
      "what events are counted by; auto: tree cells, and pairs by distance where cells do not "
      "resolve the cloud",

@@ -391,6 +391,24 @@ class Pairs(Case):
         self.assertEqual(refused.code, 2)
         self.assertIn("estimator", refused.err)
 
+    def test_lengths_take_their_units(self):
+        # --pairs-radius 5mm was "unknown unit 'mm'; known here: -, %"
+        command = ["decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1"]
+        for text in ("50mm", "0.05", "5 cm", "0.05m"):
+            r = clast(*command, "--json", "--pairs", "--pairs-radius", text)
+            self.assertEqual((r.code, r.err), (0, ""))
+            self.assertAlmostEqual(r.json["pairs"]["radius"], 0.05)
+        self.assert_fails(2, *command, "--beta-dt", "1mm3", says=["beta_dt", "unknown unit 'mm3'; give a bare number in m^d"])
+        self.assert_fails(2, *command, "--pairs", "--pairs-radius", "5kg", says=["pairs_radius", "known here: m, cm, mm"])
+        square = DATA / "points_u2_n50.csv"
+        for text in ("10mm", "0.01"):
+            r = clast("agglomerate", square, "--domain", "box:0,0,1,1", "--kernel", "brownian", "--monomer-radius", "1um", "--depth", text)
+            self.assertEqual((r.code, r.err), (0, ""))
+        self.assert_fails(2, "agglomerate", square, "--domain", "box:0,0,1,1", "--constant", "1mm3/s", says=["a bare number in m^d/s"])
+        for text in ("1e12", "1e12/m^3", "1e6 1/cm^3"):
+            r = clast("agglomerate", "--box-model", "--concentration", text, "--constant", "1e-12")
+            self.assertEqual((r.code, r.err), (0, "") if "/m" not in text else (2, r.err))
+
     def test_radius_is_in_the_unit_of_the_points_and_weights_are_refused(self):
         command = ["decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--pairs"]
         r = clast(*command, "--pairs-radius", "0.05").json
