@@ -112,6 +112,8 @@ class CloudInputs(Case):
             self.assert_fails(3, "decompose", path, "--domain", CUBE, says=["bad.csv", *says])
         fails("x;y;z\n0,1;0,2;0,3\n", "column 'x'", "row 1 holds '0,1'", "decimal comma")
         fails("x,y,z\n0,1,0,2,0,3\n", ":2: 6 cells where the first row has 3", "decimal commas")
+        fails("0,1 0,2 0,3\n0,4 0,7 0,6\n", "it has 0, 1 0 (texts)", "decimal commas? write 0.5, not 0,5")
+        fails("1,5,2,5,3,5\n1,5,2,5,3,5\n", "it has column_1", "decimal commas? write 0.5, not 0,5")
         fails("x,y,z\n.1,.2,.3\n.1,oops,.3\n", "column 'y'", "row 2 holds 'oops'")
         fails("X,Y,Z\n.1,.2,.3\n", "it has X, Y, Z", "did you mean 'X'")
         fails("x|y|z\n.1|.2|.3\n", "it has x|y|z", "another delimiter")
