@@ -73,6 +73,13 @@ class CloudInputs(Case):
                 r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
                 self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "repeat the place" in r.out), (is_told, False), r.err)
                 self.assertEqual("< 1e-300  rejects" in r.out, is_told and command[0] == "decompose", r.out)
+        # the opposite: coordinates in mm, taken as m, in a domain of mm
+        for scale, unit in ((1.0, "mm"), (1e3, "um")):
+            far = self.write("far.csv", [[scale * c for c in p] for p in ROWS])
+            self.assert_fails(3, "decompose", far, "--domain", "box:0,0,0,1mm,1mm,1mm",
+                              says=["points lie outside the domain", f"in {unit} they would fit: --unit {unit}?"])
+        near = clast("decompose", self.write("one.csv", ROWS + [[1.01, 0.5, 0.5]]), "--domain", CUBE)
+        self.assertNotIn("--unit", near.err)
         agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]
         a = clast("agglomerate", mm, "--domain", "box:0,0,0,1m,1m,1m", "--unit", "mm", *agglomerate)
         b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)
