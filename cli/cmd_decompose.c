@@ -111,7 +111,18 @@ static clast_status decompose(const cli_common *common, const config *c, const c
                               const clast_cloud *cloud, clast_decomposition *result,
                               cli_decompose_found *f)
 {
-    CLI_GUARD(clast_decompose_ranks(common->comm, domain, cloud, &c->decompose, result));
+    const clast_status status =
+        clast_decompose_ranks(common->comm, domain, cloud, &c->decompose, result);
+    const bool may_guess = status == CLAST_E_FORMAT && c->points.columns.unit[0] == '\0' &&
+                           common->comm->n_rank == 1 &&
+                           strstr(clast_error_detail(), "outside the domain") != NULL;
+    const char *unit = may_guess ? cli_unit_that_fits(domain, cloud) : NULL;
+    if (unit != NULL) {
+        char said[512];
+        (void)snprintf(said, sizeof said, "%s", clast_error_detail());
+        return cli_fail(status, "%s; in %s they would fit: --unit %s?", said, unit, unit);
+    }
+    CLI_GUARD(status);
     if (result->n == 0) {
         const long long n = (long long)result->n_outside;
         clast_decomposition_free(result);

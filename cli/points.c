@@ -116,6 +116,33 @@ static double from_order(int64_t order)
     return value;
 }
 
+const char *cli_unit_that_fits(const clast_domain *domain, const clast_cloud *cloud)
+{
+    static const struct {
+        const char *name;
+        double metre;
+    } unit[2] = {{"mm", 1e-3}, {"um", 1e-6}};
+    const int32_t d = cloud->dimension;
+    const double width = pow(clast_domain_volume(domain), 1.0 / d);
+    for (int k = 0; k < 2; ++k) {
+        bool fits = cloud->n > 1;
+        double widest = 0.0;
+        for (int64_t i = 0; i < cloud->n && fits; ++i) {
+            double x[3] = {0.0};
+            double u[3];
+            for (int32_t j = 0; j < d; ++j) {
+                x[j] = unit[k].metre * cloud->x[i * d + j];
+                widest = fmax(widest, fabs(x[j] - unit[k].metre * cloud->x[j]));
+            }
+            fits = clast_domain_map(domain, x, u);
+        }
+        if (fits && widest > 0.1 * width) { // near the origin anything fits
+            return unit[k].name;
+        }
+    }
+    return NULL;
+}
+
 void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
                        const clast_cloud *cloud)
 {

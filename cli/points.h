@@ -33,6 +33,9 @@ void cli_domain_json(json_t *out, const char *text, const clast_domain *domain);
 /// The domain in m; one of a file as it was typed.
 void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME]);
 
+/// The unit in which points that lie outside the domain would fill it, "mm" or "um"; NULL: none.
+const char *cli_unit_that_fits(const clast_domain *domain, const clast_cloud *cloud);
+
 /// Positions in um in a domain in m all lie in a corner of it: says so on stderr. Called by all
 /// ranks.
 void cli_warn_of_units(const cli_common *common, const clast_domain *domain,

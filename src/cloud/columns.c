@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "base/status.h"
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -67,6 +68,31 @@ static void list_columns(const clast_table *table, char list[LIST_SIZE])
     }
 }
 
+/// "0,1 0,2 0,3" read with commas between columns: names as "1 0" of digits and a blank.
+static bool is_cut_at_commas(const clast_table *table)
+{
+    bool is_cut = false;
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        const char *name = table->column[c].name;
+        is_cut = is_cut || (strchr(name, ' ') != NULL && name[strspn(name, "0123456789 +-")] == 0);
+    }
+    return is_cut;
+}
+
+/// "0,1,0,2,0,3": without a header, twice as many columns of whole numbers as dimensions.
+static bool is_whole_pairs(const clast_table *table)
+{
+    bool is_whole = table->n_column == 4 || table->n_column == 6;
+    for (int32_t c = 0; c < table->n_column && is_whole; ++c) {
+        const double *number = table->column[c].number;
+        for (int64_t i = 0; number != NULL && i < table->n_row && is_whole; ++i) {
+            is_whole = number[i] == floor(number[i]);
+        }
+        is_whole = is_whole && number != NULL;
+    }
+    return is_whole;
+}
+
 clast_status clx_cloud_no_column(const clast_table *table, const char *name)
 {
     char list[LIST_SIZE];
@@ -82,7 +108,10 @@ clast_status clx_cloud_no_column(const clast_table *table, const char *name)
             (void)snprintf(guess, sizeof guess, "; did you mean '%.40s'?", known);
         }
     }
-    if (table->n_column > 0 && guess[0] == '\0' && strcmp(table->column[0].name, "column_1") == 0) {
+    const bool is_bare = table->n_column > 0 && strcmp(table->column[0].name, "column_1") == 0;
+    if (guess[0] == '\0' && (is_cut_at_commas(table) || (is_bare && is_whole_pairs(table)))) {
+        (void)snprintf(guess, sizeof guess, "; decimal commas? write 0.5, not 0,5");
+    } else if (is_bare && guess[0] == '\0') {
         (void)snprintf(guess, sizeof guess, "; the file has no header: --columns %s",
                        table->n_column > 2    ? "column_1,column_2,column_3"
                        : table->n_column == 2 ? "column_1,column_2"

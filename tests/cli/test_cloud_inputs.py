@@ -73,6 +73,13 @@ class CloudInputs(Case):
                 r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
                 self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "repeat the place" in r.out), (is_told, False), r.err)
                 self.assertEqual("< 1e-300  rejects" in r.out, is_told and command[0] == "decompose", r.out)
+        # the opposite: coordinates in mm, taken as m, in a domain of mm
+        for scale, unit in ((1.0, "mm"), (1e3, "um")):
+            far = self.write("far.csv", [[scale * c for c in p] for p in ROWS])
+            self.assert_fails(3, "decompose", far, "--domain", "box:0,0,0,1mm,1mm,1mm",
+                              says=["points lie outside the domain", f"in {unit} they would fit: --unit {unit}?"])
+        near = clast("decompose", self.write("one.csv", ROWS + [[1.01, 0.5, 0.5]]), "--domain", CUBE)
+        self.assertNotIn("--unit", near.err)
         agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]
         a = clast("agglomerate", mm, "--domain", "box:0,0,0,1m,1m,1m", "--unit", "mm", *agglomerate)
         b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)
@@ -112,6 +119,8 @@ class CloudInputs(Case):
             self.assert_fails(3, "decompose", path, "--domain", CUBE, says=["bad.csv", *says])
         fails("x;y;z\n0,1;0,2;0,3\n", "column 'x'", "row 1 holds '0,1'", "decimal comma")
         fails("x,y,z\n0,1,0,2,0,3\n", ":2: 6 cells where the first row has 3", "decimal commas")
+        fails("0,1 0,2 0,3\n0,4 0,7 0,6\n", "it has 0, 1 0 (texts)", "decimal commas? write 0.5, not 0,5")
+        fails("1,5,2,5,3,5\n1,5,2,5,3,5\n", "it has column_1", "decimal commas? write 0.5, not 0,5")
         fails("x,y,z\n.1,.2,.3\n.1,oops,.3\n", "column 'y'", "row 2 holds 'oops'")
         fails("X,Y,Z\n.1,.2,.3\n", "it has X, Y, Z", "did you mean 'X'")
         fails("x|y|z\n.1|.2|.3\n", "it has x|y|z", "another delimiter")
