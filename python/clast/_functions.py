@@ -226,16 +226,16 @@ def agglomerate(
         restitution: float | None = None,
         critical_stokes: float | None = None,
         stokes_exponent: float | None = None,
-        adhesion: float | None = None,
+        adhesion: Quantity | None = None,
         young: Quantity | None = None,
         poisson: float | None = None,
         radius_law: Literal["volume", "fractal-collision", "fractal-gyration"] | None = None,
         monomer_radius: Quantity | None = None,
         fractal_dimension: float | None = None,
         fractal_prefactor: float | None = None,
-        constant: float | None = None,
-        additive: float | None = None,
-        product: float | None = None,
+        constant: Quantity | None = None,
+        additive: Quantity | None = None,
+        product: Quantity | None = None,
         viscosity: Quantity | None = None,
         density: Quantity | None = None,
         particle_density: Quantity | None = None,
@@ -247,7 +247,7 @@ def agglomerate(
         rebuild: Literal["changed", "always", "never"] | None = None,
         change_level: float | None = None,
         fixed: int | None = None,
-        depth: float | None = None,
+        depth: Quantity | None = None,
         outside: Literal["error", "drop"] | None = None,
         variant: Literal["full", "first", "fast", "test"] | None = None,
         mesh: Literal["boxes", "components", "bins", "labels", "tree", "auto"] | None = None,
@@ -262,7 +262,7 @@ def agglomerate(
         lower: Literal["q20", "search", "joint"] | None = None,
         strict: bool | None = None,
         max_pass: int | None = None,
-        beta_dt: float | None = None,
+        beta_dt: Quantity | None = None,
         tree_level: float | None = None,
         tree_root_level: float | None = None,
         variable_tolerance: float | None = None,
@@ -270,7 +270,7 @@ def agglomerate(
         tree_refine: bool | None = None,
         extrapolate: bool | None = None,
         pairs: bool | None = None,
-        pairs_radius: float | None = None,
+        pairs_radius: Quantity | None = None,
         estimator: Literal["cells", "pairs", "auto"] | None = None,
         seed: int | None = None,
 ) -> Agglomeration:
@@ -303,16 +303,16 @@ def agglomerate(
         restitution: viscous: e of the dry solids (0 to 1; default 0.0)
         critical_stokes: liquid: St_cr, where half of the collisions stick (0 to 1e+12; default 1.3)
         stokes_exponent: liquid: q of 1 / (1 + (St / St_cr)^q) (0 to 100; default 0.8)
-        adhesion: contact: work of adhesion of the surfaces [J/m^2] (0 to 1e+06; default 0.0)
+        adhesion: contact: work of adhesion of the surfaces (J/m^2; 0 to 1e+06; default 0.0)
         young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
         poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
         radius_law: collision radius of an aggregate: of the summed volume, a0 (i / k_f)^(1 / D_f), or from that law of the radius of gyration (volume, fractal-collision, fractal-gyration; default volume)
         monomer_radius: radius a0 of a monomer where no column gives radii (m; at least 0; default 0.0)
         fractal_dimension: D_f (1 to 3; default 1.8)
         fractal_prefactor: k_f (0.001 to 1000; default 1.0)
-        constant: K of kernel constant [m^d/s] (at least 0; default 1e-06)
-        additive: b of kernel additive [m^d/s] (at least 0; default 1e-06)
-        product: c of kernel product [m^d/s] (at least 0; default 1e-06)
+        constant: K of kernel constant [m^d/s] (m^d/s; at least 0; default 1e-06)
+        additive: b of kernel additive [m^d/s] (m^d/s; at least 0; default 1e-06)
+        product: c of kernel product [m^d/s] (m^d/s; at least 0; default 1e-06)
         viscosity: dynamic viscosity of the fluid (Pa s; 0 to 1e+06; default 0.001002)
         density: of the fluid (kg/m^3; 0 to 100000; default 998.2)
         particle_density: of the particles' solid (kg/m^3; 0 to 100000; default 0.0)
@@ -324,7 +324,7 @@ def agglomerate(
         rebuild: when later snapshots get new cells: when the cloud has changed, always, never (changed, always, never; default changed)
         change_level: false alarms of the test that finds the cloud changed (1e-12 to 0.5; default 0.01)
         fixed: a regular mesh of this many cells an axis is evolved beside; 0: none (0 to 1000; default 0)
-        depth: extent of the missing dimensions: m in 2-D, m^2 in 1-D (at least 0; default 0.0)
+        depth: extent of the missing dimensions: a length in 2-D (a bare number: m), m^2 in 1-D (bare) (m; at least 0; default 0.0)
         outside: points outside the domain: refuse the file, or leave them out (error, drop; default error)
         variant: how far to go: tests and passes, first test and one pass, one pass, tests alone (full, first, fast, test; default full)
         mesh: what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant, else boxes (boxes, components, bins, labels, tree, auto; default auto)
@@ -339,7 +339,7 @@ def agglomerate(
         lower: lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one, after it or jointly (q20, search, joint; default q20)
         strict: bins exactly at a threshold are ambient (the prose; the printed algorithm takes them) (default False)
         max_pass: passes at the most (1 to 64; default 10)
-        beta_dt: collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d] (at least 0; default 0.0)
+        beta_dt: collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d] (m^d; at least 0; default 0.0)
         tree_level: level of the test in each tree cell (1e-09 to 0.5; default 0.01)
         tree_root_level: level of the test that splits the whole cloud into a tree: uniform clouds split by chance (1e-12 to 0.5; default 0.0001)
         variable_tolerance: standard deviation that a tree cell may keep of the variable (its column's unit) (at least 0; default 0.0)
@@ -347,7 +347,7 @@ def agglomerate(
         tree_refine: give each cell of a tree that was split as the blocks its last test looked at (default True)
         extrapolate: add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of cells (default True)
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
-        pairs_radius: greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three mean spacings in 3-D (at least 0; default 0.0)
+        pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
         seed: seed of the ghost points (default 1)
     """
@@ -361,18 +361,18 @@ def box_model(
         seed: int | None = None,
         solver: Literal["monte-carlo", "sectional"] | None = None,
         initial: Literal["mono", "exponential", "lognormal", "table"] | None = None,
-        concentration: float | None = None,
+        concentration: Quantity | None = None,
         initial_mean: float | None = None,
         initial_sd: float | None = None,
         particles: int | None = None,
         size_min: float | None = None,
         size_max: float | None = None,
         per_octave: int | None = None,
-        breakage_rate: float | None = None,
+        breakage_rate: Quantity | None = None,
         breakage_exponent: float | None = None,
         fragments: Literal["power", "halves"] | None = None,
         fragment_exponent: float | None = None,
-        source: float | None = None,
+        source: Quantity | None = None,
         source_size: float | None = None,
         settling_depth: Quantity | None = None,
         tolerance: float | None = None,
@@ -392,16 +392,16 @@ def box_model(
         restitution: float | None = None,
         critical_stokes: float | None = None,
         stokes_exponent: float | None = None,
-        adhesion: float | None = None,
+        adhesion: Quantity | None = None,
         young: Quantity | None = None,
         poisson: float | None = None,
         radius_law: Literal["volume", "fractal-collision", "fractal-gyration"] | None = None,
         monomer_radius: Quantity | None = None,
         fractal_dimension: float | None = None,
         fractal_prefactor: float | None = None,
-        constant: float | None = None,
-        additive: float | None = None,
-        product: float | None = None,
+        constant: Quantity | None = None,
+        additive: Quantity | None = None,
+        product: Quantity | None = None,
         temperature: Quantity | None = None,
         viscosity: Quantity | None = None,
         density: Quantity | None = None,
@@ -424,18 +424,18 @@ def box_model(
         seed: seed of the ghost points (default 1)
         solver: of a box: draws, or a sectional population balance (needs SUNDIALS) (monte-carlo, sectional; default monte-carlo)
         initial: sizes at the start of a box (mono, exponential, lognormal, table; default mono)
-        concentration: particles a volume at the start of a box [1/m^3] (at least 0; default 0.0)
+        concentration: particles a volume at the start of a box (1/m^3; at least 0; default 0.0)
         initial_mean: mean size at the start [monomers] (at least 1e-100; default 1.0)
         initial_sd: geometric standard deviation of a lognormal start (1.001 to 100; default 1.5)
         particles: particles of a Monte Carlo box (2 to 1e+07; default 10000)
         size_min: smallest size, which does not break [monomers]; 0: that of the start (at least 0; default 0.0)
         size_max: largest size of the grid [monomers]; 0: 1e5 mean sizes of the start (at least 0; default 0.0)
         per_octave: sections of the grid that double the size (1 to 1000; default 16)
-        breakage_rate: S1 [1/s]: a particle of x monomers breaks at S1 x^p (at least 0; default 0.0)
+        breakage_rate: S1: a particle of x monomers breaks at S1 x^p (1/s; at least 0; default 0.0)
         breakage_exponent: p (-10 to 10; default 1.0)
         fragments: sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves (power, halves; default power)
         fragment_exponent: c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1 (-0.99 to 100; default 0.0)
-        source: particles that come in, a volume and time [1/(m^3 s)] (at least 0; default 0.0)
+        source: particles that come in, a volume and time (1/(m^3 s); at least 0; default 0.0)
         source_size: their size [monomers] (at least 1e-100; default 1.0)
         settling_depth: particles leave at settling speed / this depth; 0: they stay (m; at least 0; default 0.0)
         tolerance: relative error of a step of the sectional solver (1e-12 to 0.01; default 1e-07)
@@ -455,16 +455,16 @@ def box_model(
         restitution: viscous: e of the dry solids (0 to 1; default 0.0)
         critical_stokes: liquid: St_cr, where half of the collisions stick (0 to 1e+12; default 1.3)
         stokes_exponent: liquid: q of 1 / (1 + (St / St_cr)^q) (0 to 100; default 0.8)
-        adhesion: contact: work of adhesion of the surfaces [J/m^2] (0 to 1e+06; default 0.0)
+        adhesion: contact: work of adhesion of the surfaces (J/m^2; 0 to 1e+06; default 0.0)
         young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
         poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
         radius_law: collision radius of an aggregate: of the summed volume, a0 (i / k_f)^(1 / D_f), or from that law of the radius of gyration (volume, fractal-collision, fractal-gyration; default volume)
         monomer_radius: radius a0 of a monomer where no column gives radii (m; at least 0; default 0.0)
         fractal_dimension: D_f (1 to 3; default 1.8)
         fractal_prefactor: k_f (0.001 to 1000; default 1.0)
-        constant: K of kernel constant [m^d/s] (at least 0; default 1e-06)
-        additive: b of kernel additive [m^d/s] (at least 0; default 1e-06)
-        product: c of kernel product [m^d/s] (at least 0; default 1e-06)
+        constant: K of kernel constant [m^d/s] (m^d/s; at least 0; default 1e-06)
+        additive: b of kernel additive [m^d/s] (m^d/s; at least 0; default 1e-06)
+        product: c of kernel product [m^d/s] (m^d/s; at least 0; default 1e-06)
         temperature: of the fluid (K; 0 to 100000; default 293.15)
         viscosity: dynamic viscosity of the fluid (Pa s; 0 to 1e+06; default 0.001002)
         density: of the fluid (kg/m^3; 0 to 100000; default 998.2)
@@ -508,7 +508,7 @@ def decompose(
         lower: Literal["q20", "search", "joint"] | None = None,
         strict: bool | None = None,
         max_pass: int | None = None,
-        beta_dt: float | None = None,
+        beta_dt: Quantity | None = None,
         tree_level: float | None = None,
         tree_root_level: float | None = None,
         variable_tolerance: float | None = None,
@@ -516,7 +516,7 @@ def decompose(
         tree_refine: bool | None = None,
         extrapolate: bool | None = None,
         pairs: bool | None = None,
-        pairs_radius: float | None = None,
+        pairs_radius: Quantity | None = None,
         estimator: Literal["cells", "pairs", "auto"] | None = None,
         seed: int | None = None,
 ) -> Decomposition:
@@ -528,7 +528,7 @@ def decompose(
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
-        test_only: run the uniformity tests alone, exit code 1 when not uniform (default False)
+        test_only: run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points (not tested) (default False)
         sizes: events of random parts of n, n/2, n/4 .. points, so many sizes, as a table and a chart; 0: none (0 to 40; default 0)
         regular: with --sizes: a regular mesh of so many cells an axis beside; 0: none (0 to 200; default 0)
         outside: points outside the domain: refuse the file, or leave them out (error, drop; default error)
@@ -545,7 +545,7 @@ def decompose(
         lower: lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one, after it or jointly (q20, search, joint; default q20)
         strict: bins exactly at a threshold are ambient (the prose; the printed algorithm takes them) (default False)
         max_pass: passes at the most (1 to 64; default 10)
-        beta_dt: collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d] (at least 0; default 0.0)
+        beta_dt: collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d] (m^d; at least 0; default 0.0)
         tree_level: level of the test in each tree cell (1e-09 to 0.5; default 0.01)
         tree_root_level: level of the test that splits the whole cloud into a tree: uniform clouds split by chance (1e-12 to 0.5; default 0.0001)
         variable_tolerance: standard deviation that a tree cell may keep of the variable (its column's unit) (at least 0; default 0.0)
@@ -553,7 +553,7 @@ def decompose(
         tree_refine: give each cell of a tree that was split as the blocks its last test looked at (default True)
         extrapolate: add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of cells (default True)
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
-        pairs_radius: greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three mean spacings in 3-D (at least 0; default 0.0)
+        pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
         seed: seed of the ghost points (default 1)
     """
