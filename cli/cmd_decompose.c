@@ -181,12 +181,16 @@ done:
     return status;
 }
 
-/// What needs a folder has one.
+/// What needs a folder has one, and what was asked for is not idle.
 static clast_status check(const cli_common *common, const config *c)
 {
     clast_status status = CLAST_OK;
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");
+    CLI_CHECK(c->regular == 0 || c->n_size > 0, CLAST_E_USAGE,
+              "--regular does nothing without --sizes");
+    CLI_CHECK(!c->test_only || !c->decompose.pairs, CLAST_E_USAGE,
+              "--pairs does nothing with --test-only");
 done:
     return status;
 }

@@ -308,6 +308,11 @@ class Decompose(Case):
         (self.folder / "text.csv").write_text("a,b\n0.5,0.1\n")
         self.assert_fails(3, "decompose", self.folder / "text.csv", "--domain", "box:0,0,1,1", says=["'x'"])
 
+    def test_idle_options_are_refused(self):
+        command = ["decompose", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1"]
+        self.assert_fails(2, *command, "--regular", "5", says=["--regular does nothing without --sizes"])
+        self.assert_fails(2, *command, "--pairs", "--test-only", says=["--pairs does nothing with --test-only"])
+
     def test_few_and_equal_points_are_told_apart_from_uniform(self):
         write_points(self.folder / "few.csv", [[0.1, 0.2], [0.3, 0.4]])
         few = clast("decompose", self.folder / "few.csv", "--domain", "box:0,0,1,1", "--json").json
