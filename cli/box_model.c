@@ -171,7 +171,11 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
             if (value[k] != NULL && i < 0) {
                 (void)printf("%s%12s", k > 0 ? " " : "", column[k].title);
             } else if (value[k] != NULL) {
-                (void)printf("%s%12.6g", k > 0 ? " " : "", value[k][i]);
+                char word[32] = "-"; // after the gel no number is exact
+                if (isfinite(value[k][i])) {
+                    (void)snprintf(word, sizeof word, "%.6g", value[k][i]);
+                }
+                (void)printf("%s%12s", k > 0 ? " " : "", word);
             }
         }
         (void)putchar('\n');

@@ -84,7 +84,7 @@ static int side_of(const char *name)
 /// Why a box does not look at an option; NULL where it does.
 static const char *idle_in(const cli_box *box, const char *name)
 {
-    static const char *const draws[] = {"particles", "collisions", "leap", "block", NULL};
+    static const char *const draws[] = {"particles", "collisions", "leap", "block", "seed", NULL};
     static const char *const integrates[] = {"tolerance", NULL};
     static const char *const breaks[] = {"breakage_exponent", "fragments", "fragment_exponent",
                                          NULL};

@@ -313,6 +313,21 @@ static void exact_at(uint32_t kernel, double rate, const double m[3], double t, 
     }
 }
 
+/// M0 to M2 of the start: of an exponential law itself where the solver discretises it, else of
+/// what the box holds.
+static void exact_start(const clast_spectrum_config *config, const clast_table *h, double m[3])
+{
+    static const char *const name[3] = {"M0", "M1", "M2"};
+    for (int k = 0; k < 3; ++k) {
+        m[k] = clast_table_numbers(h, name[k])[0];
+    }
+    if (config->solver == CLAST_SOLVER_SECTIONAL && config->initial == CLAST_INITIAL_EXPONENTIAL) {
+        m[0] = config->concentration;
+        m[1] = m[0] * config->initial_mean;
+        m[2] = 2.0 * m[1] * config->initial_mean;
+    }
+}
+
 static clast_status add_exact(const clast_spectrum_config *config,
                               const clast_collide_config *collide, clast_spectrum *made)
 {
@@ -330,8 +345,8 @@ static clast_status add_exact(const clast_spectrum_config *config,
     }
     CLX_TRY(clast_table_add_number(h, "exact_M0", "1/m^3", &column));
     CLX_TRY(clast_table_add_number(h, "exact_M2", "1/m^3", &column));
-    const double start[3] = {clast_table_numbers(h, "M0")[0], clast_table_numbers(h, "M1")[0],
-                             clast_table_numbers(h, "M2")[0]};
+    double start[3];
+    exact_start(config, h, start);
     for (int64_t row = 0; row < h->n_row; ++row) {
         double exact[2];
         exact_at(kernel, rate, start, clast_table_numbers(h, "time_s")[row], exact);

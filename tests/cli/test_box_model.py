@@ -60,6 +60,8 @@ class BoxModel(Case):
         self.assertIsNone(r.json["exact"]["n_particle"][-1])
         words = clast(*sectional[:-1], "--kernel", "product", "--product", "0.5", "--duration", "1.2")
         self.assertRegex(words.out, r"gelation at (0\.99|1\.00)\d* s")
+        self.assertNotIn("nan", words.out)  # "exact n" after the gel
+        self.assertRegex(words.out, r"(?m)^ *1\.2 .* -$")
         words = clast(*sectional[:-1], "--constant", "1", "--duration", "20", "--size-max", "20")
         self.assertIn("the grid is too small (--size-max)", words.out)
         r = clast(*sectional, "--constant", "1", "--breakage-rate", "1", "--initial", "exponential", "--size-min", "1e-4",
@@ -124,6 +126,7 @@ class BoxModel(Case):
                   ((*BOX, "--initial", "table", "--initial-file", UNIFORM, "--initial-mean", "2"),
                    "--initial-mean does nothing with --initial table"),
                   ((*BOX, "--tolerance", "1e-3"), "--tolerance does nothing with this --solver"),
+                  ((*BOX, "--solver", "sectional", "--seed", "3"), "--seed does nothing with this --solver"),
                   ((*BOX, "--initial", "table"), "--initial table and --initial-file go together"),
                   ((*BOX, "--kernel", "ballistic"), "which a box does not have"),
                   ((*BOX, "--kernel", "brownian"), "--monomer-radius"),

@@ -132,6 +132,12 @@ static void exponential_starts_meet_the_exact_solutions(void **state)
     r = evolve(&c, &k);
     CHECK_REL(last(&r, "M0"), exp(-0.5), 1e-6);
     CHECK_REL(last(&r, "M2"), 2.0 * exp(1.0), 1e-3);
+    CHECK_REL(last(&r, "exact_M2"), 2.0 * exp(1.0), 1e-14); /* was of the start on the grid: 3e-4 */
+    clast_spectrum_free(&r);
+    k = kernel("product");
+    c.duration = 0.2;
+    r = evolve(&c, &k);
+    CHECK_REL(r.exact_gel_time, 0.5, 1e-14);
     clast_spectrum_free(&r);
 }
 
