@@ -12,7 +12,8 @@ typedef struct clx_sectional {
     double *x;        ///< [n] pivots [monomers], rising
     double *rate;     ///< [n][n] alpha beta of j <= k [m^3/s]
     double *share;    ///< [n][n] number share of the lower pivot of a new particle
-    int32_t *lower;   ///< [n][n] that pivot; n: beyond the grid
+    double *below;    ///< [n][n] of the one below that, so that the second moment is kept too
+    int32_t *lower;   ///< [n][n] that lower pivot; n: beyond the grid
     double *breaks;   ///< [n] S [1/s]
     double *fragment; ///< [n][n] of a broken particle of k, number at pivot i: [k n + i]
     double *sink;     ///< [n] w / depth [1/s]
@@ -32,6 +33,10 @@ clast_status clx_sectional_grid(double low, double high, double step, int32_t pe
 /// Adds `number` particles of size v to the pivots beside it, number and mass kept (at the ends of
 /// the grid mass alone).
 void clx_sectional_add(const clx_sectional *s, double v, double number, double *n_at);
+
+/// Number shares of a particle of size v at pivots i - 1, i and i + 1, where v lies between the
+/// last two: number, mass and second moment are kept (number and mass alone where i is 0).
+void clx_sectional_share(const clx_sectional *s, double v, int32_t i, double share[3]);
 
 /// Fills rates; s->monomers and x are there.
 clast_status clx_sectional_rates(const clast_spectrum_config *config,

@@ -141,8 +141,11 @@ static void add_density(const clx_start *s, const clx_sectional *grid, double *n
             const double u = clx_gauss_point(q);
             const double part =
                 s->concentration * width * clx_gauss_weight(q) * density(s, grid->x[i] + u * width);
-            number[i] += (1.0 - u) * part;
-            number[i + 1] += u * part;
+            double share[3];
+            clx_sectional_share(grid, grid->x[i] + u * width, i, share);
+            for (int m = i > 0 ? 0 : 1; m < 3; ++m) {
+                number[i - 1 + m] += share[m] * part;
+            }
         }
     }
     number[0] +=
