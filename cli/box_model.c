@@ -103,6 +103,8 @@ static json_t *summary_of(const cli_box *box, const char *kernel, int32_t repeat
     cli_json_number(out, "gel_size", r->gel_size);
     cli_json_number(out, "exact_gel_time", r->exact_gel_time);
     cli_json_number(out, "mass_error", r->mass_error);
+    cli_json_number(out, "law_M1", r->law_M1);
+    cli_json_number(out, "law_M2", r->law_M2);
     cli_range_json(out, &r->range);
     cli_json_number(out, "wall_s", wall);
     return out;
@@ -259,6 +261,22 @@ done:
     return status;
 }
 
+/// Where a sample does not hold what its law has: a tail of few large particles is in few samples.
+static void warn_of_start(const cli_common *common, const clast_spectrum *r)
+{
+    static const double SMALL = 0.01;
+    const double mass = clast_table_numbers(&r->history, "M1")[0] / r->law_M1;
+    const double second = clast_table_numbers(&r->history, "M2")[0] / r->law_M2;
+    if (!common->quiet && fmax(fabs(mass - 1.0), fabs(second - 1.0)) > SMALL) {
+        (void)fprintf(
+            stderr,
+            "clast agglomerate: warning: the particles drawn hold %.4g %% of the mass and %.3g %% "
+            "of M2 of their law at the start: its tail is in few of so many; take more "
+            "--particles or --solver sectional\n",
+            100.0 * mass, 100.0 * second);
+    }
+}
+
 clast_status cli_box_run(const cli_box_job *job, bool *force)
 {
     clast_spectrum r = {0};
@@ -273,6 +291,7 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     CLI_TRY(evolve(job->box, job->agglomerate, &r));
     out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
     cli_range_warn(common, &r.range);
+    warn_of_start(common, &r);
     if (folder != NULL) {
         CLI_TRY(write_results(job, &r, out, folder));
     }

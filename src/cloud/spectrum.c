@@ -313,25 +313,22 @@ static void exact_at(uint32_t kernel, double rate, const double m[3], double t, 
     }
 }
 
-/// M0 to M2 of the start: of an exponential law itself where the solver discretises it, else of
-/// what the box holds.
-static void exact_start(const clast_spectrum_config *config, const clast_table *h, double m[3])
+/// M0 to M2 of the start: of the law itself where the solver discretises it, else of what the box
+/// holds.
+static void exact_start(const clx_start *start, const clast_table *h, double m[3])
 {
     static const char *const name[3] = {"M0", "M1", "M2"};
     for (int k = 0; k < 3; ++k) {
-        m[k] = clast_table_numbers(h, name[k])[0];
-    }
-    if (config->solver == CLAST_SOLVER_SECTIONAL && config->initial == CLAST_INITIAL_EXPONENTIAL) {
-        m[0] = config->concentration;
-        m[1] = m[0] * config->initial_mean;
-        m[2] = 2.0 * m[1] * config->initial_mean;
+        m[k] = start->config->solver == CLAST_SOLVER_SECTIONAL ? clx_start_moment(start, k)
+                                                               : clast_table_numbers(h, name[k])[0];
     }
 }
 
-static clast_status add_exact(const clast_spectrum_config *config,
-                              const clast_collide_config *collide, clast_spectrum *made)
+static clast_status add_exact(const clx_start *of, const clast_collide_config *collide,
+                              clast_spectrum *made)
 {
     clast_status status = CLAST_OK;
+    const clast_spectrum_config *config = of->config;
     clast_table *h = &made->history;
     const uint32_t kernel = collide->kernel;
     const clast_medium *m = &collide->medium;
@@ -346,7 +343,7 @@ static clast_status add_exact(const clast_spectrum_config *config,
     CLX_TRY(clast_table_add_number(h, "exact_M0", "1/m^3", &column));
     CLX_TRY(clast_table_add_number(h, "exact_M2", "1/m^3", &column));
     double start[3];
-    exact_start(config, h, start);
+    exact_start(of, h, start);
     for (int64_t row = 0; row < h->n_row; ++row) {
         double exact[2];
         exact_at(kernel, rate, start, clast_table_numbers(h, "time_s")[row], exact);
@@ -443,6 +440,8 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
         .gel_time = (double)NAN, .exact_gel_time = (double)NAN, .range = clx_range_begin()};
     CLX_TRY(check(config, collide, result));
     CLX_TRY(clx_start_begin(config, start_table, &start));
+    made.law_M1 = clx_start_moment(&start, 1);
+    made.law_M2 = clx_start_moment(&start, 2);
     CLX_TRY(make_grid(&start, &grid));
     CLX_TRY(make_sums(config->n_step + 1, grid.n, &sums));
     if (config->solver == CLAST_SOLVER_SECTIONAL) {
@@ -452,7 +451,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
     }
     made.is_gelation = made.n_gelled > 0 && clx_kernel_gels(collide, grid.x[grid.n - 1]);
     CLX_TRY(make_history(&start, &grid, &sums, &made.history));
-    CLX_TRY(add_exact(config, collide, &made));
+    CLX_TRY(add_exact(&start, collide, &made));
     CLX_TRY(make_spectrum(config, &grid, &sums, &made.spectrum));
     *result = made;
     made = (clast_spectrum){0};

@@ -17,6 +17,9 @@ clast_status clx_start_begin(const clast_spectrum_config *config, const clast_sp
 /// The size below which a share u of the particles lies.
 double clx_start_quantile(const clx_start *start, double u);
 
+/// Moment k of the law, 0 to 2 [1/m^3].
+double clx_start_moment(const clx_start *start, int k);
+
 /// Adds the start to the pivots of a grid [1/m^3]; number and mass kept.
 void clx_start_add(const clx_start *start, const clx_sectional *grid, double *number);
 

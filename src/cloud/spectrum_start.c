@@ -123,6 +123,28 @@ double clx_start_quantile(const clx_start *s, double u)
     return exp(log_median(s) + log_sd(s) * clx_normal_quantile(u));
 }
 
+double clx_start_moment(const clx_start *s, int k)
+{
+    CLAST_ASSERT(k >= 0 && k <= 2);
+    const double mean = s->config->initial_mean;
+    double sum = 0.0;
+    double number = 0.0;
+    switch (s->config->initial) {
+    case CLAST_INITIAL_TABLE:
+        for (int64_t i = 0; i < s->table->n; ++i) {
+            number += s->table->number[i];
+            sum += s->table->number[i] * pow(s->table->size[i], k);
+        }
+        return s->concentration * sum / number;
+    case CLAST_INITIAL_EXPONENTIAL:
+        return s->concentration * (k == 2 ? 2.0 : 1.0) * pow(mean, k);
+    case CLAST_INITIAL_LOGNORMAL:
+        return s->concentration * pow(mean, k) * (k == 2 ? exp(log_sd(s) * log_sd(s)) : 1.0);
+    default:
+        return s->concentration * pow(mean, k);
+    }
+}
+
 /// Number a size, over the concentration.
 static double density(const clx_start *s, double x)
 {

@@ -23,6 +23,17 @@ class BoxModel(Case):
             print("SKIPPED: this build has no SUNDIALS (tools/setup.sh sundials)")
             self.skipTest("no SUNDIALS")
 
+    def test_a_tail_that_the_drawn_particles_do_not_hold_is_told(self):
+        law = ("--constant", "1", "--duration", "1us", "--initial", "lognormal", "--initial-sd")
+        wide = clast(*BOX, *law, "8", "--json")
+        self.assertIn("of M2 of their law at the start", wide.err)
+        self.assertAlmostEqual(wide.json["law_M2"], 2 * math.exp(math.log(8) ** 2), delta=1e-9 * wide.json["law_M2"])
+        self.assertEqual(wide.json["law_M1"], 2.0)
+        self.assertLess(wide.json["moments"]["M2"][0], 0.99 * wide.json["law_M2"])
+        self.assertEqual(clast(*BOX, *law, "1.2").err, "")
+        self.need_sectional()
+        self.assertEqual(clast(*BOX, *law, "8", "--solver", "sectional").err, "")
+
     def test_monte_carlo_meets_the_exact_number_in_tables_charts_and_json(self):
         run = self.folder / "run"
         r = clast(*BOX, "--kernel", "constant", "--constant", "1", "--duration", "1", "--n-step", "2", "--repeats", "10",
