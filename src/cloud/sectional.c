@@ -311,6 +311,20 @@ static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
     return t;
 }
 
+/// Adds what so many events move.
+static void add_transfer(const transfer *t, int32_t j, int32_t k, double event, double *to)
+{
+    to[j] -= event * t->loss[0];
+    to[k] -= event * t->loss[1];
+    to[t->i] += event * t->gain[0];
+    if (t->gain[1] != 0.0) {
+        to[t->i + 1] += event * t->gain[1];
+    }
+    if (t->lent != 0.0) {
+        to[t->i - 1] += event * t->lent;
+    }
+}
+
 void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
 {
     const int64_t n = s->n;
@@ -331,15 +345,7 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
             const double event =
                 (j == k ? 0.5 : 1.0) * s->rate[j * n + k] * at_j * y[k] * s->monomers / s->x[k];
             const transfer t = transfer_of(s, j, k);
-            slope[j] -= event * t.loss[0];
-            slope[k] -= event * t.loss[1];
-            slope[t.i] += event * t.gain[0];
-            if (t.gain[1] != 0.0) {
-                slope[t.i + 1] += event * t.gain[1];
-            }
-            if (t.lent != 0.0) {
-                slope[t.i - 1] += event * t.lent;
-            }
+            add_transfer(&t, j, k, event, slope);
         }
     }
     for (int32_t k = 1; k < s->n && s->fragment != NULL; ++k) {
@@ -368,16 +374,7 @@ void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *con
                                   j == k ? 0.5 * unit * y[j] : unit * y[j]}; // d event / d y_j, y_k
             const transfer t = transfer_of(s, j, k);
             for (int e = 0; e < 2; ++e) {
-                double *of = column[e == 0 ? j : k];
-                of[j] -= by[e] * t.loss[0];
-                of[k] -= by[e] * t.loss[1];
-                of[t.i] += by[e] * t.gain[0];
-                if (t.gain[1] != 0.0) {
-                    of[t.i + 1] += by[e] * t.gain[1];
-                }
-                if (t.lent != 0.0) {
-                    of[t.i - 1] += by[e] * t.lent;
-                }
+                add_transfer(&t, j, k, by[e], column[e == 0 ? j : k]);
             }
         }
     }
