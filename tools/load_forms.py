@@ -37,6 +37,7 @@ def stages(run):
 
 
 def gather(folder):
+    """(curve, form, pressure): [(porosity, contacts), a seed each], seeds in order."""
     found = {}
     for manifest in sorted(folder.glob("**/manifest.json")):
         run = manifest.parent
@@ -78,6 +79,12 @@ def main():
         if all(two):
             print(f"{curve:18s} hulls less ellipsoids {pressure / 1e3:8g} kPa  {mean(two[0], 0) - mean(two[1], 0):+.4f} "
                   f"+- {math.hypot(*map(standard_error, two)):.4f}")
+    for curve, form in sorted({(c, f) for c, f, _ in found}):
+        pressures = sorted(p for c, f, p in found if (c, f) == (curve, form))
+        ends = [found[curve, form, p] for p in (pressures[0], pressures[-1])]
+        lost = [(a[0] - b[0],) for a, b in zip(*ends)]  # of each bed: pressed on, so its luck is the same at both ends
+        if len(ends[0]) == len(ends[1]):
+            print(f"{curve:18s} {form:10s} lose {mean(lost, 0):.4f} +- {standard_error(lost):.4f} from {pressures[0] / 1e3:g} to {pressures[-1] / 1e3:g} kPa ({len(lost)} beds)")
     if options.library:
         names = sorted({(curve, form) for curve, form, _ in found})
         series = []
