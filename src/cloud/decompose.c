@@ -570,19 +570,6 @@ done:
     return status;
 }
 
-/// The tests alone: their one cell says nothing of events, least of all in a cloud just rejected.
-static void forget_events(clast_decomposition *r)
-{
-    for (int32_t c = 0; c < r->cells.n; ++c) {
-        r->cells.events[c] = (double)NAN;
-    }
-    r->events = r->events_low = r->events_high = (double)NAN;
-    r->points_needed = r->cells_bias = r->bias_estimate = r->smoothing_bias = (double)NAN;
-    r->events_cross = (double)NAN;
-    r->n_capped = 0;
-    r->resolved = r->keeps_apart = false;
-}
-
 /// Whether so many points repeat the place of another that their density has no lower bound.
 static bool is_repeated(const clx_shown *cached, const clx_ladder *ladder)
 {
@@ -603,11 +590,6 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, cached, &ladder, result));
-    if (config->variant == CLAST_VARIANT_TEST) {
-        to_domain(sample->domain, &result->cells);
-        forget_events(result);
-        goto done;
-    }
     if (is_repeated(cached, &ladder)) { // cells at their cap have no bound either
         result->events_low = (double)NAN;
     }
