@@ -261,7 +261,8 @@ done:
     return status;
 }
 
-/// Where a sample does not hold what its law has: a tail of few large particles is in few samples.
+/// Where drawn particles do not hold what their law has: a tail of few large ones is in few
+/// samples.
 static void warn_of_start(const cli_common *common, const clast_spectrum *r)
 {
     static const double SMALL = 0.01;
@@ -291,7 +292,9 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     CLI_TRY(evolve(job->box, job->agglomerate, &r));
     out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
     cli_range_warn(common, &r.range);
-    warn_of_start(common, &r);
+    if (job->box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO) {
+        warn_of_start(common, &r);
+    }
     if (folder != NULL) {
         CLI_TRY(write_results(job, &r, out, folder));
     }

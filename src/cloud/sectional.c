@@ -1,9 +1,8 @@
-// Population balance by the fixed pivot technique [Kumar1996]: a new particle of size v becomes
-// shares of pivots beside it. Two of them keep number and mass, and the second moment grows by what
-// lies between; here the next smaller pivot lends a little (at most an eighth), so that the second
-// moment is kept too. It is the one below, for in a falling tail it holds by far the most. Below
-// 1/(2^(1/p) - 1) monomers the pivots of single particles are the whole numbers, where nothing is
-// shared.
+// Population balance by the fixed pivot technique [Kumar1996]: a new particle of size v between two
+// pivots becomes a share of each, such that number and mass are kept; below 1/(2^(1/p) - 1)
+// monomers the pivots of single particles are the whole numbers, where nothing is shared. The
+// second moment then grows by what lies between, unless the pivot below lends a little of its
+// number; it does as far as it holds mass enough.
 #include "cloud/sectional.h"
 
 #include "base/alloc.h"
@@ -18,7 +17,7 @@ void clx_sectional_free(clx_sectional *s)
     clx_free(s->x);
     clx_free(s->rate);
     clx_free(s->share);
-    clx_free(s->below);
+    clx_free(s->lent);
     clx_free(s->lower);
     clx_free(s->breaks);
     clx_free(s->fragment);
@@ -79,14 +78,24 @@ void clx_sectional_add(const clx_sectional *s, double v, double number, double *
     n_at[i + 1] += number * (1.0 - share);
 }
 
-void clx_sectional_share(const clx_sectional *s, double v, int32_t i, double share[3])
+double clx_sectional_lent(const clx_sectional *s, double v, int32_t i)
 {
     CLAST_ASSERT(i >= 0 && i + 1 < s->n);
     const double *x = s->x + i;
-    const double up = (v - x[0]) / (x[1] - x[0]);
-    share[0] = i > 0 ? (v - x[0]) * (v - x[1]) / ((x[-1] - x[0]) * (x[-1] - x[1])) : 0.0;
-    share[2] = i > 0 ? up * (v - x[-1]) / (x[1] - x[-1]) : up;
-    share[1] = 1.0 - share[0] - share[2];
+    return i > 0 ? (v - x[0]) * (x[1] - v) / ((x[0] - x[-1]) * (x[1] - x[-1])) : 0.0;
+}
+
+void clx_sectional_lend(const clx_sectional *s, int32_t i, double mass_below, double mass,
+                        double gain[3])
+{
+    static const double ENOUGH = 3.0; // so many times the mass below: all of it is lent
+    CLAST_ASSERT(i > 0 && i + 1 < s->n);
+    const double *x = s->x + i;
+    const double has = fmax(0.0, mass_below);
+    const double part = has > 0.0 ? fmin(1.0, (1.0 + ENOUGH) * has / (has + fmax(0.0, mass))) : 0.0;
+    gain[0] = -part * x[-1];
+    gain[2] = -part * x[1] * (x[0] - x[-1]) / (x[1] - x[0]);
+    gain[1] = -gain[0] - gain[2];
 }
 
 clast_collider clx_collider_of_size(const clast_collide_config *c, double x)
@@ -134,13 +143,9 @@ static void fill_pairs(const clast_collide_config *collide, clx_sectional *s)
             if (is_law) {
                 s->rate[j * n + k] *= clx_sticking_of(collide, &collide->medium, a, b);
             }
-            double share[3] = {0.0, 1.0, 0.0};
-            if (is_between) {
-                clx_sectional_share(s, v, i, share);
-            }
             s->lower[j * n + k] = i;
-            s->below[j * n + k] = share[0];
-            s->share[j * n + k] = share[1];
+            s->share[j * n + k] = is_between ? (s->x[i + 1] - v) / (s->x[i + 1] - s->x[i]) : 1.0;
+            s->lent[j * n + k] = is_between ? clx_sectional_lent(s, v, i) : 0.0;
         }
     }
 }
@@ -248,7 +253,7 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     const int64_t n = s->n;
     CLX_TRY(clx_alloc(&s->rate, n * n, sizeof *s->rate));
     CLX_TRY(clx_alloc(&s->share, n * n, sizeof *s->share));
-    CLX_TRY(clx_alloc(&s->below, n * n, sizeof *s->below));
+    CLX_TRY(clx_alloc(&s->lent, n * n, sizeof *s->lent));
     CLX_TRY(clx_alloc(&s->lower, n * n, sizeof *s->lower));
     CLX_TRY(clx_alloc(&s->breaks, n, sizeof *s->breaks));
     CLX_TRY(clx_alloc(&s->sink, n, sizeof *s->sink));
@@ -289,11 +294,11 @@ done:
 typedef struct {
     int32_t i;      ///< lower pivot; n + CLX_GEL beyond the grid
     double gain[2]; ///< at i and i + 1
-    double lent;    ///< at i - 1
+    double lent[3]; ///< beside that at i - 1, i and i + 1
     double loss[2]; ///< at j and k
 } transfer;
 
-static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
+static transfer transfer_of(const clx_sectional *s, const double *y, int32_t j, int32_t k)
 {
     CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     const int64_t at = (int64_t)j * s->n + k;
@@ -302,9 +307,14 @@ static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
     const double v = t.loss[0] + t.loss[1];
     t.gain[0] = v;
     if (t.i < s->n - 1) {
-        t.lent = t.i > 0 ? s->below[at] * s->x[t.i - 1] * unit : 0.0;
         t.gain[0] = s->share[at] * s->x[t.i] * unit;
-        t.gain[1] = v - t.gain[0] - t.lent;
+        t.gain[1] = v - t.gain[0];
+        if (s->lent[at] > 0.0) {
+            clx_sectional_lend(s, t.i, y[t.i - 1], y[t.i], t.lent);
+            for (int m = 0; m < 3; ++m) {
+                t.lent[m] *= s->lent[at] * unit;
+            }
+        }
     } else if (t.i == s->n) {
         t.i = s->n + CLX_GEL;
     }
@@ -320,8 +330,8 @@ static void add_transfer(const transfer *t, int32_t j, int32_t k, double event, 
     if (t->gain[1] != 0.0) {
         to[t->i + 1] += event * t->gain[1];
     }
-    if (t->lent != 0.0) {
-        to[t->i - 1] += event * t->lent;
+    for (int m = 0; m < 3 && t->lent[0] != 0.0; ++m) {
+        to[t->i - 1 + m] += event * t->lent[m];
     }
 }
 
@@ -344,7 +354,7 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
         for (int32_t k = j; k < s->n && at_j != 0.0; ++k) {
             const double event =
                 (j == k ? 0.5 : 1.0) * s->rate[j * n + k] * at_j * y[k] * s->monomers / s->x[k];
-            const transfer t = transfer_of(s, j, k);
+            const transfer t = transfer_of(s, y, j, k);
             add_transfer(&t, j, k, event, slope);
         }
     }
@@ -372,7 +382,7 @@ void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *con
             const double unit = s->rate[j * n + k] * s->monomers / s->x[j] * s->monomers / s->x[k];
             const double by[2] = {j == k ? 0.5 * unit * y[k] : unit * y[k],
                                   j == k ? 0.5 * unit * y[j] : unit * y[j]}; // d event / d y_j, y_k
-            const transfer t = transfer_of(s, j, k);
+            const transfer t = transfer_of(s, y, j, k);
             for (int e = 0; e < 2; ++e) {
                 add_transfer(&t, j, k, by[e], column[e == 0 ? j : k]);
             }

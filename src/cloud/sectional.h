@@ -12,7 +12,7 @@ typedef struct clx_sectional {
     double *x;        ///< [n] pivots [monomers], rising
     double *rate;     ///< [n][n] alpha beta of j <= k [m^3/s]
     double *share;    ///< [n][n] number share of the lower pivot of a new particle
-    double *below;    ///< [n][n] of the one below that, so that the second moment is kept too
+    double *lent;     ///< [n][n] what the pivot below that is to lend, clx_sectional_lent
     int32_t *lower;   ///< [n][n] that lower pivot; n: beyond the grid
     double *breaks;   ///< [n] S [1/s]
     double *fragment; ///< [n][n] of a broken particle of k, number at pivot i: [k n + i]
@@ -34,9 +34,14 @@ clast_status clx_sectional_grid(double low, double high, double step, int32_t pe
 /// the grid mass alone).
 void clx_sectional_add(const clx_sectional *s, double v, double number, double *n_at);
 
-/// Number shares of a particle of size v at pivots i - 1, i and i + 1, where v lies between the
-/// last two: number, mass and second moment are kept (number and mass alone where i is 0).
-void clx_sectional_share(const clx_sectional *s, double v, int32_t i, double share[3]);
+/// The number that pivot i - 1 lends a particle of size v between pivots i and i + 1, so that the
+/// second moment is kept beside number and mass: at most an eighth; 0 where i is 0.
+double clx_sectional_lent(const clx_sectional *s, double v, int32_t i);
+
+/// The mass that pivots i - 1, i and i + 1 get of each number lent there; a part of it where the
+/// one below holds little mass beside i, and nothing where it holds none.
+void clx_sectional_lend(const clx_sectional *s, int32_t i, double mass_below, double mass,
+                        double gain[3]);
 
 /// Fills rates; s->monomers and x are there.
 clast_status clx_sectional_rates(const clast_spectrum_config *config,

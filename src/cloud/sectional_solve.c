@@ -125,7 +125,10 @@ clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *
                 *gel_time = time;
             }
         }
-        memcpy(rows + (size_t)step * n, N_VGetArrayPointer(g.y), n * sizeof *rows);
+        for (size_t i = 0; i < n; ++i) { // below the tolerance a share has no sign
+            const double share = N_VGetArrayPointer(g.y)[i];
+            rows[(size_t)step * n + i] = fabs(share) < LEAST_SHARE ? fmax(0.0, share) : share;
+        }
     }
 done:
     integrator_free(&g);

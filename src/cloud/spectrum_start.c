@@ -158,15 +158,22 @@ static double density(const clx_start *s, double x)
 static void add_density(const clx_start *s, const clx_sectional *grid, double *number)
 {
     for (int32_t i = 0; i + 1 < grid->n; ++i) {
-        const double width = grid->x[i + 1] - grid->x[i];
+        const double *x = grid->x + i;
+        const double width = x[1] - x[0];
+        double lent = 0.0;
         for (int q = 0; q < CLX_GAUSS_N; ++q) {
             const double u = clx_gauss_point(q);
             const double part =
-                s->concentration * width * clx_gauss_weight(q) * density(s, grid->x[i] + u * width);
-            double share[3];
-            clx_sectional_share(grid, grid->x[i] + u * width, i, share);
-            for (int m = i > 0 ? 0 : 1; m < 3; ++m) {
-                number[i - 1 + m] += share[m] * part;
+                s->concentration * width * clx_gauss_weight(q) * density(s, x[0] + u * width);
+            number[i] += (1.0 - u) * part;
+            number[i + 1] += u * part;
+            lent += part * clx_sectional_lent(grid, x[0] + u * width, i);
+        }
+        if (i > 0) {
+            double gain[3];
+            clx_sectional_lend(grid, i, number[i - 1] * x[-1], number[i] * x[0], gain);
+            for (int m = 0; m < 3; ++m) {
+                number[i - 1 + m] += lent * gain[m] / x[m - 1];
             }
         }
     }

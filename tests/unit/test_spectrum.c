@@ -162,6 +162,34 @@ static void moments_converge(void **state)
     assert_true(error[1] / error[2] > 5.0 && error[1] / error[2] < 9.0);
 }
 
+/* Few large particles among small ones: the pivot below the large ones holds nothing and lends
+ * nothing, or it would come to hold less than that. */
+static void no_number_is_negative(void **state)
+{
+    (void)state;
+    need_sectional();
+    static const double size[2] = {1.0, 1000.0};
+    static const double number[2] = {1.0, 0.01};
+    const clast_spectrum_start start = {2, size, number};
+    static const char *const kernels[3] = {"constant", "additive", "product"};
+    for (int k = 0; k < 3; ++k) {
+        clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, k == 2 ? 2e-5 : 0.01);
+        const clast_collide_config collide = kernel(kernels[k]);
+        clast_spectrum r;
+        c.initial = CLAST_INITIAL_TABLE;
+        c.concentration = 0.0;
+        c.size_max = 1e6;
+        CHECK_OK(clast_spectrum_evolve(&start, &c, &collide, &r));
+        check_balance(&c, &r);
+        const double *n = clast_table_numbers(&r.spectrum, "n");
+        for (int64_t i = 0; i < r.spectrum.n_row; ++i) {
+            assert_true(n[i] >= 0.0);
+        }
+        CHECK_REL(last(&r, "M2"), last(&r, "exact_M2"), 1e-3);
+        clast_spectrum_free(&r);
+    }
+}
+
 enum { TWIN = 160 };
 
 /* The discrete equation as printed, by Runge and Kutta's rule: dn_k/dt = 1/2 sum K n_i n_j - n_k
@@ -726,6 +754,7 @@ int main(void)
         cmocka_unit_test(single_particles_meet_the_exact_solutions),
         cmocka_unit_test(exponential_starts_meet_the_exact_solutions),
         cmocka_unit_test(moments_converge),
+        cmocka_unit_test(no_number_is_negative),
         cmocka_unit_test(both_solvers_meet_the_plain_twin),
         cmocka_unit_test(monte_carlo_draws_the_laws_of_the_start),
         cmocka_unit_test(breakage_meets_the_exact_solutions),
