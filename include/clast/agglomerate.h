@@ -237,10 +237,9 @@ typedef struct clast_agglomeration {
     /// One row a time and class of sizes: time_s, size (its middle), size_low and size_high
     /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.
     clast_table spectrum;
-    int32_t n_rebuilt; ///< decompositions after the first, first repeat
-    int32_t
-        n_unresolved; ///< of these and the first: of points that did not show their own structure
-    int32_t n_cell;   ///< last, first repeat
+    int32_t n_rebuilt;    ///< decompositions after the first, first repeat
+    int32_t n_unresolved; ///< of these and the first: their points are not resolved
+    int32_t n_cell;       ///< last, first repeat
     bool has_exact, has_fixed;
     bool is_gelation; ///< in some run, of a kernel that gels
     int32_t n_gelled; ///< runs where a parcel came to hold more than n^(-1/3) of the monomers

@@ -18,6 +18,7 @@ void clx_sectional_free(clx_sectional *s)
     clx_free(s->rate);
     clx_free(s->share);
     clx_free(s->lent);
+    clx_free(s->loan);
     clx_free(s->lower);
     clx_free(s->breaks);
     clx_free(s->fragment);
@@ -254,6 +255,7 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     CLX_TRY(clx_alloc(&s->rate, n * n, sizeof *s->rate));
     CLX_TRY(clx_alloc(&s->share, n * n, sizeof *s->share));
     CLX_TRY(clx_alloc(&s->lent, n * n, sizeof *s->lent));
+    CLX_TRY(clx_alloc(&s->loan, n, sizeof *s->loan));
     CLX_TRY(clx_alloc(&s->lower, n * n, sizeof *s->lower));
     CLX_TRY(clx_alloc(&s->breaks, n, sizeof *s->breaks));
     CLX_TRY(clx_alloc(&s->sink, n, sizeof *s->sink));
@@ -298,7 +300,7 @@ typedef struct {
     double loss[2]; ///< at j and k
 } transfer;
 
-static transfer transfer_of(const clx_sectional *s, const double *y, int32_t j, int32_t k)
+static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
 {
     CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     const int64_t at = (int64_t)j * s->n + k;
@@ -309,11 +311,8 @@ static transfer transfer_of(const clx_sectional *s, const double *y, int32_t j, 
     if (t.i < s->n - 1) {
         t.gain[0] = s->share[at] * s->x[t.i] * unit;
         t.gain[1] = v - t.gain[0];
-        if (s->lent[at] > 0.0) {
-            clx_sectional_lend(s, t.i, y[t.i - 1], y[t.i], t.lent);
-            for (int m = 0; m < 3; ++m) {
-                t.lent[m] *= s->lent[at] * unit;
-            }
+        for (int m = 0; m < 3 && s->lent[at] > 0.0; ++m) {
+            t.lent[m] = s->lent[at] * unit * s->loan[t.i][m];
         }
     } else if (t.i == s->n) {
         t.i = s->n + CLX_GEL;
@@ -335,10 +334,18 @@ static void add_transfer(const transfer *t, int32_t j, int32_t k, double event, 
     }
 }
 
+static void fill_loans(const clx_sectional *s, const double *y)
+{
+    for (int32_t i = 1; i + 1 < s->n; ++i) {
+        clx_sectional_lend(s, i, y[i - 1], y[i], s->loan[i]);
+    }
+}
+
 void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
 {
     const int64_t n = s->n;
     ++s->n_evaluation;
+    fill_loans(s, y);
     for (int64_t i = 0; i < n; ++i) {
         slope[i] = s->source[i] - s->sink[i] * y[i];
     }
@@ -354,7 +361,7 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
         for (int32_t k = j; k < s->n && at_j != 0.0; ++k) {
             const double event =
                 (j == k ? 0.5 : 1.0) * s->rate[j * n + k] * at_j * y[k] * s->monomers / s->x[k];
-            const transfer t = transfer_of(s, y, j, k);
+            const transfer t = transfer_of(s, j, k);
             add_transfer(&t, j, k, event, slope);
         }
     }
@@ -370,6 +377,7 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
 void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *const *column)
 {
     const int64_t n = s->n;
+    fill_loans(s, y);
     for (int64_t c = 0; c < n + CLX_N_BESIDE; ++c) {
         for (int64_t i = 0; i < n + CLX_N_BESIDE; ++i) {
             column[c][i] = 0.0;
@@ -382,7 +390,7 @@ void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *con
             const double unit = s->rate[j * n + k] * s->monomers / s->x[j] * s->monomers / s->x[k];
             const double by[2] = {j == k ? 0.5 * unit * y[k] : unit * y[k],
                                   j == k ? 0.5 * unit * y[j] : unit * y[j]}; // d event / d y_j, y_k
-            const transfer t = transfer_of(s, y, j, k);
+            const transfer t = transfer_of(s, j, k);
             for (int e = 0; e < 2; ++e) {
                 add_transfer(&t, j, k, by[e], column[e == 0 ? j : k]);
             }

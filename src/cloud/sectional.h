@@ -9,16 +9,17 @@ enum { CLX_GEL, CLX_SETTLED, CLX_ADDED, CLX_N_BESIDE };
 /// y [n + CLX_N_BESIDE] are shares of the monomers at the start: y_i = N_i x_i / monomers.
 typedef struct clx_sectional {
     int32_t n;
-    double *x;        ///< [n] pivots [monomers], rising
-    double *rate;     ///< [n][n] alpha beta of j <= k [m^3/s]
-    double *share;    ///< [n][n] number share of the lower pivot of a new particle
-    double *lent;     ///< [n][n] what the pivot below that is to lend, clx_sectional_lent
-    int32_t *lower;   ///< [n][n] that lower pivot; n: beyond the grid
-    double *breaks;   ///< [n] S [1/s]
-    double *fragment; ///< [n][n] of a broken particle of k, number at pivot i: [k n + i]
-    double *sink;     ///< [n] w / depth [1/s]
-    double *source;   ///< [n] shares of the monomers at the start a time [1/s]
-    double monomers;  ///< at the start [1/m^3]
+    double *x;         ///< [n] pivots [monomers], rising
+    double *rate;      ///< [n][n] alpha beta of j <= k [m^3/s]
+    double *share;     ///< [n][n] number share of the lower pivot of a new particle
+    double *lent;      ///< [n][n] what the pivot below that is to lend, clx_sectional_lent
+    double (*loan)[3]; ///< [n] clx_sectional_lend at the y that is looked at
+    int32_t *lower;    ///< [n][n] that lower pivot; n: beyond the grid
+    double *breaks;    ///< [n] S [1/s]
+    double *fragment;  ///< [n][n] of a broken particle of k, number at pivot i: [k n + i]
+    double *sink;      ///< [n] w / depth [1/s]
+    double *source;    ///< [n] shares of the monomers at the start a time [1/s]
+    double monomers;   ///< at the start [1/m^3]
     int64_t n_evaluation;
     clast_collider *as; ///< [n] a particle of each pivot
     uint32_t ranges;    ///< rows of the table of ranges that the run is held against
