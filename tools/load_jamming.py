@@ -14,15 +14,15 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import chart  # noqa: E402
+import load_nine  # noqa: E402
 
 RANGES = ((1e5, 2e3), (5e4, 1e3), (1e4, 5e2), (1e5, 5e1), (1e4, 5e1), (2e3, 5e1))  # Pa, from and to
 
 
 def slope(xy):
     """Slope of the straight line of least squares, and the sum of squares that is left."""
-    n, mx, my = len(xy), sum(x for x, _ in xy) / len(xy), sum(y for _, y in xy) / len(xy)
-    b = sum((x - mx) * (y - my) for x, y in xy) / sum((x - mx) ** 2 for x, _ in xy)
-    return b, sum((y - my - b * (x - mx)) ** 2 for x, y in xy)
+    b, at_zero = load_nine.fit(xy)
+    return b, sum((y - at_zero - b * x) ** 2 for x, y in xy)
 
 
 def powers(rows):
