@@ -70,7 +70,7 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
     const double *inverse[CLX_LANES];
     lanes_gather(g->angular, m[0].angular, m[1].angular, m[2].angular, m[3].angular);
     for (int k = 0; k < CLX_LANES; ++k) {
-        inverse[k] = dem->body[dem->grain[i + k].shape].inverse_inertia[0];
+        inverse[k] = (const double *)dem->body[dem->grain[i + k].shape].inverse_inertia;
     }
     lanes_gather(g->inverse, inverse[0], inverse[1], inverse[2], inverse[3]);
     lanes_gather(g->inverse + 4, inverse[0] + 4, inverse[1] + 4, inverse[2] + 4, inverse[3] + 4);
@@ -173,11 +173,14 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
         return;
     }
     lanes_scatter(g->angular, m[0].angular, m[1].angular, m[2].angular, m[3].angular);
-    lanes_scatter(g->turn, to[0].turn[0], to[1].turn[0], to[2].turn[0], to[3].turn[0]);
-    lanes_scatter(g->turn + 4, to[0].turn[0] + 4, to[1].turn[0] + 4, to[2].turn[0] + 4,
-                  to[3].turn[0] + 4);
+    double *turn[CLX_LANES]; // nine in a row
     for (int k = 0; k < CLX_LANES; ++k) {
-        to[k].turn[2][2] = g->turn[8][k];
+        turn[k] = (double *)to[k].turn;
+    }
+    lanes_scatter(g->turn, turn[0], turn[1], turn[2], turn[3]);
+    lanes_scatter(g->turn + 4, turn[0] + 4, turn[1] + 4, turn[2] + 4, turn[3] + 4);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        turn[k][8] = g->turn[8][k];
     }
 }
 
