@@ -208,9 +208,17 @@ static clast_status write_files(const clast_spectrum *r, const char *folder, con
                              is_told(&r->history, share[2]);
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/history.csv", folder);
-    CLI_GUARD(clast_table_write_csv(&r->history, path));
+    CLI_GUARD(clast_table_write_csv_note(
+        &r->history,
+        "Mk: sum of size^k, n_k: particles of k monomers, in 1/m^3; size in monomers; fractions of "
+        "the mass at the start; gelled: share of the runs",
+        path));
     (void)snprintf(path, sizeof path, "%s/spectrum.csv", folder);
-    CLI_GUARD(clast_table_write_csv(&r->spectrum, path));
+    CLI_GUARD(clast_table_write_csv_note(
+        &r->spectrum,
+        "size: monomers; n: particles of the class, 1/m^3; "
+        "density: 1/m^3 a monomer; mass_fraction: of the mass at the start",
+        path));
     for (int k = 0; k < (has_balance ? N_CHART : N_CHART - 1); ++k) {
         (void)snprintf(path, sizeof path, "%s/%s.%s", folder, chart[k].file, picture);
         CLI_GUARD(

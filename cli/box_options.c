@@ -1,6 +1,7 @@
 // Options of clast agglomerate, and which of them go with one another: of clouds, of a box, of
 // kernels.
 #include "box_model.h"
+#include "idle.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -36,34 +37,6 @@ int cli_box_fields(clast_field *fields, int n, size_t offset)
     return n;
 }
 
-/// Whether the field still has its default.
-static bool is_default(const clast_field *fields, const clast_field *field, const void *config)
-{
-    static _Alignas(16) char plain[16384]; // beyond every configuration
-    char value[512] = "";
-    char usual[512] = "";
-    bool is_same = true;
-    if (clast_fields_default(fields, plain) != CLAST_OK) {
-        return true;
-    }
-    is_same = clast_field_count(field, config) == clast_field_count(field, plain);
-    for (int32_t k = 0; k < clast_field_count(field, config) && is_same; ++k) {
-        (void)clast_field_format(field, config, k, sizeof value, value);
-        (void)clast_field_format(field, plain, k, sizeof usual, usual);
-        is_same = strcmp(value, usual) == 0;
-    }
-    clast_fields_free(fields, plain);
-    return is_same;
-}
-
-static bool is_among(const char *name, const char *const *list)
-{
-    while (*list != NULL && strcmp(*list, name) != 0) {
-        ++list;
-    }
-    return *list != NULL;
-}
-
 /// 1: of a box alone, -1: of clouds alone, 0: of both.
 static int side_of(const char *name)
 {
@@ -71,11 +44,11 @@ static int side_of(const char *name)
     static const char *const both[] = {"box_model", "charts", "force", "seed", NULL};
     static const char *const cloud[] = {"rebuild", "change_level",    "fixed",
                                         "depth",   "self_collisions", NULL};
-    if (is_among(name, box) || clast_fields_find(clast_spectrum_fields, name) != NULL) {
+    if (cli_is_among(name, box) || clast_fields_find(clast_spectrum_fields, name) != NULL) {
         return 1;
     }
-    if (is_among(name, both) ||
-        (clast_fields_find(clast_agglomerate_fields, name) != NULL && !is_among(name, cloud))) {
+    if (cli_is_among(name, both) ||
+        (clast_fields_find(clast_agglomerate_fields, name) != NULL && !cli_is_among(name, cloud))) {
         return 0;
     }
     return -1;
@@ -91,10 +64,7 @@ static const char *idle_in(const cli_box *box, const char *name)
     static const char *const enters[] = {"source_size", NULL};
     static const char *const law[] = {"initial_mean", "initial_sd", NULL};
     const clast_spectrum_config *c = &box->spectrum;
-    const struct {
-        bool is_idle;
-        const char *const *list, *why;
-    } rule[] = {
+    const cli_idle rules[] = {
         {c->solver == CLAST_SOLVER_SECTIONAL, draws, "with this --solver"},
         {c->solver == CLAST_SOLVER_MONTE_CARLO, integrates, "with this --solver"},
         {c->breakage_rate == 0.0, breaks, "without --breakage-rate"},
@@ -103,12 +73,7 @@ static const char *idle_in(const cli_box *box, const char *name)
         {c->initial == CLAST_INITIAL_TABLE, law, "with --initial table"},
         {c->initial != CLAST_INITIAL_LOGNORMAL, law + 1, "without --initial lognormal"},
     };
-    for (size_t k = 0; k < sizeof rule / sizeof rule[0]; ++k) {
-        if (rule[k].is_idle && is_among(name, rule[k].list)) {
-            return rule[k].why;
-        }
-    }
-    return NULL;
+    return cli_idle_why(rules, sizeof rules / sizeof rules[0], name);
 }
 
 /// The run of which options are checked.
@@ -157,14 +122,11 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
     }
     CLI_GUARD(clast_kernel_parse(agglomerate->kernel, &o.agglomerate.collide.kernel));
     for (const clast_field *f = fields; f->name != NULL; ++f) {
-        char option[64];
+        char option[CLI_NAME_SIZE];
         const char *const why = box->box_model ? idle_in(box, f->name) : NULL;
         const bool is_wrong = side_of(f->name) == (box->box_model ? -1 : 1) || why != NULL;
-        (void)snprintf(option, sizeof option, "%s", f->name);
-        for (char *at = strchr(option, '_'); at != NULL; at = strchr(at, '_')) {
-            *at = '-';
-        }
-        if (is_wrong && !is_default(fields, f, config)) {
+        cli_option_name(f, option);
+        if (is_wrong && !cli_field_is_default(fields, f, config)) {
             return cli_fail(CLAST_E_USAGE, "--%s %s%s", option,
                             !box->box_model ? "is an option of a box: it needs --box-model"
                             : side_of(f->name) < 0
@@ -172,7 +134,7 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
                                 : "does nothing ",
                             why != NULL ? why : "");
         }
-        if (!is_default(fields, f, config)) {
+        if (!cli_field_is_default(fields, f, config)) {
             CLI_GUARD(check_used(&o, option, f->name));
         }
     }

@@ -1,6 +1,7 @@
 // clast agglomerate: collisions of a particle cloud in uniform cells, in time.
 #include "box_model.h"
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 #include "points.h"
 #include "ranges.h"
@@ -291,6 +292,7 @@ static clast_status run(const cli_common *common, void *values)
         const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
         return cli_box_run(&job, &c->force);
     }
+    CLI_GUARD(cli_idle_cells(fields, c, &c->agglomerate.decompose));
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};
@@ -303,7 +305,8 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(load(common, c, &l));
     l.input.domain = &domain;
     cli_warn_of_units(common, &domain, &l.cloud[0]);
-    CLI_TRY(clast_agglomerate(&l.input, &c->agglomerate, &result));
+    status = clast_agglomerate(&l.input, &c->agglomerate, &result);
+    CLI_TRY(cli_points_status(status, &c->points, &domain, &l.cloud[0]));
     out = summary(c, &result, cli_clock() - begun);
     cli_range_warn(common, &result.range);
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);

@@ -3,6 +3,7 @@
 #include "decompose_files.h"
 #include "decompose_pairs.h"
 #include "decompose_words.h"
+#include "idle.h"
 #include "json.h"
 #include "points.h"
 #include "results.h"
@@ -113,16 +114,8 @@ static clast_status decompose(const cli_common *common, const config *c, const c
 {
     const clast_status status =
         clast_decompose_ranks(common->comm, domain, cloud, &c->decompose, result);
-    const bool may_guess = status == CLAST_E_FORMAT && c->points.columns.unit[0] == '\0' &&
-                           common->comm->n_rank == 1 &&
-                           strstr(clast_error_detail(), "outside the domain") != NULL;
-    const char *unit = may_guess ? cli_unit_that_fits(domain, cloud) : NULL;
-    if (unit != NULL) {
-        char said[512];
-        (void)snprintf(said, sizeof said, "%s", clast_error_detail());
-        return cli_fail(status, "%s; in %s they would fit: --unit %s?", said, unit, unit);
-    }
-    CLI_GUARD(status);
+    CLI_GUARD(common->comm->n_rank > 1 ? status
+                                       : cli_points_status(status, &c->points, domain, cloud));
     if (result->n == 0) {
         const long long n = (long long)result->n_outside;
         clast_decomposition_free(result);
@@ -184,13 +177,29 @@ done:
 /// What needs a folder has one, and what was asked for is not idle.
 static clast_status check(const cli_common *common, const config *c)
 {
+    static const char *const sizes[] = {"regular", NULL};
+    static const char *const drawn[] = {"charts", NULL};
+    static const char *const variable[] = {"variable_tolerance", NULL};
+    static const char *const counts[] = {
+        "mesh",         "events",        "crossfit",        "beta_dt",    "pairs",
+        "pairs_radius", "estimator",     "sizes",           "lower",      "strict",
+        "max_pass",     "tree_level",    "tree_root_level", "tree_least", "tree_refine",
+        "extrapolate",  "ghost_samples", "variable_column", NULL};
     clast_status status = CLAST_OK;
+    const bool is_test = c->test_only || c->decompose.variant == CLAST_VARIANT_TEST;
+    const cli_idle rules[] = {
+        {is_test, counts, c->test_only ? "with --test-only" : "with --variant test"},
+        {c->n_size == 0, sizes, "without --sizes"},
+        {common->output == NULL, drawn, "without -o"},
+        {c->points.columns.variable_column[0] == '\0', variable, "without --variable-column"},
+    };
+    CLI_CHECK(!c->test_only || c->decompose.variant == CLAST_VARIANT_FULL ||
+                  c->decompose.variant == CLAST_VARIANT_TEST,
+              CLAST_E_USAGE, "--test-only is --variant test: leave --variant out");
+    CLI_TRY(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
+    CLI_TRY(is_test ? CLAST_OK : cli_idle_cells(fields, c, &c->decompose));
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");
-    CLI_CHECK(c->regular == 0 || c->n_size > 0, CLAST_E_USAGE,
-              "--regular does nothing without --sizes");
-    CLI_CHECK(!c->test_only || !c->decompose.pairs, CLAST_E_USAGE,
-              "--pairs does nothing with --test-only");
 done:
     return status;
 }
@@ -243,10 +252,10 @@ static clast_status run(const cli_common *common, void *values)
     clast_run_folder *folder = NULL;
     cli_decompose_found f = {.typed = c->decompose.domain, .begun = cli_clock()};
     clast_status status = CLAST_OK;
+    CLI_TRY(check(common, c));
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
-    CLI_TRY(check(common, c));
     if (common->comm->rank == 0) {
         status = cli_results_begin(common, common->output, &c->force, &folder);
     }
@@ -265,6 +274,7 @@ static clast_status run(const cli_common *common, void *values)
                            .sizes = &sizes,
                            .name = f.domain,
                            .chart_end = chart_end[c->charts],
+                           .pairs_radius = c->decompose.pairs_radius,
                            .has_drawn = result.has_drawn || c->n_size > 0,
                            .tests_alone = c->decompose.variant == CLAST_VARIANT_TEST};
     if (j.tests_alone) {

@@ -13,6 +13,7 @@ typedef struct cli_decompose_job {
     const clast_table *sizes; ///< without columns unless asked for
     const char *name;         ///< of the domain, in m
     const char *chart_end;    ///< "svg"
+    double pairs_radius;      ///< greatest distance of pairs that was asked for [m]; 0: none
     bool has_drawn;           ///< the seed mattered
     bool tests_alone;         ///< no cells and no events were asked for
 } cli_decompose_job;

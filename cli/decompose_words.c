@@ -155,7 +155,7 @@ json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found
 }
 
 /// Whether the number may be trusted; what would do where it may not.
-static void print_resolved(const clast_decomposition *r)
+static void print_resolved(const clast_decomposition *r, double pairs_radius)
 {
     if (r->resolved) {
         return;
@@ -177,6 +177,11 @@ static void print_resolved(const clast_decomposition *r)
         cli_points_needed_print(r->points_needed);
     }
     (void)printf("\n");
+    if (pairs_radius > 0.0) {
+        (void)printf("pairs are those within --pairs-radius %s; the distance that is taken without "
+                     "it may resolve more\n",
+                     cli_quantity(pairs_radius, "m"));
+    }
 }
 
 static void print_tests(const clast_uniformity *u, const clast_domain *domain,
@@ -218,8 +223,9 @@ static void print_passes(const clast_decomposition *r)
     }
 }
 
-static void print_events(const clast_decomposition *r, int64_t n_repeated)
+static void print_events(const cli_decompose_job *j, int64_t n_repeated)
 {
+    const clast_decomposition *const r = j->result;
     if (isnan(r->events_low)) {
         (void)printf("%d cell%s, no %s: %s\n", r->cells.n, cli_plural(r->cells.n),
                      r->beta_dt > 0.0 ? "number of events" : "pair integral",
@@ -243,7 +249,7 @@ static void print_events(const clast_decomposition *r, int64_t n_repeated)
                      "--beta-dt)\n",
                      r->events, r->events_low, high, r->dimension);
     }
-    print_resolved(r);
+    print_resolved(r, j->pairs_radius);
     if (r->estimator == CLAST_ESTIMATOR_PAIRS && r->pairs.n == 0) {
         (void)printf("counted by pairs of all distances (--pairs shows them): cells of no size "
                      "resolve the cloud\n");
@@ -286,7 +292,7 @@ void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *
     }
     print_passes(r);
     (void)printf("stop: %s\n", clast_decompose_stop_text(r->stop));
-    print_events(r, f->n_repeated);
+    print_events(j, f->n_repeated);
     if (r->n_pass > 0 && r->points_per_bin < 10.0) {
         (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
                      "their noise; compare "

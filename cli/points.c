@@ -116,7 +116,8 @@ static double from_order(int64_t order)
     return value;
 }
 
-const char *cli_unit_that_fits(const clast_domain *domain, const clast_cloud *cloud)
+/// The unit in which points that lie outside the domain would fill it, "mm" or "um"; NULL: none.
+static const char *unit_that_fits(const clast_domain *domain, const clast_cloud *cloud)
 {
     static const struct {
         const char *name;
@@ -141,6 +142,22 @@ const char *cli_unit_that_fits(const clast_domain *domain, const clast_cloud *cl
         }
     }
     return NULL;
+}
+
+clast_status cli_points_status(clast_status status, const cli_points *points,
+                               const clast_domain *domain, const clast_cloud *cloud)
+{
+    char said[CLI_WORDS_SIZE];
+    if (status != CLAST_E_FORMAT || points->columns.unit[0] != '\0' ||
+        strstr(clast_error_detail(), "outside the domain") == NULL) {
+        return status;
+    }
+    const char *const unit = unit_that_fits(domain, cloud);
+    if (unit == NULL) {
+        return status;
+    }
+    (void)snprintf(said, sizeof said, "%s", clast_error_detail());
+    return cli_fail(status, "%s; in %s they would fit: --unit %s?", said, unit, unit);
 }
 
 void cli_warn_of_units(const cli_common *common, const clast_domain *domain,

@@ -33,8 +33,10 @@ void cli_domain_json(json_t *out, const char *text, const clast_domain *domain);
 /// The domain in m; one of a file as it was typed.
 void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME]);
 
-/// The unit in which points that lie outside the domain would fill it, "mm" or "um"; NULL: none.
-const char *cli_unit_that_fits(const clast_domain *domain, const clast_cloud *cloud);
+/// `status` of a call that was given the points; where it says that some lie outside the domain and
+/// they would fill it in mm or um, the line says so too.
+clast_status cli_points_status(clast_status status, const cli_points *points,
+                               const clast_domain *domain, const clast_cloud *cloud);
 
 /// Positions in um in a domain in m all lie in a corner of it: says so on stderr. Called by all
 /// ranks.

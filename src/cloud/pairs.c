@@ -168,6 +168,21 @@ static double half_width(const clast_domain *d)
     return half;
 }
 
+/// No two points of the domain are further apart; infinite where it is not known.
+static double measure_across(const clast_domain *d)
+{
+    double across = 0.0;
+    if (clx_domain_is_boxed(d)) {
+        for (int32_t j = 0; j < d->dimension; ++j) {
+            across = hypot(across, d->high[j] - d->low[j]);
+        }
+        return across;
+    }
+    return d->kind == CLAST_DOMAIN_SPHERE ? 2.0 * d->radius
+           : d->kind == CLAST_DOMAIN_MAP  ? (double)INFINITY
+                                          : hypot(2.0 * d->radius, d->length);
+}
+
 /// The grid for a greatest distance, and the work in its cells.
 static clast_status count_cells(const double low[3], double extent, double radius, job *w)
 {
@@ -448,6 +463,10 @@ static clast_status check(const clast_domain *domain, const clast_cloud *cloud, 
               "pairs of points with weights are not counted: g(r) of parcels is not that of the "
               "particles they stand for; leave the weight column out");
     CLX_TRY(clx_points_check(cloud, before));
+    const double across = measure_across(domain);
+    CLX_CHECK(config->radius <= across, CLAST_E_CONFIG,
+              "pairs_radius %s: the domain is %s across; give it with a unit, as 270um",
+              clx_unit_text(config->radius, "m"), clx_unit_text(across, "m"));
 done:
     return status;
 }

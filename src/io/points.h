@@ -1,6 +1,7 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
 #include "base/status.h"
+#include <clast/cloud.h>
 #include <clast/table.h>
 
 /// Some rows of an array.
@@ -28,6 +29,10 @@ clast_status clx_points_h5(const char *path, const char *dataset, const clx_rows
 
 /// Rows of all arrays of an HDF5 file that clx_points_h5 reads.
 clast_status clx_points_h5_rows(const char *path, const char *dataset, int64_t *n_row);
+
+/// A snapshot is asked of a dump, an array of an HDF5 file: CLAST_E_USAGE else.
+clast_status clx_points_check_options(const char *name, const clast_points_options *options,
+                                      bool is_dump, bool is_h5);
 
 /// Whether a file that begins with these bytes is delimited text.
 bool clx_points_is_text(const char *bytes, size_t n);

@@ -43,17 +43,35 @@ bool clx_points_is_text(const char *bytes, size_t n)
            !clx_points_is_xyz(bytes, n);
 }
 
+clast_status clx_points_check_options(const char *name, const clast_points_options *options,
+                                      bool is_dump, bool is_h5)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(options == NULL || options->frame == 0 || is_dump, CLAST_E_USAGE,
+              "frame %lld: snapshots are those of a LAMMPS dump, and %s is none",
+              (long long)options->frame, name);
+    CLX_CHECK(options == NULL || options->dataset == NULL || options->dataset[0] == '\0' || is_h5,
+              CLAST_E_USAGE, "dataset %s: arrays are those of an HDF5 file, and %s is none",
+              options->dataset, name);
+done:
+    return status;
+}
+
 clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
                                const clast_points_options *options, clast_table *table)
 {
     CLX_ARGUMENTS(name, table);
     CLX_ARRAY(bytes, n);
-    const clast_points_options chosen = options != NULL ? *options : (clast_points_options){0};
+    const bool is_dump = begins(bytes, n, "ITEM:");
+    const clast_status status = clx_points_check_options(name, options, is_dump, false);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    if (is_dump) {
+        return clx_points_dump(name, bytes, n, options != NULL ? options->frame : 0, table);
+    }
     if (begins(bytes, n, "# vtk DataFile")) {
         return clx_points_vtk(name, bytes, n, table);
-    }
-    if (begins(bytes, n, "ITEM:")) {
-        return clx_points_dump(name, bytes, n, chosen.frame, table);
     }
     if (is_vtk_xml(bytes, n)) {
         return clx_points_vtx(name, bytes, n, table);
@@ -78,6 +96,7 @@ clast_status clast_cloud_read(const char *path, const clast_points_options *opti
     if (begins(bytes, (size_t)n, "\x89HDF")) {
         clx_free(bytes);
         bytes = NULL;
+        CLX_TRY(clx_points_check_options(path, options, false, true));
         CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, NULL, table));
     } else {
         CLX_TRY(clast_cloud_parse(path, bytes, (size_t)n, options, table));

@@ -14,7 +14,7 @@ CHARTS = ["clusters.svg", "moments.svg", "number.svg", "spectrum.svg"]
 
 def rows(path):
     with open(path, encoding="utf-8") as file:
-        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(line for line in file if line[0] != "#")]
 
 
 class BoxModel(Case):
@@ -189,7 +189,7 @@ class CloudSpectra(Case):
         self.assertAlmostEqual(gel["gel_time"], 1.0, delta=1500 ** (-1 / 3) + 0.05)  # the width of the critical window, and a step
         self.assertAlmostEqual(gel["gel_fraction"][-1], 0.583, delta=0.02)  # g = 1 - exp(-g T) [Flory]
         with open(self.folder / "gel/history.csv", encoding="utf-8") as file:
-            history = [{"gelled": float(row["gelled"])} for row in csv.DictReader(file)]
+            history = [{"gelled": float(row["gelled"])} for row in csv.DictReader(line for line in file if line[0] != "#")]
         self.assertEqual((history[0]["gelled"], history[-1]["gelled"]), (0, 1))
         self.assertRegex(clast(*words, "--kernel", "product", "--product", str(1 / 1500)).out, r"gelation by (0\.9|1\.)\d* s \(12 of 12 runs\)")
         even = clast(*words, "--constant", str(1 / 1500), "--json").json

@@ -76,8 +76,9 @@ class CloudInputs(Case):
         # the opposite: coordinates in mm, taken as m, in a domain of mm
         for scale, unit in ((1.0, "mm"), (1e3, "um")):
             far = self.write("far.csv", [[scale * c for c in p] for p in ROWS])
-            self.assert_fails(3, "decompose", far, "--domain", "box:0,0,0,1mm,1mm,1mm",
-                              says=["points lie outside the domain", f"in {unit} they would fit: --unit {unit}?"])
+            for command in (["decompose"], ["agglomerate", "--constant", "1e-3", "--n-step", "1"]):
+                self.assert_fails(3, *command, far, "--domain", "box:0,0,0,1mm,1mm,1mm",
+                                  says=["points lie outside the domain", f"in {unit} they would fit: --unit {unit}?"])
         near = clast("decompose", self.write("one.csv", ROWS + [[1.01, 0.5, 0.5]]), "--domain", CUBE)
         self.assertNotIn("--unit", near.err)
         agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]

@@ -311,7 +311,27 @@ class Decompose(Case):
     def test_idle_options_are_refused(self):
         command = ["decompose", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1"]
         self.assert_fails(2, *command, "--regular", "5", says=["--regular does nothing without --sizes"])
-        self.assert_fails(2, *command, "--pairs", "--test-only", says=["--pairs does nothing with --test-only"])
+        self.assert_fails(2, *command, "--charts", "png", says=["--charts does nothing without -o"])
+        self.assert_fails(2, *command, "--variable-tolerance", "1", says=["--variable-tolerance does nothing without --variable-column"])
+        self.assert_fails(2, *command, "--frame", "3", says=["frame 3: snapshots are those of a LAMMPS dump", "points_u2_n50.csv"])
+        self.assert_fails(2, *command, "--dataset", "a", says=["dataset a: arrays are those of an HDF5 file", "points_u2_n50.csv"])
+        self.assert_fails(2, *command, "--test-only", "--variant", "fast", says=["--test-only is --variant test"])
+        for option in (["--pairs"], ["--mesh", "tree"], ["--beta-dt", "1"], ["--sizes", "2", "-o", self.folder / "o"], ["--crossfit"]):
+            self.assert_fails(2, *command, *option, "--test-only", says=[f"{option[0]} does nothing with --test-only"])
+            self.assert_fails(2, *command, *option, "--variant", "test", says=[f"{option[0]} does nothing with --variant test"])
+        other = ["agglomerate", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1", "--kernel", "constant", "--constant", "1e-5",
+                 "--duration", "1s"]
+        for option in (["--lower", "joint"], ["--strict"], ["--max-pass", "3"], ["--ghost-samples", "9"]):
+            for line in (command, other):
+                self.assert_fails(2, *line, *option, says=[f"{option[0]} does nothing with cells of the tree", "--mesh boxes"])
+                self.assertEqual(clast(*line, *option, "--mesh", "boxes").code, 0)
+        for option in (["--tree-level", "0.02"], ["--tree-root-level", "0.02"], ["--tree-least", "9"], ["--no-tree-refine"], ["--no-extrapolate"]):
+            for line in (command, other):
+                self.assert_fails(2, *line, *option, "--mesh", "boxes", says=[f"{option[0]} does nothing with cells of bins", "--mesh tree"])
+                self.assertEqual(clast(*line, *option).code, 0)
+        self.assert_fails(2, *command, "--variant", "fast", "--max-pass", "3", says=["--max-pass does nothing with this --variant"])
+        self.assert_fails(2, *command, "--mesh", "boxes", "--pairs-radius", "0.1", says=["--pairs-radius does nothing without --pairs"])
+        self.assertEqual(clast(*command, "--pairs-radius", "0.1").code, 0)  # auto may count pairs
 
     def test_few_and_equal_points_are_told_apart_from_uniform(self):
         write_points(self.folder / "few.csv", [[0.1, 0.2], [0.3, 0.4]])
@@ -419,6 +439,11 @@ class Pairs(Case):
         r = clast(*command, "--pairs-radius", "0.05").json
         self.assertEqual(r["pairs"]["radius"], 0.05)
         self.assertLessEqual(r["pairs"]["window"], 0.05)
+        unresolved = ["decompose", DATA / "points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1"]
+        cause = "pairs are those within --pairs-radius 1 mm; the distance that is taken without it may resolve more"
+        self.assertIn(cause, clast(*unresolved, "--pairs-radius", "1mm").out)
+        self.assertNotIn("--pairs-radius", clast(*unresolved).out)
+        self.assert_fails(2, *unresolved, "--pairs", "--pairs-radius", "5", says=["pairs_radius 5 m: the domain is 1.73", "as 270um"])
         table = self.folder / "weights.csv"
         table.write_text("x,y,z,w\n0.1,0.1,0.1,1\n0.2,0.2,0.2,2\n0.3,0.3,0.3,3\n")
         refused = clast("decompose", table, "--domain", "box:0,0,0,1,1,1", "--pairs", "--weight-column", "w")

@@ -457,7 +457,7 @@ function show() {
     figure(short(r.n), `points in ${r.dimension} dimensions`), figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'),
     figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
     figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
-      r.resolved ? '95 % interval' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
+      r.resolved ? '95 % interval' : r.keeps_apart ? 'the points keep apart: lower bound of large cells alone, 97.5 %' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
   fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), t.p === 0 ? '< 1e-300' : short(t.p), t.reject ? 'rejects' : '']));
   $('stop').textContent = r.stop ?? '';
   $('passes_card').hidden = !(r.passes?.length > 0);
