@@ -288,11 +288,11 @@ static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
     CLI_GUARD(cli_box_check(common, fields, c, &c->box, &c->agglomerate));
+    CLI_GUARD(cli_idle_cells(common, fields, c, &c->points, &c->agglomerate.decompose));
     if (c->box.box_model) {
         const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
         return cli_box_run(&job, &c->force);
     }
-    CLI_GUARD(cli_idle_cells(fields, c, &c->agglomerate.decompose));
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};

@@ -178,8 +178,6 @@ done:
 static clast_status check(const cli_common *common, const config *c)
 {
     static const char *const sizes[] = {"regular", NULL};
-    static const char *const drawn[] = {"charts", NULL};
-    static const char *const variable[] = {"variable_tolerance", NULL};
     static const char *const counts[] = {
         "mesh",         "events",        "crossfit",        "beta_dt",    "pairs",
         "pairs_radius", "estimator",     "sizes",           "lower",      "strict",
@@ -190,14 +188,12 @@ static clast_status check(const cli_common *common, const config *c)
     const cli_idle rules[] = {
         {is_test, counts, c->test_only ? "with --test-only" : "with --variant test"},
         {c->n_size == 0, sizes, "without --sizes"},
-        {common->output == NULL, drawn, "without -o"},
-        {c->points.columns.variable_column[0] == '\0', variable, "without --variable-column"},
     };
     CLI_CHECK(!c->test_only || c->decompose.variant == CLAST_VARIANT_FULL ||
                   c->decompose.variant == CLAST_VARIANT_TEST,
               CLAST_E_USAGE, "--test-only is --variant test: leave --variant out");
     CLI_TRY(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
-    CLI_TRY(is_test ? CLAST_OK : cli_idle_cells(fields, c, &c->decompose));
+    CLI_TRY(cli_idle_cells(common, fields, c, &c->points, &c->decompose));
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");
 done:

@@ -66,9 +66,11 @@ clast_status cli_idle_check(const clast_field *fields, const void *config, const
     return CLAST_OK;
 }
 
-clast_status cli_idle_cells(const clast_field *fields, const void *config,
-                            const clast_decompose_config *c)
+clast_status cli_idle_cells(const cli_common *common, const clast_field *fields, const void *config,
+                            const cli_points *points, const clast_decompose_config *c)
 {
+    static const char *const drawn[] = {"charts", NULL};
+    static const char *const variable[] = {"variable_tolerance", NULL};
     static const char *const bins[] = {"lower", "strict", "max_pass", "ghost_samples", NULL};
     static const char *const tree[] = {"tree_level",  "tree_root_level", "tree_least",
                                        "tree_refine", "extrapolate",     NULL};
@@ -81,6 +83,8 @@ clast_status cli_idle_cells(const clast_field *fields, const void *config,
                           (c->estimator == CLAST_ESTIMATOR_AUTO && is_tree && c->extrapolate &&
                            !c->paper && c->events == CLAST_EVENTS_PAIRS);
     const cli_idle rules[] = {
+        {common->output == NULL, drawn, "without -o"},
+        {points->columns.variable_column[0] == '\0', variable, "without --variable-column"},
         {is_tree, bins, "with cells of the tree: --mesh boxes joins bins"},
         {!is_tree, tree, "with cells of bins: --mesh tree splits by a test"},
         {!is_full, passes, "with this --variant: it makes one pass"},

@@ -2,6 +2,7 @@
 // Options that a run would not look at: a parameter without effect is a mistake of the person who
 // gives it.
 #include "command.h"
+#include "points.h"
 
 /// Options of these names, up to NULL, change nothing.
 typedef struct cli_idle {
@@ -27,6 +28,6 @@ void cli_option_name(const clast_field *field, char name[CLI_NAME_SIZE]);
 clast_status cli_idle_check(const clast_field *fields, const void *config, const cli_idle *rules,
                             size_t n);
 
-/// The same of the options of cells (clast_decompose_fields, --variable-column) among the fields.
-clast_status cli_idle_cells(const clast_field *fields, const void *config,
-                            const clast_decompose_config *decompose);
+/// The same of charts, columns and the options of cells (clast_decompose_fields) among the fields.
+clast_status cli_idle_cells(const cli_common *common, const clast_field *fields, const void *config,
+                            const cli_points *points, const clast_decompose_config *decompose);

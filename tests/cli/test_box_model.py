@@ -125,6 +125,7 @@ class BoxModel(Case):
                   (("agglomerate", UNIFORM, "--domain", "box:0,0,0,1,1,1", "--solver", "sectional"), "--solver is an option of a box"),
                   ((*BOX, UNIFORM), "a box has no positions"),
                   ((*BOX, "--mesh", "boxes"), "--mesh is an option of clouds"),
+                  ((*BOX, "--charts", "png"), "--charts does nothing without -o"),
                   ((*BOX, "--breakage-rate", "1", "--fragment-exponent", "1"), "has no whole number: take sectional"),
                   ((*BOX, "--fragments", "halves"), "--fragments does nothing without --breakage-rate"),
                   ((*BOX, "--breakage-rate", "1", "--fragments", "halves", "--fragment-exponent", "-0.5"),

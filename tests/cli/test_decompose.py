@@ -311,8 +311,6 @@ class Decompose(Case):
     def test_idle_options_are_refused(self):
         command = ["decompose", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1"]
         self.assert_fails(2, *command, "--regular", "5", says=["--regular does nothing without --sizes"])
-        self.assert_fails(2, *command, "--charts", "png", says=["--charts does nothing without -o"])
-        self.assert_fails(2, *command, "--variable-tolerance", "1", says=["--variable-tolerance does nothing without --variable-column"])
         self.assert_fails(2, *command, "--frame", "3", says=["frame 3: snapshots are those of a LAMMPS dump", "points_u2_n50.csv"])
         self.assert_fails(2, *command, "--dataset", "a", says=["dataset a: arrays are those of an HDF5 file", "points_u2_n50.csv"])
         self.assert_fails(2, *command, "--test-only", "--variant", "fast", says=["--test-only is --variant test"])
@@ -321,6 +319,9 @@ class Decompose(Case):
             self.assert_fails(2, *command, *option, "--variant", "test", says=[f"{option[0]} does nothing with --variant test"])
         other = ["agglomerate", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1", "--kernel", "constant", "--constant", "1e-5",
                  "--duration", "1s"]
+        for line in (command, other):
+            self.assert_fails(2, *line, "--charts", "png", says=["--charts does nothing without -o"])
+            self.assert_fails(2, *line, "--variable-tolerance", "1", says=["--variable-tolerance does nothing without --variable-column"])
         for option in (["--lower", "joint"], ["--strict"], ["--max-pass", "3"], ["--ghost-samples", "9"]):
             for line in (command, other):
                 self.assert_fails(2, *line, *option, says=[f"{option[0]} does nothing with cells of the tree", "--mesh boxes"])
