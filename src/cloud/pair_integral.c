@@ -421,8 +421,10 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     if (!e->resolved) { // the doubt falls as the root of the pairs
         const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
         const double steady = is_chance ? 1.0 / fewer : 1.1; // these are then the fewer points
-        made.n_needed = is_seen && is_allowed ? fmax(least_points, in->n * fmax(steady, more))
-                                              : (double)INFINITY;
+        const double factor = fmax(steady, more);
+        made.n_needed = is_seen && is_allowed && factor <= CLX_MOST_FACTOR
+                            ? fmax(least_points, in->n * factor)
+                            : (double)INFINITY;
         e->high = INFINITY;
     }
     if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {

@@ -189,7 +189,8 @@ static double factor_for(const clx_ladder *l, int32_t r)
 {
     const int32_t last = r < l->n ? r : l->n - 1;
     const double pairs = l->n_pair[last] * ldexp(1.0, -l->d * (r - last));
-    return fmax(1.1, sqrt(least_pairs / pairs));
+    const double factor = sqrt(least_pairs / pairs);
+    return factor > CLX_MOST_FACTOR ? (double)INFINITY : fmax(1.1, factor);
 }
 
 /// The same for what rung r, the last with pairs enough, leaves open: finer rungs where structure

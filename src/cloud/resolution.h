@@ -2,8 +2,9 @@
 // Whether a sample resolves its own structure, and the integral of its squared density.
 #include "cloud/ladder.h"
 
-#define CLX_NORMAL_975 1.959963984540054
-#define CLX_MOST_BIAS  0.02 ///< of what is called resolved
+#define CLX_NORMAL_975  1.959963984540054
+#define CLX_MOST_BIAS   0.02  ///< of what is called resolved
+#define CLX_MOST_FACTOR 100.0 ///< times the points: what more a sample asks for, it cannot tell
 
 typedef struct clx_resolution {
     double value;     ///< sum over pairs per volume: n (n - 1) times the integral; where resolved

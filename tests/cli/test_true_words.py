@@ -161,6 +161,13 @@ class TrueWords(Case):
             self.assertEqual(words.count("not tested: fewer than 5 points, nothing is rejected\n"), 1)
         self.assertRegex(clast("decompose", "--help-all").out, r"--test-only[^-]*exit code 1 when not uniform, 0\s+with\s+fewer\s+than\s+5\s+points")
 
+    def test_points_needed_are_no_wild_guess(self):
+        # "about 4.2e+07 points would do" of a sheet that 3000 resolve
+        rng = random.Random(6)
+        path = self.write("sheet.csv", [[rng.random(), rng.random(), rng.gauss(0.5, 0.02)] for _ in range(1000)])
+        self.assertEqual(self.decompose(path, CUBE)["points_needed"], None)
+        self.assertIn("how many points would do cannot be told", clast("decompose", path, "--domain", CUBE).out)
+
     def test_a_bias_of_rounding_is_not_told(self):
         # one cell of a cylinder was "off by +2.2e-14 %; this is taken off"
         random.seed(4)
