@@ -1,5 +1,6 @@
 // clast predict: porosity of a bed from the forms of its grains.
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 #include "predict_input.h"
 #include "predict_words.h"
@@ -144,8 +145,15 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
         return cli_fail(CLAST_E_USAGE, "give a table of grains, or --flatness and --elongation%s",
                         has_moments ? ", not both" : "");
     }
+    static const char *const rows[] = {"each", "columns", "resamples", "seed", NULL};
+    static const char *const counted[] = {"grains", NULL};
+    static const char *const drawn[] = {"resamples", "seed", NULL};
+    const cli_idle rules[] = {{!j->has_table, rows, "without a table"},
+                              {j->has_table, counted, "with a table, whose rows are counted"},
+                              {c->each, drawn, "with --each: a form has no sampling error"}};
+    CLI_GUARD(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
     if (!j->has_table) {
-        return c->each ? cli_fail(CLAST_E_USAGE, "--each needs a table") : predict_moments(c, j);
+        return predict_moments(c, j);
     }
     CLI_GUARD(clast_table_read_csv(common->argument[0], NULL, &j->table, NULL));
     return predict_table(c, j);

@@ -1,5 +1,6 @@
 // clast render: a picture of surfaces or of a run's assembly.
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 #include "study_grains.h"
 
@@ -152,8 +153,19 @@ static clast_status report(const cli_common *common, const clast_assembly *assem
     return cli_print_json(o);
 }
 
+static clast_status check_used(const clast_render_config *c)
+{
+    static const char *const angle[] = {"field_of_view", NULL};
+    static const char *const place[] = {"cut_position", NULL};
+    const cli_idle rules[] = {
+        {c->projection == CLAST_RENDER_ORTHOGRAPHIC, angle, "without --projection perspective"},
+        {c->cut == CLAST_RENDER_CUT_NONE, place, "without --cut"}};
+    return cli_idle_check(clast_render_fields, c, rules, sizeof rules / sizeof rules[0]);
+}
+
 static clast_status run(const cli_common *common, void *config)
 {
+    CLI_GUARD(check_used(config));
     clast_assembly assembly = {0};
     clast_image image = {0};
     const double start = cli_clock();

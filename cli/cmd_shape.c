@@ -1,5 +1,6 @@
 // clast shape: how large a grain is and what form it has.
 #include "command.h"
+#include "idle.h"
 #include "results.h"
 #include "shape_statistics.h"
 #include "shape_words.h"
@@ -246,9 +247,29 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
     return worst;
 }
 
+/// Statistics, and kinds of files, have options of their own.
+static clast_status check_used(const config *c)
+{
+    static const char *const drawn[] = {"resamples", "seed", NULL};
+    static const char *const bare[] = {"voxel_type", "big_endian", "skip", NULL};
+    static const char *const series[] = {"degree", "level", NULL};
+    static const char *const points[] = {"spacing", NULL};
+    static const char *const volume[] = {"voxels", "threshold", "least_voxels", NULL};
+    const bool is_known = c->kind != CLAST_GRAINS_AUTO;
+    const cli_idle rules[] = {
+        {c->statistics[0] == '\0', drawn, "without --statistics"},
+        {c->voxels[0] == '\0', bare, "without --voxels: other volumes have a header"},
+        {is_known && c->kind != CLAST_GRAINS_SERIES, series, "with this --kind"},
+        {is_known && c->kind != CLAST_GRAINS_POINTS, points, "with this --kind"},
+        {is_known && c->kind != CLAST_GRAINS_VOXELS, volume, "with this --kind"},
+    };
+    return cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]);
+}
+
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     config *c = config_bytes;
+    CLI_GUARD(check_used(c));
     clast_run_folder *folder = NULL;
     double unit_m = 0.0;
     clast_grain_statistics statistics = {0};

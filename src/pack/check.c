@@ -108,6 +108,9 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
     CLX_CHECK(d->law == CLAST_DEM_LINEAR || d->collision_time == u->collision_time, CLAST_E_CONFIG,
               "collision_time %s acts with law linear alone",
               clx_unit_text(d->collision_time, "s"));
+    CLX_CHECK(c->rule != CLAST_PACK_BY_SPEED || c->height_change == usual->height_change,
+              CLAST_E_CONFIG, "height_change %s acts with rule height or either",
+              clx_unit_text(c->height_change, "m"));
     CLX_CHECK(c->form_law || (c->flatness_mean == usual->flatness_mean &&
                               c->flatness_deviation == usual->flatness_deviation &&
                               c->elongation_mean == usual->elongation_mean &&

@@ -79,7 +79,7 @@ class Fill(Case):
             result = clast("fill", self.cube, "--spheres", 6, "-o", out, *options)
             self.assertEqual(result.code, 0, result.err)
             return out.read_text()
-        self.assertEqual(spheres("--seed", 1), spheres("--seed", 2))
+        self.assert_fails(2, "fill", self.cube, "--seed", 2, says=["--seed does nothing with --strategy largest"])
         random = ("--strategy", "random")
         self.assertNotEqual(spheres("--seed", 1, *random), spheres("--seed", 2, *random))
         self.assertEqual(spheres("--seed", 2, *random), spheres("--seed", 2, *random))

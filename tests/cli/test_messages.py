@@ -22,6 +22,31 @@ class Messages(Case):
         shown = text.decode("utf-8")
         self.assertIsNone(re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", shown), shown)
 
+    def test_an_option_that_would_do_nothing_is_refused(self):
+        grain = ROOT / "data/standin63/grain00.ply"
+        (self.folder / "grains.csv").write_text("flatness,elongation\n0.6,0.7\n0.65,0.75\n0.7,0.72\n")
+        shape, fill, grading = ("shape", grain), ("fill", grain, "--spheres", "2"), ("grading", "U1")
+        picture = ("render", grain, "-o", self.folder / "p.png", "--width", "64", "--height", "64", "--samples", "1")
+        table, means = ("predict", self.folder / "grains.csv"), ("predict", "--flatness", "0.6", "--elongation", "0.7")
+        pack = ("pack", "--curve", "U1", "--shapes", grain, "--mass", "1g", "--width", "40mm", "--height", "80mm", "--max-steps", "5", "-q")
+        for command, option, why in (
+                (shape, ("--resamples", "9"), "without --statistics"), (shape, ("--seed", "9"), "without --statistics"),
+                (shape, ("--skip", "4"), "without --voxels"), (shape, ("--big-endian",), "without --voxels"),
+                ((*shape, "--kind", "surface"), ("--level", "2"), "with this --kind"),
+                ((*shape, "--kind", "surface"), ("--spacing", "2"), "with this --kind"),
+                (fill, ("--candidates", "5"), "with --strategy largest"), (fill, ("--no-first-at-centre",), "with --strategy largest"),
+                (fill, ("--seed", "5"), "with --strategy largest"), ((*fill, "--strategy", "random"), ("--tolerance", "0.1"), "without"),
+                (fill, ("--shrink", "1"), "without --outer"), ((*fill, "--overlap"), ("--tolerance", "0.1"), "with --overlap"),
+                (grading, ("--density", "2000"), "without --mass"), (grading, ("--seed", "5"), "without --sample"),
+                (picture, ("--field-of-view", "1rad"), "without --projection perspective"),
+                (picture, ("--cut-position", "0.2"), "without --cut"),
+                (means, ("--resamples", "9"), "without a table"), (means, ("--columns", "L,I,S"), "without a table"),
+                (means, ("--each",), "without a table"), (table, ("--grains", "9"), "with a table, whose rows are counted"),
+                ((*table, "--each"), ("--seed", "9"), "with --each")):
+            self.assert_fails(2, *command, *option, says=[f"{option[0]} does nothing {why}"])
+            self.assertEqual(clast(*command).code, 0)
+        self.assert_fails(2, *pack, "--rule", "speed", "--height-change", "1mm", says=["height_change 1 mm acts with rule height or either"])
+
     def test_a_refusal_names_the_file(self):
         bad = {"nan.csv": "x,y,z\n0.1,0.2,0.3\n0.4,nan,0.5\n", "outside.csv": "x,y,z\n0.1,0.2,0.3\n0.4,9,0.5\n", "one.csv": "x,y\n1\n",
                "empty.csv": "", "words.csv": "x,y,z\na,b,c\n"}
