@@ -38,6 +38,18 @@ done:
     return status;
 }
 
+clast_status clx_build_triangle(clx_mesh_build *b, const uint32_t corner[3])
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(b->mesh.n_tri < INT32_MAX, CLAST_E_LIMIT, "more than 2^31 triangles");
+    CLX_TRY(
+        clx_grow(&b->mesh.tri, &b->tri_capacity, (int64_t)b->mesh.n_tri + 1, sizeof *b->mesh.tri));
+    memcpy(b->mesh.tri[b->mesh.n_tri++], corner, sizeof *b->mesh.tri);
+    ++b->report->n_facet;
+done:
+    return status;
+}
+
 /// Corners equal to the one before (the first follows the last) go; triangles stay as they are.
 static void drop_repeated(clx_mesh_build *b)
 {

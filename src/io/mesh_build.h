@@ -21,6 +21,9 @@ clast_status clx_build_corner(clx_mesh_build *build, int64_t index);
 /// Ends the polygon: cuts it into triangles, counts it in the report.
 clast_status clx_build_polygon(clx_mesh_build *build);
 
+/// Adds a triangle of vertex numbers that the caller has checked, as a polygon of three corners.
+clast_status clx_build_triangle(clx_mesh_build *build, const uint32_t corner[3]);
+
 /// Room for what the file promises; the caller has held the counts against its size.
 clast_status clx_build_reserve(clx_mesh_build *build, int64_t n_vert, int64_t n_tri);
 

@@ -6,6 +6,7 @@
 #include "io/ply.h"
 
 #include "io/mesh_io.h"
+#include "math/vec3.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -259,6 +260,78 @@ done:
     return status;
 }
 
+/// Vertices of nothing but x, y, z as little-endian floats or doubles, up to the first that is not
+/// finite.
+static clast_status read_plain_vertices(body *b)
+{
+    const clx_ply_property *p = b->ply->property + b->element->first;
+    const int32_t size = 3 * clx_ply_size(p->type);
+    bool is_plain =
+        b->element->n_property == 3 && (p->type == CLX_PLY_F32 || p->type == CLX_PLY_F64);
+    for (int k = 0; is_plain && k < 3; ++k) {
+        is_plain = axis_of(&p[k]) == k && p[k].type == p->type;
+    }
+    for (; is_plain && b->row < b->element->n_row && b->end - b->at >= size; ++b->row) {
+        float single[3];
+        double point[3];
+        if (p->type == CLX_PLY_F32) {
+            memcpy(single, b->at, sizeof single);
+            v3_set(point, (double)single[0], (double)single[1], (double)single[2]);
+        } else {
+            memcpy(point, b->at, sizeof point);
+        }
+        if (!v3_is_finite(point)) {
+            break;
+        }
+        const clast_status status = clx_build_vertex(b->build, point);
+        if (status != CLAST_OK) {
+            return status;
+        }
+        b->at += size;
+    }
+    return CLAST_OK;
+}
+
+/// Faces of nothing but three 32-bit vertex numbers behind a byte, up to the first that is not so.
+static clast_status read_plain_triangles(body *b)
+{
+    const clx_ply_property *p = b->ply->property + b->element->first;
+    const bool is_plain = b->element->n_property == 1 && p->count_type == CLX_PLY_U8 &&
+                          (p->type == CLX_PLY_I32 || p->type == CLX_PLY_U32);
+    const uint32_t n_vert = (uint32_t)b->build->mesh.n_vert;
+    for (; is_plain && b->row < b->element->n_row; ++b->row) {
+        uint32_t corner[3];
+        if (b->end - b->at < LEAST_TRIANGLE || b->at[0] != 3) {
+            break;
+        }
+        memcpy(corner, b->at + 1, sizeof corner);
+        if (corner[0] >= n_vert || corner[1] >= n_vert || corner[2] >= n_vert) {
+            break;
+        }
+        const clast_status status = clx_build_triangle(b->build, corner);
+        if (status != CLAST_OK) {
+            return status;
+        }
+        b->at += LEAST_TRIANGLE;
+    }
+    return CLAST_OK;
+}
+
+/// What most programs write, at once where the machine's own bytes are the file's; any other row is
+/// left to the row's reader.
+static clast_status read_plain_rows(body *b, row_reader reader)
+{
+    const uint16_t one = 1;
+    uint8_t first = 0;
+    memcpy(&first, &one, 1);
+    if (b->ply->is_ascii || b->ply->is_big_endian || first != 1) {
+        return CLAST_OK;
+    }
+    return reader == vertex_row ? read_plain_vertices(b)
+           : reader == face_row ? read_plain_triangles(b)
+                                : CLAST_OK;
+}
+
 /// In a text, the next line that holds a word, and nothing left on it afterwards.
 static clast_status read_row(body *b, row_reader reader)
 {
@@ -287,9 +360,12 @@ static clast_status read_element(body *b, const clx_ply_element *e, row_reader r
 {
     clast_status status = CLAST_OK;
     b->element = e;
-    for (b->row = 0; b->row < e->n_row && status == CLAST_OK; ++b->row) {
-        status = read_row(b, reader);
+    b->row = 0;
+    CLX_TRY(read_plain_rows(b, reader));
+    for (; b->row < e->n_row; ++b->row) {
+        CLX_TRY(read_row(b, reader));
     }
+done:
     return status;
 }
 

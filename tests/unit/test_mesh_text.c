@@ -187,6 +187,72 @@ static void binary_ply_names_the_byte(void **state)
     assert_non_null(strstr(clast_error_detail(), words));
 }
 
+/// A number's bytes, least first, after what stands in the file.
+static void add_bytes(unsigned char *file, size_t *n, uint64_t bits, size_t size)
+{
+    for (size_t i = 0; i < size; ++i) {
+        file[(*n)++] = (unsigned char)(bits >> 8 * i);
+    }
+}
+
+/// A square of 2 x 2 in a binary PLY: two triangles, or one as a quadrangle; the last corner as
+/// given. Returns the bytes.
+static size_t write_square(bool has_doubles, bool has_quadrangle, uint32_t last,
+                           unsigned char file[512])
+{
+    static const uint32_t corner[2][4] = {{0, 1, 2}, {0, 2, 3}};
+    size_t n = (size_t)snprintf(
+        (char *)file, 512,
+        "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty %s x\nproperty %s y\n"
+        "property %s z\nelement face %d\nproperty list uchar int vertex_indices\nend_header\n",
+        has_doubles ? "double" : "float", has_doubles ? "double" : "float",
+        has_doubles ? "double" : "float", has_quadrangle ? 3 : 2);
+    for (int v = 0; v < 4; ++v) {
+        for (int k = 0; k < 3; ++k) {
+            const bool is_two = k < 2 && (k == 0 ? v == 1 || v == 2 : v >= 2);
+            const uint64_t two = has_doubles ? 0x4000000000000000U : 0x40000000U;
+            add_bytes(file, &n, is_two ? two : 0, has_doubles ? 8 : 4);
+        }
+    }
+    for (int f = 0; f < 2; ++f) {
+        add_bytes(file, &n, 3, 1);
+        for (int k = 0; k < 3; ++k) {
+            add_bytes(file, &n, f == 1 && k == 2 ? last : corner[f][k], 4);
+        }
+        if (f == 0 && has_quadrangle) {
+            add_bytes(file, &n, 4, 1);
+            for (uint32_t k = 0; k < 4; ++k) {
+                add_bytes(file, &n, k, 4);
+            }
+        }
+    }
+    return n;
+}
+
+/* Plain rows are read at once; one that is not, and a fault, as anywhere else. */
+static void plain_rows_of_a_binary_ply_are_as_others(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; ++i) {
+        unsigned char file[512];
+        clast_mesh mesh = {0};
+        clast_mesh_read_report report = {0};
+        const size_t n = write_square(i % 2 == 1, i > 1, 3, file);
+        CHECK_OK(parse_bytes(file, n, CLAST_MESH_PLY, &mesh, &report));
+        assert_int_equal(mesh.n_vert, 4);
+        assert_int_equal(mesh.n_tri, i > 1 ? 4 : 2);
+        assert_int_equal(report.n_facet, i > 1 ? 3 : 2);
+        CHECK_ABS(clast_mesh_area(&mesh), i > 1 ? 8.0 : 4.0, 0.0);
+        clast_mesh_free(&mesh);
+        CHECK_STATUS(parse_bytes(file, n - 1, CLAST_MESH_PLY, &mesh, NULL), CLAST_E_FORMAT);
+        assert_non_null(strstr(clast_error_detail(), i > 1 ? "row 3 of 3" : "row 2 of 2"));
+        (void)write_square(i % 2 == 1, i > 1, 4, file);
+        CHECK_STATUS(parse_bytes(file, n, CLAST_MESH_PLY, &mesh, NULL), CLAST_E_FORMAT);
+        assert_non_null(
+            strstr(clast_error_detail(), i > 1 ? "face 3 has corner 4" : "face 2 has corner 4"));
+    }
+}
+
 /* The body begins right after end_header's line end, whatever its first byte looks like. */
 static void body_may_begin_with_a_line_end(void **state)
 {
@@ -269,6 +335,7 @@ int main(void)
         cmocka_unit_test(ply_variants_are_understood),
         cmocka_unit_test(ply_errors_name_the_line),
         cmocka_unit_test(binary_ply_names_the_byte),
+        cmocka_unit_test(plain_rows_of_a_binary_ply_are_as_others),
         cmocka_unit_test(body_may_begin_with_a_line_end),
         cmocka_unit_test(content_decides_before_the_name),
         cmocka_unit_test(other_files_are_refused_in_words),
