@@ -10,6 +10,7 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 typedef struct {
@@ -39,7 +40,7 @@ static void try_pair(feret_walk *w, int32_t a, int32_t b)
             return;
         }
     }
-    w->longest2 = fmax(w->longest2, d2);
+    w->longest2 = greater_of(d2, w->longest2);
     if (w->n_pair < CLX_FERET_TIES) {
         w->pair[w->n_pair][0] = low;
         w->pair[w->n_pair++][1] = high;
@@ -98,7 +99,7 @@ static int32_t next_opposite(const clx_hull_body *body, int32_t v, const double 
         v3_sub(d, body->vert[body->neighbour[i]], body->vert[v]);
         const double along = v3_dot(d, m);
         if (along < 0.0) { // progress is strict, so the walk ends
-            const double at = fmax(v3_dot(d, n), 0.0) / -along;
+            const double at = greater_of(v3_dot(d, n), 0.0) / -along;
             if (at < *tangent) {
                 *tangent = at;
                 best = body->neighbour[i];

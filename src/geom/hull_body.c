@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "geom/hull.h"
 #include "geom/hull_inc.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 static const double FLAT = 1e-13; // of the extent, as clast_mesh_hull
@@ -65,8 +66,8 @@ static void copy_vertices(const clx_hull_inc *hull, const int32_t *number, clx_h
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int32_t v = 0; v < hull->vert_end; ++v) {
         for (int k = 0; k < 3 && number[v] >= 0; ++k) {
-            low[k] = fmin(low[k], hull->vert[v].point[k]);
-            high[k] = fmax(high[k], hull->vert[v].point[k]);
+            low[k] = lesser_of(hull->vert[v].point[k], low[k]);
+            high[k] = greater_of(hull->vert[v].point[k], high[k]);
         }
     }
     for (int k = 0; k < 3; ++k) {
@@ -103,7 +104,7 @@ static bool is_sliver(const clx_hull_body *body, int32_t f)
     const int32_t *corner = body->face[f];
     v3_sub(u, body->vert[corner[1]], body->vert[corner[0]]);
     v3_sub(v, body->vert[corner[2]], body->vert[corner[1]]);
-    return 2.0 * body->area[f] <= 0x1p-30 * fmax(v3_norm2(u), v3_norm2(v));
+    return 2.0 * body->area[f] <= 0x1p-30 * greater_of(v3_norm2(u), v3_norm2(v));
 }
 
 static void copy_faces(const clx_hull_inc *hull, const int32_t *vert_number,

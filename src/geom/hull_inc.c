@@ -12,8 +12,11 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "math/least.h"
 #include "math/predicates.h"
 #include "math/vec3.h"
+
+enum { MOST_AHEAD = 1024 }; ///< points for whose hull there is room before they come
 
 void clx_hull_inc_free(clx_hull_inc *hull)
 {
@@ -116,6 +119,20 @@ static clast_status reserve_vertex(clx_hull_inc *hull, int32_t n)
     const int64_t need = (int64_t)hull->vert_end + n;
     CLX_TRY(clx_grow(&hull->vert, &hull->vert_room, need, sizeof *hull->vert));
     CLX_TRY(clx_grow(&hull->free_vert, &hull->free_vert_room, need, sizeof *hull->free_vert));
+done:
+    return status;
+}
+
+/// Room for the hull of n points that are all vertices, and for what their insertion needs: growing
+/// step by step copies it several times.
+static clast_status reserve_hull(clx_hull_inc *hull, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(reserve_vertex(hull, n));
+    CLX_TRY(reserve_facets(hull, 2 * n));
+    CLX_TRY(clx_grow(&hull->work, &hull->work_room, 2 * (int64_t)n, sizeof *hull->work));
+    CLX_TRY(clx_grow(&hull->visible, &hull->visible_room, 2 * (int64_t)n, sizeof *hull->visible));
+    CLX_TRY(clx_grow(&hull->horizon, &hull->horizon_room, 6 * (int64_t)n, sizeof *hull->horizon));
 done:
     return status;
 }
@@ -418,8 +435,8 @@ static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*p
     v3_copy(high, point[0]);
     for (int32_t i = 1; i < n; ++i) {
         for (int k = 0; k < 3; ++k) {
-            low[k] = fmin(low[k], point[i][k]);
-            high[k] = fmax(high[k], point[i][k]);
+            low[k] = lesser_of(point[i][k], low[k]);
+            high[k] = greater_of(point[i][k], high[k]);
         }
     }
     CLX_TRY(find_candidates(hull, low, high, &n_candidate));
@@ -502,8 +519,7 @@ static clast_status raise_simplex(clx_hull_inc *hull, const int32_t s[4])
     clast_status status = CLAST_OK;
     int32_t v[4];
     int32_t f[4];
-    CLX_TRY(reserve_vertex(hull, 4));
-    CLX_TRY(reserve_facets(hull, 4));
+    CLX_TRY(reserve_hull(hull, hull->n_pending < MOST_AHEAD ? hull->n_pending : MOST_AHEAD));
     for (int i = 0; i < 4; ++i) {
         v[i] = new_vertex(hull, hull->pending[s[i]], hull->pending_tag[s[i]]);
     }
@@ -554,8 +570,8 @@ static void extend_box(clx_hull_inc *hull, int32_t n, const double (*point)[3])
     }
     for (int32_t i = 0; i < n; ++i) {
         for (int k = 0; k < 3; ++k) {
-            hull->low[k] = fmin(hull->low[k], point[i][k]);
-            hull->high[k] = fmax(hull->high[k], point[i][k]);
+            hull->low[k] = lesser_of(point[i][k], hull->low[k]);
+            hull->high[k] = greater_of(point[i][k], hull->high[k]);
         }
     }
     hull->reach = v3_distance(hull->low, hull->high);

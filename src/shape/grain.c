@@ -171,6 +171,56 @@ static clast_status check_rank(const clast_mesh *mesh)
     return CLAST_OK;
 }
 
+/// Ends of the half-edges by the vertex that they leave: to[begin[v] .. begin[v + 1]).
+static void sort_half_edges(const clast_mesh *mesh, int32_t *begin, int32_t *to)
+{
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            ++begin[mesh->tri[t][k]];
+        }
+    }
+    for (int32_t v = 0, sum = 0; v <= mesh->n_vert; ++v) { // to the end of each vertex's list
+        sum += begin[v];
+        begin[v] = sum;
+    }
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        const int32_t *corner = mesh->tri[t];
+        to[--begin[corner[0]]] = corner[1];
+        to[--begin[corner[1]]] = corner[2];
+        to[--begin[corner[2]]] = corner[0];
+    }
+}
+
+/// Whether each half-edge has exactly one that runs back, as in most surfaces: a quarter of what
+/// sorting the edges takes.
+static clast_status find_paired(const clast_mesh *mesh, bool *is_paired)
+{
+    enum { MOST_EDGES = 64 }; ///< of a vertex
+    clast_status status = CLAST_OK;
+    int32_t *begin = NULL;
+    int32_t *to = NULL;
+    CLX_TRY(clx_alloc(&begin, (int64_t)mesh->n_vert + 1, sizeof *begin));
+    CLX_TRY(clx_alloc(&to, 3 * (int64_t)mesh->n_tri, sizeof *to));
+    sort_half_edges(mesh, begin, to);
+    *is_paired = true;
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        *is_paired = *is_paired && begin[v + 1] - begin[v] <= MOST_EDGES; // longer lists: sorted
+    }
+    for (int32_t v = 0; v < mesh->n_vert && *is_paired; ++v) {
+        for (int32_t i = begin[v]; i < begin[v + 1]; ++i) {
+            int32_t n_back = 0;
+            for (int32_t j = begin[to[i]]; j < begin[to[i] + 1]; ++j) {
+                n_back += to[j] == v;
+            }
+            *is_paired = *is_paired && n_back == 1 && to[i] != v;
+        }
+    }
+done:
+    clx_free(begin);
+    clx_free(to);
+    return status;
+}
+
 /// A solid's surface: every edge used equally often in both directions.
 static clast_status check_closed(const clast_mesh *mesh)
 {
@@ -178,10 +228,17 @@ static clast_status check_closed(const clast_mesh *mesh)
     clx_topology topology = {0};
     int32_t n_open = 0;
     int32_t n_turned = 0;
+    bool is_paired = false;
     CLX_CHECK(mesh->n_tri > 0, CLAST_E_GEOMETRY,
               "%d vertices and no triangles: measure their convex hull with --hull", mesh->n_vert);
     CLX_CHECK(mesh->n_tri >= 4, CLAST_E_GEOMETRY, "%d triangles bound no solid; at least 4 do",
               mesh->n_tri);
+    if (mesh->n_tri <= INT32_MAX / 3) {
+        CLX_TRY(find_paired(mesh, &is_paired));
+    }
+    if (is_paired) {
+        goto done;
+    }
     CLX_TRY(clx_topology_build(mesh, &topology));
     for (int32_t e = 0; e < topology.n_edge; ++e) {
         const bool is_even = clx_edge_use(&topology, e) % 2 == 0;
