@@ -10,6 +10,7 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "geom/chords.h"
 #include "math/least.h"
 #include "math/vec3.h"
 
@@ -159,8 +160,10 @@ static void try_face(feret_walk *w, int32_t face, const int32_t *opposite, bool 
     }
 }
 
-clast_status clx_hull_body_feret(const clx_hull_body *body, clx_feret *feret)
+clast_status clx_hull_body_feret(const clx_hull_body *body, const clx_chords *chords,
+                                 clx_feret *feret)
 {
+    (void)chords;
     CLAST_ASSERT(body->n_face >= 4);
     clast_status status = CLAST_OK;
     feret_walk w = {.body = body, .longest2 = 0.0, .shortest = INFINITY};

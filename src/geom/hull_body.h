@@ -20,6 +20,8 @@ static inline int32_t clx_half_after(int32_t half)
     return (half & 3) == 2 ? half - 2 : half + 1;
 }
 
+struct clx_chords; // geom/chords.h
+
 /// Convex hull of points, moved so that the middle of its box is the origin; {0} is empty.
 typedef struct clx_hull_body {
     double middle[3]; ///< of the box, in the points' own coordinates
@@ -70,8 +72,10 @@ typedef struct clx_feret {
 
 /// The longest caliper joins two vertices, the shortest stands on a face and a vertex or on two
 /// edges; all antipodal pairs are met on a walk along the normals' arcs.  [docs/theory/form.md]
+/// Edges that the chords (or NULL) show to have neither are passed over.
 /// @note O(edges) expected
-clast_status clx_hull_body_feret(const clx_hull_body *body, clx_feret *feret);
+clast_status clx_hull_body_feret(const clx_hull_body *body, const struct clx_chords *chords,
+                                 clx_feret *feret);
 
 /// The outline of the shadow along a direction: a convex polygon, counter-clockwise in the plane
 /// with axes u, v.
@@ -96,11 +100,30 @@ void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_s
 
 /// Least rectangle around an outline: unit direction of one side and the edges along and across it.
 /// One side lies on an edge of the outline longer than `tolerance`. False without such an edge, and
-/// when the rectangle is clearly larger than `limit`.
-bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, double side[2],
-                          double edge[2]);
+/// when the rectangle is clearly larger than `limit`. Edges outside `arcs` (geom/chords.h) may be
+/// passed over: the caller knows that their rectangles are clearly larger.
+bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, uint32_t arcs,
+                          double side[2], double edge[2]);
 
-/// The hull seen along the normals of its faces (at most 2048 of them, evenly taken).
+/// Areas of the shadows along the normals of faces (at most 2048 of them, evenly taken) in single
+/// precision, which tells most from the least and the greatest.
+typedef struct clx_face_shadows {
+    int32_t n;
+    int32_t *face; ///< [n]
+    double *area;  ///< [n]
+    double doubt;  ///< no area is farther from clx_shadow_area()
+} clx_face_shadows;
+
+clast_status clx_face_shadows_make(const clx_hull_body *body, clx_face_shadows *shadows);
+void clx_face_shadows_free(clx_face_shadows *shadows);
+
+enum { CLX_SINGLES = 16 };
+
+/// Sums of |part . direction| over the parts, for sixteen directions, in single precision.
+void clx_shadow_singles(int32_t n, const float (*part)[3], const float direction[3][CLX_SINGLES],
+                        float sum[CLX_SINGLES]);
+
+/// The hull seen along the normal of a face.
 typedef struct clx_face_view {
     int32_t face;
     double width;  ///< of the hull along the face's normal
@@ -113,13 +136,14 @@ typedef struct clx_face_views {
     clx_face_view *view; ///< [n] by rising width times shadow, the least volume of a box along it
 } clx_face_views;
 
-clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *views);
+clast_status clx_face_views_make(const clx_hull_body *body, int32_t n, const int32_t face[],
+                                 clx_face_views *views);
 void clx_face_views_free(clx_face_views *views);
 
-/// Greatest and least shadow over all directions: greatest and least over the views and the given
+/// Greatest and least shadow over all directions: greatest and least over the faces and the given
 /// axes, each then improved to a local optimum.
 /// direction: of the greatest, unit
-clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
+clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_shadows *faces,
                                  double axis[3][3], double *least, double *greatest,
                                  double direction[3]);
 
@@ -129,12 +153,13 @@ typedef struct clx_box {
     double axis[3][3];
 } clx_box;
 
-/// The box of least volume found: every view of a face is tried as a side with the exact least
-/// rectangle around the shadow, the best few and the given frame are then turned about each of
-/// their axes in turn until none gains; for few faces the boxes on edges alone too.
-/// [ORourke1985; Chang2011]
-clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_views *views,
-                                     double frame[3][3], clx_box *box);
+/// The box of least volume found: every face is tried as a side with the exact least rectangle
+/// around the shadow, but for those whose box the chords (or NULL) show to be larger than six
+/// others; the best few and the given frame are then turned about each of their axes in turn until
+/// none gains; for few faces the boxes on edges alone too. [ORourke1985; Chang2011]
+clast_status clx_hull_body_least_box(const clx_hull_body *body, const struct clx_chords *chords,
+                                     const clx_face_shadows *faces, double frame[3][3],
+                                     clx_box *box);
 
 /// Replaces the box by the least one whose neighbouring sides hold an edge each, if that is clearly
 /// less.

@@ -14,108 +14,49 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
-#include "base/machine.h"
+#include "geom/chords.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
-enum { CANDIDATES = 6, MOST_TURNS = 60, FEW_FACES = 48, MANY_FACES = 128 };
-enum { GRID = 12, N_CELL = 3 * GRID * GRID, N_ARC = 16 };
+enum { CANDIDATES = 6, MOST_TURNS = 60, FEW_FACES = 48 };
 
 static const double GAIN = 1e-13;
 
-/// For cells of directions, the same of opposite ones, two vertices far apart along the cell's
-/// middle: no width is less than the chord's part along it.
+/// What every box around a hull asks for.
 typedef struct {
-    double chord[N_CELL][3];
-    double turn[2 * N_ARC + 1]
-               [2]; ///< cosine and sine of the ends and middles of arcs of a half turn
-} chord_table;
+    const clx_hull_body *body;
+    const clx_chords *chords; ///< or NULL
+    clx_shadow shadow;        ///< scratch
+} surroundings;
 
 static double box_volume(const clx_box *box)
 {
     return box->edge[0] * box->edge[1] * box->edge[2];
 }
 
-/// The cell of a direction on the cube about it.
-CLX_INLINE int32_t cell_of(const double d[3])
-{
-    static const int after[3][2] = {{1, 2}, {2, 0}, {0, 1}};
-    int k = fabs(d[1]) > fabs(d[0]);
-    k = fabs(d[2]) > fabs(d[k]) ? 2 : k;
-    const double scale = 0.5 * GRID / d[k];
-    const int32_t i = (int32_t)(0.5 * GRID + scale * d[after[k][0]]);
-    const int32_t j = (int32_t)(0.5 * GRID + scale * d[after[k][1]]);
-    return (k * GRID + (i < GRID ? i : GRID - 1)) * GRID + (j < GRID ? j : GRID - 1);
-}
-
-static void fill_chords(const clx_hull_body *body, chord_table *table)
-{
-    int32_t high = 0;
-    int32_t low = 0;
-    for (int32_t c = 0; c < N_CELL; ++c) {
-        const int k = c / (GRID * GRID);
-        const int row = c / GRID % GRID; // every other one backwards: the next cell is beside this
-        const int32_t cell = row % 2 == 0 ? c : c - c % GRID + GRID - 1 - c % GRID;
-        double d[3];
-        double back[3];
-        d[k] = 1.0;
-        d[(k + 1) % 3] = (2 * row + 1.0) / GRID - 1.0;
-        d[(k + 2) % 3] = (2 * (cell % GRID) + 1.0) / GRID - 1.0;
-        v3_scale(back, -1.0, d);
-        high = clx_hull_body_support(body, d, high);
-        low = clx_hull_body_support(body, back, low);
-        v3_sub(table->chord[cell], body->vert[high], body->vert[low]);
-    }
-    for (int k = 0; k <= 2 * N_ARC; ++k) {
-        table->turn[k][0] = cos(0.5 * CLAST_PI * k / N_ARC);
-        table->turn[k][1] = sin(0.5 * CLAST_PI * k / N_ARC);
-    }
-}
-
-/// No rectangle around the shadow in the plane of u and v is less. Within each arc of a half turn
-/// both widths are at least those of the chords of its middle: cosines, whose product is least at
-/// an end.
-static double least_rectangle(const chord_table *table, const double u[3], const double v[3])
-{
-    double width[N_ARC][2]; // at both ends of an arc
-    double least = INFINITY;
-    for (int a = 0; a < N_ARC; ++a) {
-        const double(*turn)[2] = table->turn + 2 * a;
-        double d[3];
-        for (int k = 0; k < 3; ++k) {
-            d[k] = turn[1][0] * u[k] + turn[1][1] * v[k];
-        }
-        const double *chord = table->chord[cell_of(d)];
-        const double x = v3_dot(chord, u);
-        const double y = v3_dot(chord, v);
-        width[a][0] = x * turn[0][0] + y * turn[0][1];
-        width[a][1] = x * turn[2][0] + y * turn[2][1];
-    }
-    for (int a = 0; a < N_ARC / 2; ++a) {
-        const double *w = width[a];
-        const double *across = width[a + N_ARC / 2];
-        const bool is_bound = w[0] * w[1] > 0.0 && across[0] * across[1] > 0.0; // no change of sign
-        const double one = fabs(w[0] * across[0]);
-        const double other = fabs(w[1] * across[1]);
-        const double area = is_bound ? (one < other ? one : other) : 0.0;
-        least = area < least ? area : least;
-    }
-    return least;
-}
-
 /// The least box with one axis along the unit vector n, if it is not clearly larger than `limit`.
-static bool box_along(const clx_hull_body *body, const double n[3], double width, double limit,
-                      clx_shadow *shadow, clx_box *box)
+static bool box_along(surroundings *s, const double n[3], double width, double limit, clx_box *box)
 {
     double side[2];
     double edge[2];
-    clx_shadow_cast(body, n, shadow);
-    if (!clx_shadow_rectangle(shadow, 1e-12 * width, limit / width, side, edge)) {
+    double u[3];
+    double v[3];
+    uint32_t arcs = CLX_ALL_ARCS;
+    if (s->chords != NULL && limit < (double)INFINITY) {
+        v3_frame(n, u, v);
+        arcs = clx_chords_arcs(s->chords, u, v, limit / width);
+    }
+    if (arcs == 0) {
+        return false;
+    }
+    clx_shadow_cast(s->body, n, &s->shadow);
+    if (!clx_shadow_rectangle(&s->shadow, 1e-12 * width, limit / width, arcs, side, edge)) {
         return false;
     }
     v3_copy(box->axis[0], n);
     for (int k = 0; k < 3; ++k) {
-        box->axis[1][k] = side[0] * shadow->u[k] + side[1] * shadow->v[k];
-        box->axis[2][k] = side[0] * shadow->v[k] - side[1] * shadow->u[k];
+        box->axis[1][k] = side[0] * s->shadow.u[k] + side[1] * s->shadow.v[k];
+        box->axis[2][k] = side[0] * s->shadow.v[k] - side[1] * s->shadow.u[k];
     }
     box->edge[0] = width;
     box->edge[1] = edge[0];
@@ -133,13 +74,13 @@ static void box_in_frame(const clx_hull_body *body, double frame[3][3], clx_box 
 
 /// Turns the box about each axis in turn until none of the three gains. `idle`: 1 where it is the
 /// least about its first axis already, else 0.
-static void turn_down(const clx_hull_body *body, int idle, clx_shadow *shadow, clx_box *box)
+static void turn_down(surroundings *s, int idle, clx_box *box)
 {
     int axis = idle;
     for (int turn = 0; turn < MOST_TURNS && idle < 3; ++turn) {
         clx_box next;
         const double limit = box_volume(box) * (1.0 - GAIN);
-        if (box_along(body, box->axis[axis], box->edge[axis], limit, shadow, &next) &&
+        if (box_along(s, box->axis[axis], box->edge[axis], limit, &next) &&
             box_volume(&next) < limit) {
             *box = next;
             idle = 1; // the axis just used is now axis 0
@@ -178,62 +119,172 @@ static void sort_edges(clx_box *box)
     }
 }
 
-/// Tries every face as a side, the most promising first; width times shadow bounds the volume from
-/// below, so the rest need no look once that exceeds the last candidate. Neither do those whose
-/// chords do (a table of them, or NULL).
-static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *views,
-                           const chord_table *table, clx_shadow *shadow,
+/// A box on a face that may be among the least few.
+typedef struct {
+    int32_t face;
+    clx_box box;
+} face_box;
+
+typedef struct {
+    int32_t n;
+    int64_t room;
+    face_box *at;              ///< [n]
+    double volume[CANDIDATES]; ///< of the least so far, rising
+} face_boxes;
+
+/// Above this no box is among the least few; widths are not yet those to the last bit.
+static double most_volume(const face_boxes *boxes)
+{
+    return (1.0 + 1e-9) * boxes->volume[CANDIDATES - 1];
+}
+
+/// No box on the face is smaller.
+static double least_volume(const surroundings *s, int32_t f, double least_shadow)
+{
+    const double *n = s->body->normal[f];
+    return (1.0 - 1e-9) * fabs(v3_dot(s->chords->cell[clx_chord_cell(n)].d, n)) * least_shadow;
+}
+
+/// Casts the shadow along a face, if chords do not show its box to be too large.
+static clast_status try_face(surroundings *s, int32_t f, face_boxes *boxes)
+{
+    clast_status status = CLAST_OK;
+    const double *n = s->body->normal[f];
+    const clx_chord *chord = &s->chords->cell[clx_chord_cell(n)];
+    double back[3];
+    double across[3];
+    CLX_TRY(clx_grow(&boxes->at, &boxes->room, (int64_t)boxes->n + 1, sizeof *boxes->at));
+    v3_scale(back, -1.0, n);
+    const int32_t low =
+        clx_hull_body_support(s->body, back, v3_dot(chord->d, n) > 0.0 ? chord->low : chord->high);
+    v3_sub(across, s->body->vert[s->body->face[f][0]], s->body->vert[low]);
+    clx_box *box = &boxes->at[boxes->n].box;
+    if (box_along(s, n, v3_dot(across, n), most_volume(boxes), box)) {
+        double volume = box_volume(box);
+        boxes->at[boxes->n].face = f;
+        boxes->n += volume <= most_volume(boxes);
+        for (int k = 0; k < CANDIDATES; ++k) { // in its place among the least
+            const double next = boxes->volume[k];
+            boxes->volume[k] = lesser_of(volume, next);
+            volume = greater_of(volume, next);
+        }
+    }
+done:
+    return status;
+}
+
+/// Tries the faces: first those of the least width times shadow, so that the others have a limit.
+static clast_status find_face_boxes(surroundings *s, const clx_face_shadows *faces,
+                                    face_boxes *boxes)
+{
+    clast_status status = CLAST_OK;
+    double *least = NULL;
+    CLX_TRY(clx_alloc(&least, faces->n, sizeof *least));
+    for (int k = 0; k < CANDIDATES; ++k) {
+        boxes->volume[k] = (double)INFINITY;
+    }
+    for (int32_t i = 0; i < faces->n; ++i) {
+        least[i] = least_volume(s, faces->face[i], faces->area[i] - faces->doubt);
+    }
+    for (int k = 0; k < CANDIDATES; ++k) {
+        int32_t first = 0;
+        for (int32_t i = 1; i < faces->n; ++i) {
+            first = least[i] < least[first] ? i : first;
+        }
+        least[first] = (double)INFINITY;
+        CLX_TRY(try_face(s, faces->face[first], boxes));
+    }
+    for (int32_t i = 0; i < faces->n; ++i) {
+        if (least[i] <= most_volume(boxes)) {
+            CLX_TRY(try_face(s, faces->face[i], boxes));
+        }
+    }
+done:
+    clx_free(least);
+    return status;
+}
+
+/// The views along the faces on which a box may be among the least few: of all, without chords.
+static clast_status find_views(surroundings *s, const clx_face_shadows *faces, face_boxes *boxes,
+                               clx_face_views *views)
+{
+    clast_status status = CLAST_OK;
+    int32_t *face = NULL;
+    int32_t n = 0;
+    if (s->chords == NULL) {
+        return clx_face_views_make(s->body, faces->n, faces->face, views);
+    }
+    CLX_TRY(find_face_boxes(s, faces, boxes));
+    CLX_TRY(clx_alloc(&face, boxes->n, sizeof *face));
+    for (int32_t i = 0; i < boxes->n; ++i) {
+        if (box_volume(&boxes->at[i].box) <= most_volume(boxes)) {
+            face[n++] = boxes->at[i].face;
+        }
+    }
+    CLX_TRY(clx_face_views_make(s->body, n, face, views));
+done:
+    clx_free(face);
+    return status;
+}
+
+/// The box along a view: the one found for its face, if there is one.
+static bool box_of_view(surroundings *s, const clx_face_view *view, const face_boxes *boxes,
+                        double limit, clx_box *box)
+{
+    for (int32_t i = 0; i < boxes->n; ++i) {
+        if (boxes->at[i].face == view->face) {
+            *box = boxes->at[i].box;
+            box->edge[0] = view->width;
+            return true;
+        }
+    }
+    return box_along(s, s->body->normal[view->face], view->width, limit, box);
+}
+
+/// Takes each view's face as a side, the most promising first; width times shadow bounds the volume
+/// from below, so the rest need no look once that exceeds the last candidate.
+static void boxes_on_faces(surroundings *s, const clx_face_views *views, const face_boxes *boxes,
                            clx_box candidate[CANDIDATES], int *n_candidate)
 {
-    const double sure = 1.0 - 1e-9; // of a bound, in spite of rounding
     for (int32_t i = 0; i < views->n; ++i) {
         const clx_face_view *view = &views->view[i];
         const double limit =
             *n_candidate < CANDIDATES ? (double)INFINITY : box_volume(&candidate[CANDIDATES - 1]);
-        const double *normal = body->normal[view->face];
-        double u[3];
-        double v[3];
         clx_box box;
         if (view->least >= limit) {
             break;
         }
-        v3_frame(normal, u, v);
-        if (table != NULL && *n_candidate == CANDIDATES &&
-            sure * view->width * least_rectangle(table, u, v) > limit) {
-            continue;
-        }
-        if (box_along(body, normal, view->width, limit, shadow, &box) && box_volume(&box) < limit) {
+        if (box_of_view(s, view, boxes, limit, &box) && box_volume(&box) < limit) {
             insert_box(candidate, n_candidate, &box);
         }
     }
 }
 
-clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_views *views,
-                                     double frame[3][3], clx_box *box)
+clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_chords *chords,
+                                     const clx_face_shadows *faces, double frame[3][3],
+                                     clx_box *box)
 {
     clast_status status = CLAST_OK;
-    clx_shadow shadow = {0};
+    surroundings s = {.body = body, .chords = chords};
+    face_boxes boxes = {0};
+    clx_face_views views = {0};
     clx_box candidate[CANDIDATES] = {{.edge = {0}}};
     clx_box best;
     int n_candidate = 0;
-    chord_table *table = NULL;
-    CLX_TRY(clx_shadow_alloc(body, &shadow));
-    if (body->n_face > MANY_FACES) {
-        CLX_TRY(clx_alloc(&table, 1, sizeof *table));
-        fill_chords(body, table);
-    }
+    CLX_TRY(clx_shadow_alloc(body, &s.shadow));
     box_in_frame(body, frame, &best);
-    turn_down(body, 0, &shadow, &best);
-    boxes_on_faces(body, views, table, &shadow, candidate, &n_candidate);
+    turn_down(&s, 0, &best);
+    CLX_TRY(find_views(&s, faces, &boxes, &views));
+    boxes_on_faces(&s, &views, &boxes, candidate, &n_candidate);
     for (int k = 0; k < n_candidate; ++k) {
-        turn_down(body, 1, &shadow, &candidate[k]);
+        turn_down(&s, 1, &candidate[k]);
         if (box_volume(&candidate[k]) < box_volume(&best)) {
             best = candidate[k];
         }
     }
     if (body->n_face <= FEW_FACES) {
         clx_hull_body_box_on_edges(body, &best);
-        turn_down(body, 0, &shadow, &best);
+        turn_down(&s, 0, &best);
     }
     for (int k = 0; k < 3; ++k) {
         best.edge[k] = clx_hull_body_width(body, best.axis[k]);
@@ -241,8 +292,9 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_v
     sort_edges(&best);
     *box = best;
 done:
-    clx_free(table);
-    clx_shadow_free(&shadow);
+    clx_free(boxes.at);
+    clx_face_views_free(&views);
+    clx_shadow_free(&s.shadow);
     return status;
 }
 

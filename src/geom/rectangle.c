@@ -7,6 +7,7 @@
 #include "geom/hull_body.h"
 
 #include "base/status.h"
+#include "geom/chords.h"
 #include "math/lanes.h"
 
 enum { FEW = 64 }; ///< corners up to which trying all edges is the faster way
@@ -195,35 +196,56 @@ static void measure_edges(int32_t n, const double (*point)[2], const double (*ed
     }
 }
 
-/// The same by every edge against every corner: n^2, but for few corners faster than calipers.
-static void try_all(calipers *c)
+/// Measures the edges collected, of which there are `n`; the last one again where there are no
+/// more.
+static void keep_edges(calipers *c, int32_t n, double edge[N_EDGE][2])
 {
-    const clx_shadow *s = c->outline;
-    for (int32_t i = 0; i < s->n; i += N_EDGE) {
-        double edge[N_EDGE][2];
-        double area[N_EDGE];
-        for (int k = 0; k < N_EDGE; ++k) { // the last one again where there are no more
-            const int32_t from = i + k < s->n ? i + k : s->n - 1;
-            const int32_t to = following(s, from);
-            edge[k][0] = s->point[to][0] - s->point[from][0];
-            edge[k][1] = s->point[to][1] - s->point[from][1];
-        }
-        measure_edges(s->n, (const double(*)[2])s->point, (const double(*)[2])edge, area);
-        for (int k = 0; k < N_EDGE; ++k) {
-            keep_rectangle(c, 0, edge[k], area[k]);
-        }
+    double area[N_EDGE];
+    for (int32_t k = n; k < N_EDGE; ++k) {
+        edge[k][0] = edge[n - 1][0];
+        edge[k][1] = edge[n - 1][1];
+    }
+    measure_edges(c->outline->n, (const double(*)[2])c->outline->point, (const double(*)[2])edge,
+                  area);
+    for (int32_t k = 0; k < n; ++k) {
+        keep_rectangle(c, 0, edge[k], area[k]);
     }
 }
 
-bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, double side[2],
-                          double edge[2])
+/// The same by every edge within the arcs against every corner: n^2, but for few corners faster
+/// than calipers.
+static void try_all(calipers *c, uint32_t arcs)
+{
+    const clx_shadow *s = c->outline;
+    double edge[N_EDGE][2];
+    int32_t n = 0;
+    for (int32_t from = 0; from < s->n; ++from) {
+        const int32_t to = following(s, from);
+        const double x = s->point[to][0] - s->point[from][0];
+        const double y = s->point[to][1] - s->point[from][1];
+        if (x * x + y * y > c->tolerance2 && (arcs >> clx_arc_of(x, y) & 1) != 0) {
+            edge[n][0] = x;
+            edge[n++][1] = y;
+        }
+        if (n == N_EDGE) {
+            keep_edges(c, n, edge);
+            n = 0;
+        }
+    }
+    if (n > 0) {
+        keep_edges(c, n, edge);
+    }
+}
+
+bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, uint32_t arcs,
+                          double side[2], double edge[2])
 {
     calipers c = {.outline = shadow,
                   .tolerance2 = tolerance * tolerance,
                   .best = (double)INFINITY,
                   .best_length2 = 1.0};
     if (shadow->n <= FEW) {
-        try_all(&c);
+        try_all(&c, arcs);
     } else {
         put_on(&c);
         turn_around(&c);

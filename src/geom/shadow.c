@@ -9,11 +9,10 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "math/least.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 #include <string.h>
-
-enum { MOST_VIEWS = 2048 };
 
 static const double UPRIGHT = 1e-14;      ///< cosine below which a face counts as turned down
 static const double ON_CIRCLE = 1e-12;    ///< cosine below which a face is at right angles
@@ -364,86 +363,56 @@ static double descend(const clx_hull_body *body, const double start[3], double (
     return best;
 }
 
-static int compare_views(const void *a, const void *b)
+/// Whether the view along face f comes before that along g: by width times shadow, which is equal.
+static bool comes_first(const clx_hull_body *body, int32_t f, int32_t g, double shadow)
 {
-    const clx_face_view *p = a;
-    const clx_face_view *q = b;
-    if (p->least != q->least) {
-        return p->least < q->least ? -1 : 1;
-    }
-    return p->face < q->face ? -1 : 1;
+    const double one = clx_hull_body_width(body, body->normal[f]) * shadow;
+    const double other = clx_hull_body_width(body, body->normal[g]) * shadow;
+    return one != other ? one < other : f < g;
 }
 
-/// Widths and shadows along the faces' normals, several at a time.
-static void measure_views(const clx_hull_body *body, clx_face_views *views)
+/// The direction of the least shadow (sign 1) or the greatest (sign -1) along the axes and the
+/// faces' normals. Of equal ones an axis comes first, then the view of the smaller box.
+static const double *extreme_of(const clx_hull_body *body, const clx_face_shadows *faces,
+                                double axis[3][3], double sign)
 {
-    for (int32_t i = 0; i < views->n; i += CLX_DIRECTIONS) {
-        double normal[CLX_DIRECTIONS][3];
-        double width[CLX_DIRECTIONS];
-        double shadow[CLX_DIRECTIONS];
-        for (int k = 0; k < CLX_DIRECTIONS; ++k) { // the last one again where there are no more
-            const int32_t at = i + k < views->n ? i + k : views->n - 1;
-            v3_copy(normal[k], body->normal[views->view[at].face]);
-        }
-        clx_hull_body_widths(body, (const double(*)[3])normal, width);
-        clx_shadow_areas(body, (const double(*)[3])normal, shadow);
-        for (int k = 0; k < CLX_DIRECTIONS && i + k < views->n; ++k) {
-            views->view[i + k].width = width[k];
-            views->view[i + k].shadow = shadow[k];
-            views->view[i + k].least = width[k] * shadow[k];
-        }
+    const double *direction = axis[0];
+    double best = (double)INFINITY;
+    double most = (double)INFINITY; // that the best can be
+    int32_t face = -1;
+    for (int k = 0; k < 3; ++k) {
+        const double area = sign * clx_shadow_area(body, axis[k]);
+        direction = area < best ? axis[k] : direction;
+        best = area < best ? area : best;
     }
-}
-
-clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *views)
-{
-    clast_status status = CLAST_OK;
-    const int32_t stride = body->n_face > MOST_VIEWS ? body->n_face / MOST_VIEWS + 1 : 1;
-    CLX_TRY(clx_alloc(&views->view, body->n_face / stride + 1, sizeof *views->view));
-    views->n = 0;
-    for (int32_t f = 0; f < body->n_face; f += stride) {
-        if (v3_norm2(body->normal[f]) > 0.5) { // else a sliver without a normal
-            views->view[views->n++].face = f;
+    for (int32_t i = 0; i < faces->n; ++i) {
+        most = lesser_of(sign * faces->area[i] + faces->doubt, most);
+    }
+    for (int32_t i = 0; i < faces->n; ++i) {
+        const int32_t f = faces->face[i];
+        if (sign * faces->area[i] - faces->doubt > lesser_of(best, most)) {
+            continue;
+        }
+        const double area = sign * clx_shadow_area(body, body->normal[f]);
+        if (area < best || (area == best && face >= 0 && comes_first(body, f, face, fabs(area)))) {
+            best = area;
+            face = f;
+            direction = body->normal[f];
         }
     }
-    measure_views(body, views);
-    qsort(views->view, (size_t)views->n, sizeof *views->view, compare_views);
-done:
-    return status;
+    return direction;
 }
 
-void clx_face_views_free(clx_face_views *views)
-{
-    clx_free(views->view);
-    *views = (clx_face_views){0};
-}
-
-clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
+clast_status clx_shadow_extremes(const clx_hull_body *body, const clx_face_shadows *faces,
                                  double axis[3][3], double *least, double *greatest,
                                  double direction[3])
 {
     clast_status status = CLAST_OK;
     double(*side)[2] = NULL;
-    CLAST_ASSERT(views->n > 0);
-    const double *low = axis[0];
-    const double *high = axis[0];
+    CLAST_ASSERT(faces->n > 0);
     CLX_TRY(clx_alloc(&side, body->n_face, sizeof *side));
-    *least = INFINITY;
-    *greatest = 0.0;
-    for (int32_t i = -3; i < views->n; ++i) {
-        const double *n = i < 0 ? axis[i + 3] : body->normal[views->view[i].face];
-        const double area = i < 0 ? clx_shadow_area(body, n) : views->view[i].shadow;
-        if (area < *least) {
-            *least = area;
-            low = n;
-        }
-        if (area > *greatest) {
-            *greatest = area;
-            high = n;
-        }
-    }
-    *least = descend(body, low, side);
-    *greatest = climb(body, high, direction);
+    *least = descend(body, extreme_of(body, faces, axis, 1.0), side);
+    *greatest = climb(body, extreme_of(body, faces, axis, -1.0), direction);
 done:
     clx_free(side);
     return status;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "geom/chords.h"
 #include "geom/hull.h"
 #include "geom/hull_body.h"
 #include "geom/topology.h"
@@ -105,28 +106,30 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
 {
     clast_status status = CLAST_OK;
     clx_hull_body body = {0};
-    clx_face_views views = {0};
+    clx_chords *chords = NULL;
+    clx_face_shadows faces = {0};
     clx_feret feret;
     clx_box box;
     double(*frame)[3] = grain->axes[CLAST_AXES_ELLIPSOID].direction;
     clast_axes *feret_axes = &grain->axes[CLAST_AXES_FERET];
     clast_axes *principal = &grain->axes[CLAST_AXES_PRINCIPAL];
     CLX_TRY(clx_hull_body_make(points, &body));
-    CLX_TRY(clx_hull_body_feret(&body, &feret));
+    CLX_TRY(clx_chords_make(&body, &chords));
+    CLX_TRY(clx_hull_body_feret(&body, chords, &feret));
     CLX_TRY(clx_hull_body_fitted_box(&body, &feret, &box));
     take_box(&box, &grain->axes[CLAST_AXES_FITTED]);
     *feret_axes = grain->axes[CLAST_AXES_FITTED];
     feret_axes->lis[2] = feret.shortest;
     v3_copy(feret_axes->direction[2], feret.shortest_axis);
-    CLX_TRY(clx_face_views_make(&body, &views));
-    CLX_TRY(clx_hull_body_least_box(&body, &views, frame, &box));
+    CLX_TRY(clx_face_shadows_make(&body, &faces));
+    CLX_TRY(clx_hull_body_least_box(&body, chords, &faces, frame, &box));
     take_box(&box, &grain->axes[CLAST_AXES_BOX]);
     for (int k = 0; k < 3; ++k) {
         v3_copy(principal->direction[k], frame[k]);
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
     clx_grain_sort_axes(principal);
-    CLX_TRY(clx_shadow_extremes(&body, &views, frame, &grain->projected_least,
+    CLX_TRY(clx_shadow_extremes(&body, &faces, frame, &grain->projected_least,
                                 &grain->projected_greatest, lying));
     grain->longest = feret.longest;
     grain->shortest = feret.shortest;
@@ -134,7 +137,8 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
     grain->hull_area = body.surface;
     grain->projected_mean = 0.25 * body.surface;
 done:
-    clx_face_views_free(&views);
+    clx_free(chords);
+    clx_face_shadows_free(&faces);
     clx_hull_body_free(&body);
     return status;
 }

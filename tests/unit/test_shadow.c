@@ -1,6 +1,8 @@
 /* Unit: outlines and least rectangles of a hull's shadows against brute force. */
 #include "support.h"
 
+#include "base/alloc.h"
+#include "geom/chords.h"
 #include "geom/hull_body.h"
 #include "math/rng.h"
 #include "math/vec3.h"
@@ -66,14 +68,14 @@ static void check_shadow(const clx_hull_body *body, const double direction[3], c
     double edge[2];
     clx_shadow_cast(body, direction, s);
     CHECK_REL(outline_area(s), clx_shadow_area(body, direction), 1e-12);
-    assert_true(clx_shadow_rectangle(s, 1e-12, (double)INFINITY, side, edge));
+    assert_true(clx_shadow_rectangle(s, 1e-12, (double)INFINITY, CLX_ALL_ARCS, side, edge));
     CHECK_REL(edge[0] * edge[1], brute_rectangle(s), 1e-12);
     CHECK_REL(edge[0], width(s, side), 1e-14);
     CHECK_ABS(hypot(side[0], side[1]), 1.0, 1e-14);
     /* A limit below the area: no rectangle; just above: the same one. */
     const double area = edge[0] * edge[1];
-    assert_false(clx_shadow_rectangle(s, 1e-12, 0.999 * area, side, edge));
-    assert_true(clx_shadow_rectangle(s, 1e-12, 1.001 * area, side, edge));
+    assert_false(clx_shadow_rectangle(s, 1e-12, 0.999 * area, CLX_ALL_ARCS, side, edge));
+    assert_true(clx_shadow_rectangle(s, 1e-12, 1.001 * area, CLX_ALL_ARCS, side, edge));
 }
 
 static void check_body(const clast_mesh *points)
@@ -166,15 +168,15 @@ static void a_least_shadow_is_along_two_faces(void **state)
     for (uint64_t seed = 0; seed < 8; ++seed) {
         clast_mesh points = {0};
         clx_hull_body body = {0};
-        clx_face_views views = {0};
+        clx_face_shadows faces = {0};
         double least = 0.0;
         double greatest = 0.0;
         double direction[3];
         double nearest = (double)INFINITY;
         make_points(seed, 8 + 8 * (int32_t)seed, &points);
         CHECK_OK(clx_hull_body_make(&points, &body));
-        CHECK_OK(clx_face_views_make(&body, &views));
-        CHECK_OK(clx_shadow_extremes(&body, &views, frame, &least, &greatest, direction));
+        CHECK_OK(clx_face_shadows_make(&body, &faces));
+        CHECK_OK(clx_shadow_extremes(&body, &faces, frame, &least, &greatest, direction));
         for (int32_t f = 0; f < body.n_face; ++f) {
             for (int32_t g = 0; g < f; ++g) {
                 double along[3];
@@ -185,9 +187,117 @@ static void a_least_shadow_is_along_two_faces(void **state)
             }
         }
         assert_true(nearest < 1e-14 * greatest);
-        clx_face_views_free(&views);
+        clx_face_shadows_free(&faces);
         clx_hull_body_free(&body);
         clast_mesh_free(&points);
+    }
+}
+
+/* The arcs left open by chords hold the least rectangle, to the last bit, and are not all. */
+static void arcs_hold_the_least_rectangle(void **state)
+{
+    (void)state;
+    clast_mesh points = {0};
+    clx_hull_body body = {0};
+    clx_chords *chords = NULL;
+    clx_shadow shadow = {0};
+    int32_t n_closed = 0;
+    int32_t n_larger = 0;
+    make_points(11, 162, &points);
+    CHECK_OK(clx_hull_body_make(&points, &body));
+    CHECK_OK(clx_chords_make(&body, &chords));
+    CHECK_OK(clx_shadow_alloc(&body, &shadow));
+    for (int32_t f = 0; f < body.n_face; ++f) {
+        double all[4];
+        double some[4];
+        clx_shadow_cast(&body, body.normal[f], &shadow);
+        assert_true(
+            clx_shadow_rectangle(&shadow, 1e-12, (double)INFINITY, CLX_ALL_ARCS, all, all + 2));
+        const double area = all[2] * all[3];
+        const uint32_t arcs = clx_chords_arcs(chords, shadow.u, shadow.v, area);
+        assert_true(clx_shadow_rectangle(&shadow, 1e-12, area, arcs, some, some + 2));
+        assert_memory_equal(some, all, sizeof all);
+        n_larger += clx_chords_arcs(chords, shadow.u, shadow.v, 0.97 * area) == 0;
+        n_closed += (arcs & 0xffU) != 0xffU;
+    }
+    assert_int_equal(n_closed, body.n_face);
+    assert_true(n_larger > body.n_face / 2); /* 3 % less is seen to be too little by most */
+    clx_shadow_free(&shadow);
+    clx_free(chords);
+    clx_hull_body_free(&body);
+    clast_mesh_free(&points);
+}
+
+/* Single precision only says where to look: no area is farther off than the doubt, of large grains
+   and small ones. */
+static void shadows_in_single_precision_are_within_their_doubt(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < 3; ++i) {
+        clast_mesh points = {0};
+        clx_hull_body body = {0};
+        clx_face_shadows faces = {0};
+        make_points(5, 200, &points);
+        clast_mesh_transform(&points, pow(1e30, i - 1), (double[4]){1.0, 0.0, 0.0, 0.0},
+                             (double[3]){0});
+        CHECK_OK(clx_hull_body_make(&points, &body));
+        CHECK_OK(clx_face_shadows_make(&body, &faces));
+        assert_int_equal(faces.n, body.n_face);
+        assert_true(faces.doubt < 1e-4 * body.surface);
+        for (int32_t f = 0; f < faces.n; ++f) {
+            const double area = clx_shadow_area(&body, body.normal[faces.face[f]]);
+            CHECK_ABS(faces.area[f], area, faces.doubt);
+        }
+        clx_face_shadows_free(&faces);
+        clx_hull_body_free(&body);
+        clast_mesh_free(&points);
+    }
+}
+
+static void check_chords_save_work_only(const clast_mesh *points)
+{
+    double frame[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    clx_hull_body body = {0};
+    clx_chords *chords = NULL;
+    clx_face_shadows faces = {0};
+    clx_feret with = {0};
+    clx_feret without = {0};
+    clx_box box[2];
+    CHECK_OK(clx_hull_body_make(points, &body));
+    CHECK_OK(clx_chords_make(&body, &chords));
+    assert_non_null(chords);
+    CHECK_OK(clx_hull_body_feret(&body, chords, &with));
+    CHECK_OK(clx_hull_body_feret(&body, NULL, &without));
+    assert_int_equal(with.n_longest, without.n_longest);
+    assert_true(with.longest == without.longest && with.shortest == without.shortest);
+    assert_memory_equal(with.longest_axis, without.longest_axis,
+                        (size_t)with.n_longest * sizeof with.longest_axis[0]);
+    assert_memory_equal(with.shortest_axis, without.shortest_axis, sizeof with.shortest_axis);
+    CHECK_OK(clx_face_shadows_make(&body, &faces));
+    CHECK_OK(clx_hull_body_least_box(&body, chords, &faces, frame, &box[0]));
+    CHECK_OK(clx_hull_body_least_box(&body, NULL, &faces, frame, &box[1]));
+    assert_memory_equal(box[0].edge, box[1].edge, sizeof box[0].edge);
+    clx_free(chords);
+    clx_face_shadows_free(&faces);
+    clx_hull_body_free(&body);
+}
+
+/* Calipers and least boxes without chords, which look at every edge and every face, have the same
+   bits: of points at random, and of a symmetric body with many equal ones. */
+static void chords_save_work_only(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+        clast_mesh points = {0};
+        make_points(seed, 70 + 20 * (int32_t)seed, &points);
+        check_chords_save_work_only(&points);
+        clast_mesh_free(&points);
+    }
+    for (int32_t i = 0; i < 4; ++i) {
+        clast_mesh ball = {0};
+        CHECK_OK(clast_mesh_ellipsoid((double[3]){1.0, 1.0 - 0.1 * i, 1.0 - 0.2 * i}, 2, &ball));
+        check_chords_save_work_only(&ball);
+        clast_mesh_free(&ball);
     }
 }
 
@@ -199,15 +309,18 @@ static void the_least_box_is_no_larger_than_on_any_face(void **state)
     for (uint64_t seed = 0; seed < 6; ++seed) {
         clast_mesh points = {0};
         clx_hull_body body = {0};
-        clx_face_views views = {0};
+        clx_chords *chords = NULL;
+        clx_face_shadows faces = {0};
         clx_shadow shadow = {0};
         clx_box box;
         double least = (double)INFINITY;
         make_points(seed, 70 + 60 * (int32_t)seed, &points);
         CHECK_OK(clx_hull_body_make(&points, &body));
-        CHECK_OK(clx_face_views_make(&body, &views));
+        CHECK_OK(clx_chords_make(&body, &chords));
+        assert_non_null(chords);
+        CHECK_OK(clx_face_shadows_make(&body, &faces));
         CHECK_OK(clx_shadow_alloc(&body, &shadow));
-        CHECK_OK(clx_hull_body_least_box(&body, &views, frame, &box));
+        CHECK_OK(clx_hull_body_least_box(&body, chords, &faces, frame, &box));
         for (int32_t f = 0; f < body.n_face; ++f) {
             clx_shadow_cast(&body, body.normal[f], &shadow);
             least =
@@ -215,7 +328,8 @@ static void the_least_box_is_no_larger_than_on_any_face(void **state)
         }
         assert_true(box.edge[0] * box.edge[1] * box.edge[2] <= (1.0 + 1e-12) * least);
         clx_shadow_free(&shadow);
-        clx_face_views_free(&views);
+        clx_free(chords);
+        clx_face_shadows_free(&faces);
         clx_hull_body_free(&body);
         clast_mesh_free(&points);
     }
@@ -228,6 +342,9 @@ int main(void)
         cmocka_unit_test(shadows_of_regular_bodies_equal_brute_force),
         cmocka_unit_test(directions_at_once_equal_one_by_one),
         cmocka_unit_test(a_least_shadow_is_along_two_faces),
+        cmocka_unit_test(arcs_hold_the_least_rectangle),
+        cmocka_unit_test(shadows_in_single_precision_are_within_their_doubt),
+        cmocka_unit_test(chords_save_work_only),
         cmocka_unit_test(the_least_box_is_no_larger_than_on_any_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
