@@ -21,6 +21,9 @@ typedef struct {
     int32_t pair[CLX_FERET_TIES][2]; ///< lower vertex first
     double shortest;
     double axis[3];
+    double least_long, most_short; ///< what chords tell of the longest and the shortest
+    double radius;                 ///< of the vertex farthest from the origin
+    const clx_chord **chord;       ///< [n_face] along the normal, or NULL: nothing is told
 } feret_walk;
 
 static void try_pair(feret_walk *w, int32_t a, int32_t b)
@@ -139,14 +142,46 @@ static void walk_edge(feret_walk *w, const clx_hull_body_edge *edge, int32_t opp
     }
 }
 
-/// The vertex farthest against the normal of each face, each search from the last one's end.
-static void find_opposite(const clx_hull_body *body, int32_t *opposite)
+/// Whether neither the longest nor the shortest caliper can be met on the walk along an edge. A
+/// chord's part along a normal is no more than the width; between two normals it is no less than
+/// along one of them.
+static bool may_pass_over(const feret_walk *w, const clx_hull_body_edge *edge)
+{
+    const double sure = 1.0 - 1e-9; // of a bound, in spite of rounding
+    const clx_hull_body *body = w->body;
+    const double r2 =
+        greater_of(v3_norm2(body->vert[edge->vert[0]]), v3_norm2(body->vert[edge->vert[1]]));
+    const double rest = sure * w->least_long - w->radius;
+    double width = 0.0;
+    if (rest <= 0.0 || r2 >= rest * rest) {
+        return false;
+    }
+    for (int k = 0; k < 2; ++k) {
+        const clx_chord *chord = w->chord[edge->face[k]];
+        const double one = v3_dot(chord->d, body->normal[edge->face[0]]);
+        const double other = v3_dot(chord->d, body->normal[edge->face[1]]);
+        if (one * other > 0.0) {
+            width = greater_of(lesser_of(fabs(one), fabs(other)), width);
+        }
+    }
+    return sure * width > lesser_of(w->most_short, w->shortest);
+}
+
+/// The vertex farthest against the normal of each face, each search from the last one's end; but
+/// where one vertex is clearly the farthest, from the chord's.
+static void find_opposite(const clx_hull_body *body, const clx_chord *const *chord,
+                          int32_t *opposite)
 {
     int32_t at = 0;
     for (int32_t f = 0; f < body->n_face; ++f) {
         double back[3];
         v3_scale(back, -1.0, body->normal[f]);
-        at = clx_hull_body_support(body, back, at);
+        const int32_t found =
+            chord == NULL
+                ? -1
+                : clx_hull_body_clear_support(
+                      body, back, v3_dot(chord[f]->d, back) > 0.0 ? chord[f]->high : chord[f]->low);
+        at = found >= 0 ? found : clx_hull_body_support(body, back, at);
         opposite[f] = at;
     }
 }
@@ -160,10 +195,22 @@ static void try_face(feret_walk *w, int32_t face, const int32_t *opposite, bool 
     }
 }
 
+static clast_status find_chords(const clx_chords *chords, feret_walk *w)
+{
+    const clast_status status = clx_alloc(&w->chord, w->body->n_face, sizeof(const clx_chord *));
+    for (int32_t f = 0; f < w->body->n_face && status == CLAST_OK; ++f) {
+        const double *n = w->body->normal[f]; // zero where a sliver has none
+        w->chord[f] = &chords->cell[v3_norm2(n) > 0.0 ? clx_chord_cell(n) : 0];
+    }
+    w->least_long = chords->longest;
+    w->most_short = chords->shortest;
+    w->radius = chords->radius;
+    return status;
+}
+
 clast_status clx_hull_body_feret(const clx_hull_body *body, const clx_chords *chords,
                                  clx_feret *feret)
 {
-    (void)chords;
     CLAST_ASSERT(body->n_face >= 4);
     clast_status status = CLAST_OK;
     feret_walk w = {.body = body, .longest2 = 0.0, .shortest = INFINITY};
@@ -171,9 +218,15 @@ clast_status clx_hull_body_feret(const clx_hull_body *body, const clx_chords *ch
     bool *is_tried = NULL;
     CLX_TRY(clx_alloc(&opposite, body->n_face, sizeof *opposite));
     CLX_TRY(clx_alloc(&is_tried, body->n_face, sizeof *is_tried));
-    find_opposite(body, opposite);
+    if (chords != NULL) {
+        CLX_TRY(find_chords(chords, &w));
+    }
+    find_opposite(body, w.chord, opposite);
     for (int32_t e = 0; e < body->n_edge; ++e) {
         const clx_hull_body_edge *edge = &body->edge[e];
+        if (w.chord != NULL && may_pass_over(&w, edge)) {
+            continue;
+        }
         try_face(&w, edge->face[0], opposite, is_tried);
         walk_edge(&w, edge, opposite[edge->face[0]]);
         try_face(&w, edge->face[1], opposite, is_tried);
@@ -189,5 +242,6 @@ clast_status clx_hull_body_feret(const clx_hull_body *body, const clx_chords *ch
 done:
     clx_free(opposite);
     clx_free(is_tried);
+    clx_free(w.chord);
     return status;
 }

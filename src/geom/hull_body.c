@@ -280,6 +280,20 @@ int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[
     return at;
 }
 
+int32_t clx_hull_body_clear_support(const clx_hull_body *body, const double direction[3],
+                                    int32_t start)
+{
+    const int32_t at = clx_hull_body_support(body, direction, start);
+    const double *point = body->vert[at];
+    const double least = v3_dot(point, direction) - 1e-12 * v3_norm(point);
+    for (int32_t i = body->begin[at]; i < body->begin[at + 1]; ++i) {
+        if (v3_dot(body->vert[body->neighbour[i]], direction) > least) {
+            return -1;
+        }
+    }
+    return at;
+}
+
 double clx_hull_body_width(const clx_hull_body *body, const double direction[3])
 {
     double low = INFINITY;

@@ -49,6 +49,11 @@ void clx_hull_body_free(clx_hull_body *body);
 /// Vertex farthest along a direction, by climbing from `start` over neighbours.
 int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[3], int32_t start);
 
+/// The same where that vertex is farther than all others by more than rounding, from wherever the
+/// search starts; else -1.
+int32_t clx_hull_body_clear_support(const clx_hull_body *body, const double direction[3],
+                                    int32_t start);
+
 /// Caliper width along a unit direction, over all vertices.
 double clx_hull_body_width(const clx_hull_body *body, const double direction[3]);
 
