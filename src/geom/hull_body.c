@@ -34,15 +34,15 @@ static clast_status reserve(const clx_hull_inc *hull, clx_hull_body *body)
     body->n_face = hull->n_facet;
     body->n_vert = hull->n_vert;
     body->n_edge = hull->n_facet / 2 * 3; // closed: each face has three halves of edges
-    CLX_TRY(clx_alloc(&body->vert, body->n_vert, sizeof *body->vert));
-    CLX_TRY(clx_alloc(&body->face, body->n_face, sizeof *body->face));
+    CLX_TRY(clx_realloc(&body->vert, body->n_vert, sizeof *body->vert));
+    CLX_TRY(clx_realloc(&body->face, body->n_face, sizeof *body->face));
     CLX_TRY(clx_alloc(&body->twin, 4 * (int64_t)body->n_face, sizeof *body->twin));
     CLX_TRY(clx_alloc(&body->half_at, body->n_vert, sizeof *body->half_at));
-    CLX_TRY(clx_alloc(&body->normal, body->n_face, sizeof *body->normal));
-    CLX_TRY(clx_alloc(&body->area, body->n_face, sizeof *body->area));
-    CLX_TRY(clx_alloc(&body->edge, body->n_edge, sizeof *body->edge));
+    CLX_TRY(clx_realloc(&body->normal, body->n_face, sizeof *body->normal));
+    CLX_TRY(clx_realloc(&body->area, body->n_face, sizeof *body->area));
+    CLX_TRY(clx_realloc(&body->edge, body->n_edge, sizeof *body->edge));
     CLX_TRY(clx_alloc(&body->begin, (int64_t)body->n_vert + 1, sizeof *body->begin));
-    CLX_TRY(clx_alloc(&body->neighbour, 2 * (int64_t)body->n_edge, sizeof *body->neighbour));
+    CLX_TRY(clx_realloc(&body->neighbour, 2 * (int64_t)body->n_edge, sizeof *body->neighbour));
 done:
     return status;
 }

@@ -22,8 +22,9 @@ static const double DOUBTFUL = 1e-9;      ///< cosine below which the walk along
 clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc(&shadow->point, 2 * (int64_t)body->n_edge, sizeof *shadow->point));
-    CLX_TRY(clx_alloc(&shadow->spare, 2 * (int64_t)body->n_edge, sizeof *shadow->spare));
+    // not filled with zeros: outlines are a tenth as long
+    CLX_TRY(clx_realloc(&shadow->point, 2 * (int64_t)body->n_edge, sizeof *shadow->point));
+    CLX_TRY(clx_realloc(&shadow->spare, 2 * (int64_t)body->n_edge, sizeof *shadow->spare));
     CLX_TRY(clx_alloc(&shadow->next, body->n_vert, sizeof *shadow->next));
     CLX_TRY(clx_alloc(&shadow->up, body->n_face, sizeof *shadow->up));
 done:
@@ -323,7 +324,8 @@ static void slide_down(const clx_hull_body *body, double n[3], double *best, dou
 }
 
 /// The least shadow of eight directions at one angle around n, if it is less than *best.
-static bool try_around(const clx_hull_body *body, double angle, double n[3], double *best)
+static bool try_around(const clx_hull_body *body, const double compass[CLX_DIRECTIONS][2],
+                       double tangent, double n[3], double *best)
 {
     double u[3];
     double v[3];
@@ -332,9 +334,8 @@ static bool try_around(const clx_hull_body *body, double angle, double n[3], dou
     bool better = false;
     v3_frame(n, u, v);
     for (int k = 0; k < CLX_DIRECTIONS; ++k) {
-        const double turn = 0.25 * CLAST_PI * k;
-        v3_axpy(trial[k], n, tan(angle) * cos(turn), u);
-        v3_axpy(trial[k], trial[k], tan(angle) * sin(turn), v);
+        v3_axpy(trial[k], n, tangent * compass[k][0], u);
+        v3_axpy(trial[k], trial[k], tangent * compass[k][1], v);
         (void)v3_unit(trial[k], trial[k]);
     }
     clx_shadow_areas(body, (const double(*)[3])trial, area);
@@ -352,10 +353,15 @@ static bool try_around(const clx_hull_body *body, double angle, double n[3], dou
 static double descend(const clx_hull_body *body, const double start[3], double (*side)[2])
 {
     double n[3];
+    double compass[CLX_DIRECTIONS][2];
+    for (int k = 0; k < CLX_DIRECTIONS; ++k) {
+        compass[k][0] = cos(0.25 * CLAST_PI * k);
+        compass[k][1] = sin(0.25 * CLAST_PI * k);
+    }
     v3_copy(n, start);
     double best = clx_shadow_area(body, n);
     for (double angle = 0.1; angle > SMALL_ANGLE;) {
-        if (!try_around(body, angle, n, &best)) {
+        if (!try_around(body, (const double(*)[2])compass, tan(angle), n, &best)) {
             angle *= 0.5;
         }
     }

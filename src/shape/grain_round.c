@@ -135,23 +135,23 @@ CLX_INLINE void set_quarters(const facet *f, quarters *q)
     q->r[2] = (clx_lanes){r[2], r[0], r[1], r[2]};
 }
 
-/// solid_angle() of the quarters, without signs, and |r - r_e| / r_e in their middles.
+/// The quarters, solid_angle() of each, without signs, and |r - r_e| / r_e in their middles.
 CLX_FOR_EACH_MACHINE
-static void measure_quarters(const unit_map *m, const facet *f, double angle[4], double off[4])
+static void measure_quarters(const unit_map *m, const facet *f, quarters *q, double angle[4],
+                             double off[4])
 {
-    quarters q;
     clx_lanes n[3];
     clx_lanes middle[3];
     clx_lanes x[3];
-    set_quarters(f, &q);
-    const clx_lanes *a = q.p[0];
-    const clx_lanes *b = q.p[1];
-    const clx_lanes *c = q.p[2];
+    set_quarters(f, q);
+    const clx_lanes *a = q->p[0];
+    const clx_lanes *b = q->p[1];
+    const clx_lanes *c = q->p[2];
     n[0] = b[1] * c[2] - b[2] * c[1];
     n[1] = b[2] * c[0] - b[0] * c[2];
     n[2] = b[0] * c[1] - b[1] * c[0];
-    const clx_lanes below = q.r[0] * q.r[1] * q.r[2] + dot_lanes(a, b) * q.r[2] +
-                            dot_lanes(b, c) * q.r[0] + dot_lanes(c, a) * q.r[1];
+    const clx_lanes below = q->r[0] * q->r[1] * q->r[2] + dot_lanes(a, b) * q->r[2] +
+                            dot_lanes(b, c) * q->r[0] + dot_lanes(c, a) * q->r[1];
     const clx_lanes above = dot_lanes(a, n);
     for (int i = 0; i < 3; ++i) {
         middle[i] = (a[i] + b[i] + c[i]) / 3.0;
@@ -173,14 +173,12 @@ static void measure_quarters(const unit_map *m, const facet *f, double angle[4],
     }
 }
 
-static facet quarter_of(const facet *f, int k)
+static facet quarter_of(const quarters *q, int k)
 {
-    quarters q;
     facet one;
-    set_quarters(f, &q);
     for (int c = 0; c < 3; ++c) {
-        v3_set(one.p[c], q.p[c][0][k], q.p[c][1][k], q.p[c][2][k]);
-        one.r[c] = q.r[c][k];
+        v3_set(one.p[c], q->p[c][0][k], q->p[c][1][k], q->p[c][2][k]);
+        one.r[c] = q->r[c][k];
     }
     return one;
 }
@@ -191,10 +189,11 @@ static void add_quarters(const unit_map *m, const facet *f, int depth, double su
     CLAST_ASSERT(depth >= 0 && depth <= MOST_DEPTH);
     double angle[4];
     double off[4];
-    measure_quarters(m, f, angle, off);
+    quarters q;
+    measure_quarters(m, f, &q, angle, off);
     for (int k = 0; k < 4; ++k) {
         if (angle[k] > PIECE && depth < MOST_DEPTH) {
-            const facet one = quarter_of(f, k);
+            const facet one = quarter_of(&q, k);
             add_quarters(m, &one, depth + 1, sum);
         } else {
             sum[0] += angle[k] * off[k];
