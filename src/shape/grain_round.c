@@ -115,24 +115,22 @@ CLX_INLINE clx_lanes dot_lanes(const clx_lanes a[3], const clx_lanes b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Corner k of each quarter, and the last corner's distance.
+/// Corner k of each quarter, and the last corner's distance: the fourth lane is the quarter between
+/// the middles.
 CLX_INLINE void set_quarters(const facet *f, quarters *q)
 {
-    double middle[3][3];
-    double r[3];
-    for (int k = 0; k < 3; ++k) {
-        v3_add(middle[k], f->p[k], f->p[(k + 1) % 3]);
-        v3_scale(middle[k], 0.5, middle[k]);
-        r[k] = v3_norm(middle[k]);
-    }
     for (int i = 0; i < 3; ++i) {
-        q->p[0][i] = (clx_lanes){f->p[0][i], f->p[1][i], f->p[2][i], middle[0][i]};
-        q->p[1][i] = (clx_lanes){middle[0][i], middle[1][i], middle[2][i], middle[1][i]};
-        q->p[2][i] = (clx_lanes){middle[2][i], middle[0][i], middle[1][i], middle[2][i]};
+        const clx_lanes from = {f->p[0][i], f->p[1][i], f->p[2][i], f->p[1][i]};
+        const clx_lanes to = __builtin_shufflevector(from, from, 1, 2, 0, 2);
+        const clx_lanes middle = 0.5 * (from + to);
+        q->p[0][i] = __builtin_shufflevector(from, middle, 0, 1, 2, 4);
+        q->p[1][i] = middle;
+        q->p[2][i] = __builtin_shufflevector(middle, middle, 2, 0, 1, 2);
     }
+    const clx_lanes r = lanes_root(dot_lanes(q->p[1], q->p[1]));
     q->r[0] = (clx_lanes){f->r[0], f->r[1], f->r[2], r[0]};
-    q->r[1] = (clx_lanes){r[0], r[1], r[2], r[1]};
-    q->r[2] = (clx_lanes){r[2], r[0], r[1], r[2]};
+    q->r[1] = r;
+    q->r[2] = __builtin_shufflevector(r, r, 2, 0, 1, 2);
 }
 
 /// The quarters, solid_angle() of each, without signs, and |r - r_e| / r_e in their middles.
@@ -166,8 +164,9 @@ static void measure_quarters(const unit_map *m, const facet *f, quarters *q, dou
                            (1.0 - t2 * (1.0 / 3.0 -
                                         t2 * (1.0 / 5.0 - t2 * (1.0 / 7.0 - t2 * (1.0 / 9.0)))))));
     lanes_store(off, lanes_size(lanes_root(dot_lanes(x, x)) - 1.0));
-    for (int k = 0; k < 4; ++k) {
-        if (!(below[k] > 0.0 && fabs(above[k]) < SMALL_TANGENT * below[k])) {
+    const clx_marks is_small = (below > 0.0) & (lanes_size(above) < SMALL_TANGENT * below);
+    for (int k = 0; k < 4 && lanes_bits(is_small) != 15; ++k) {
+        if (is_small[k] == 0) {
             angle[k] = fabs(2.0 * atan2(above[k], below[k]));
         }
     }
