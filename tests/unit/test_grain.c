@@ -462,6 +462,9 @@ static void measuring_survives_refused_memory(void **state)
     support_refuse_each_allocation(measure, &mesh);
     support_refuse_each_allocation(measure_hull, &mesh);
     clast_mesh_free(&mesh);
+    CHECK_OK(clast_mesh_ellipsoid((double[3]){3.0, 2.0, 1.0}, 2, &mesh)); /* faces for chords */
+    support_refuse_each_allocation(measure, &mesh);
+    clast_mesh_free(&mesh);
 }
 
 int main(void)
