@@ -315,7 +315,7 @@ static bool is_sure(const clx_pair *pair, const view *at)
     const double s = v3_dot(at->m, pair->offset); // centre of the ball below the facet
     const double aside2 = v3_norm2(pair->offset) - s * s;
     const double aside = aside2 > 0.0 ? sqrt(aside2) : 0.0;
-    return k > 1.0 && s > 0.0 && ball > 0.0 &&
+    return s > 0.0 && ball > 0.0 && k * (s + v3_norm(pair->offset)) > aside &&
            s * (k * k - 1.0) - 2.0 * k * aside + ball * (1.0 + k * k) > 0.0;
 }
 

@@ -163,19 +163,30 @@ bool clx_facet_again(const clx_pair *pair, const clx_warm_start *warm_start, clx
     }
 }
 
-/// Margin over overlap that suffices while the record holds: the root of the quadratic in eq. 8 for
-/// the least s and the greatest `aside` that the limits allow, and enough to keep the overlap below
-/// a tenth of the ball inside both bodies. None suffices where there is no such ball.
-static float sure_margin(const clx_pair *pair, double s, double aside, double margin)
+/// Margin over overlap from which on eq. 8 holds: the greater root of its quadratic, but no less
+/// than its first part asks.
+static double least_margin(double s, double aside, double ball)
 {
-    const double ball = 0.9 * (pair->a->inner + pair->b->inner - pair->a->round - pair->b->round);
-    s -= ball / 9.0; // the overlap itself
-    if (!(ball > 0.0 && s > 0.0)) {
+    const double under = aside * aside - (s + ball) * (ball - s);
+    const double root = under > 0.0 ? (aside + sqrt(under)) / (s + ball) : 0.0;
+    return greater_of(root, aside / (s + sqrt(s * s + aside * aside)));
+}
+
+/// Margin over overlap that suffices while the record holds, for the least and the greatest s
+/// without overlap and the greatest `aside` that the limits allow; and enough to keep the overlap
+/// below twice the greatest margin and a quarter of the ball inside both bodies. None suffices
+/// where there is no such ball.
+static float sure_margin(const clx_pair *pair, const double s[2], double aside, double margin)
+{
+    const double inner = pair->a->inner + pair->b->inner - pair->a->round - pair->b->round;
+    const double deepest = lesser_of(2.0 * margin, 0.25 * inner);
+    const double ball = inner - deepest;
+    const double least = s[0] - deepest;
+    if (!(deepest > 0.0 && least > 0.0)) {
         return 1e30F;
     }
-    const double under = aside * aside - (s + ball) * (ball - s);
-    const double k = under > 0.0 ? (aside + sqrt(under)) / (s + ball) : 1.0;
-    return (float)(1.001 * greater_of(greater_of(k, 1.0), 9.0 * margin / ball));
+    const double k = greater_of(least_margin(least, aside, ball), least_margin(s[1], aside, ball));
+    return (float)(1.001 * greater_of(k, margin / deepest));
 }
 
 /// Length of the part of x across unit n.
@@ -183,6 +194,14 @@ static double across(const double n[3], const double x[3])
 {
     const double along = v3_dot(n, x);
     return sqrt(greater_of(v3_norm2(x) - along * along, 0.0));
+}
+
+/// The same of the farther end of an edge: where it begins, and along.
+static double edge_across(const double n[3], const double edge[6])
+{
+    double to[3];
+    v3_add(to, edge, edge + 3);
+    return greater_of(across(n, edge), across(n, to));
 }
 
 static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
@@ -210,12 +229,12 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
     turn = lesser_of(turn, MOST_TURN);
     keep_point(at.p, warm_start->seen[0]);
     keep_point(at.q, warm_start->seen[1]);
-    warm_start->sure = sure_margin(
-        pair,
-        warm_start->data[3] - v3_dot(at.q, warm_start->data + 4) - turn * other->bounding_radius,
-        across(warm_start->data, at.p) + margin + across(at.q, warm_start->data + 4) +
-            turn * other->bounding_radius,
-        margin);
+    const double height = warm_start->data[3] - v3_dot(at.q, warm_start->data + 4);
+    const double slack = turn * other->bounding_radius;
+    warm_start->sure = sure_margin(pair, (double[2]){height - slack, height + slack},
+                                   across(warm_start->data, at.p) + margin +
+                                       across(at.q, warm_start->data + 4) + slack,
+                                   margin);
     warm_start->limit[0] =
         (float)(margin - CLX_FLOAT_SLACK * (own->bounding_radius + fabs(margin)));
     warm_start->limit[1] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
@@ -255,14 +274,14 @@ static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_warm_
     keep_point(at.mb, warm_start->seen[1]);
     const double turn_a = arc_limit(ea, at.ma);
     const double turn_b = arc_limit(eb, back);
-    const double lengths = v3_norm(warm_start->data + 3) + v3_norm(warm_start->data + 9);
     const double slack = turn_a * pair->a->bounding_radius + turn_b * pair->b->bounding_radius;
+    const double height = v3_dot(at.ma, warm_start->data) - v3_dot(at.mb, warm_start->data + 6);
     warm_start->limit[0] = (float)turn_a;
     warm_start->limit[1] = (float)turn_b;
     warm_start->sure = sure_margin(
-        pair, v3_dot(at.ma, warm_start->data) - v3_dot(at.mb, warm_start->data + 6) - slack,
-        across(at.ma, warm_start->data) + across(at.mb, warm_start->data + 6) + lengths + slack,
-        0.5 * lengths);
+        pair, (double[2]){height - slack, height + slack},
+        edge_across(at.ma, warm_start->data) + edge_across(at.mb, warm_start->data + 6) + slack,
+        0.5 * lesser_of(v3_norm(warm_start->data + 3), v3_norm(warm_start->data + 9)));
 }
 
 void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_warm_start *warm_start)
