@@ -74,8 +74,8 @@ typedef struct clast_points_options {
 /// y, z, c3, ...; arrays of a folder keep their names.
 ///
 /// @param options  NULL: {0}    @param table  empty; written only on success
-/// @return CLAST_E_FORMAT with the place; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB; CLAST_E_USAGE for
-/// a frame of what is no dump, a dataset of what is no HDF5 file
+/// @return CLAST_E_FORMAT with the place; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB; CLAST_E_USAGE
+/// for a frame of what is no dump, a dataset of what is no HDF5 file
 /// @note memory is bounded by a small multiple of the file's size, whatever the file declares
 CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_options *options,
                                         clast_table *table);
