@@ -54,7 +54,7 @@ def page(build):
         '<meta name="viewport" content="width=device-width, initial-scale=1">', '<meta name="color-scheme" content="light dark">',
         '<title>clast live</title>', f'<link rel="icon" href="{ICON}">', f"<style>\n{style}</style>", '</head>', '<body>', body,
         f'<footer><details><summary>Licences</summary><pre>{html.escape((ROOT / "LICENSE").read_text() + chr(10) + (web / "dist/LICENSE-three.txt").read_text() + chr(10) + notice)}</pre></details></footer>',
-        f'<script type="text/plain" id="clast-module">{inside((build / "npm/clast.mjs").read_text())}</script>',
+        f'<script type="text/plain" id="clast-module">{packed((build / "npm/clast.mjs").read_bytes())}</script>',
         f'<script type="text/plain" id="clast-view">{viewer}</script>', *grains,
         f'<script type="text/plain" id="clast-wasm">{program}</script>', *(f"<script>{script}</script>" for script in scripts), '</body>', '</html>', ''])
 

@@ -3,7 +3,7 @@ const $ = (id) => document.getElementById(id);
 const MOST_SHARED = 60000; // letters of an address that browsers keep
 const COLOURS = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'];
 const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#737373'];
-let program = null; // clast, compiled
+let program = null; // clast: its module, and its code compiled
 
 function bytesOf(base64) {
   return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -15,7 +15,9 @@ function base64Of(bytes) {
   return btoa(text);
 }
 
-async function unzipped(bytes) {
+/// Bytes of an element that holds them compressed.
+async function unpacked(id) {
+  const bytes = bytesOf($(id).textContent.trim());
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
 }
 
@@ -24,7 +26,7 @@ class Engine {
   constructor(onReady, onFault) { Object.assign(this, { onReady, onFault, number: 0, pending: null, onFile: null }); }
 
   start() {
-    const text = `${$('clast-module').textContent}\nconst made = {};\nonmessage = async ({ data }) => {
+    const text = `${program.module}\nconst made = {};\nonmessage = async ({ data }) => {
   if (data.program) { made.clast = new Clast(data.program); postMessage({ ready: true }); return; }
   const onFile = data.watch ? (name, bytes) => postMessage({ id: data.id, file: { name, bytes } }, [bytes.buffer]) : undefined;
   try { postMessage({ id: data.id, result: await made.clast.run(data.words, { files: data.files, onFile }) }); }
@@ -33,7 +35,7 @@ class Engine {
     this.worker = new Worker(address, { type: 'module' });
     this.worker.onmessage = ({ data }) => this.hear(data);
     this.worker.onerror = (event) => this.onFault(`the worker ended: ${event.message}`);
-    this.worker.postMessage({ program });
+    this.worker.postMessage({ program: program.code });
     this.address = address;
   }
 
