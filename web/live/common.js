@@ -15,8 +15,8 @@ function base64Of(bytes) {
   return btoa(text);
 }
 
-/// Bytes of an element that holds them compressed.
-async function unpacked(id) {
+/// What an element of the page holds compressed.
+async function bundled(id) {
   const bytes = bytesOf($(id).textContent.trim());
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
 }

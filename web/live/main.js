@@ -68,7 +68,7 @@ function listenPage() {
 /// The viewer of reports, which draws in 3-D.
 async function loadViewer() {
   const script = document.createElement('script');
-  script.src = URL.createObjectURL(new Blob([await unpacked('clast-view')], { type: 'text/javascript' }));
+  script.src = URL.createObjectURL(new Blob([await bundled('clast-view')], { type: 'text/javascript' }));
   await new Promise((done, fail) => { script.onload = done; script.onerror = () => fail(new Error('the 3-D view did not load')); document.head.append(script); });
   URL.revokeObjectURL(script.src);
 }
@@ -83,7 +83,7 @@ async function begin() {
   window.clastRuns = true;
   try {
     const viewer = loadViewer();
-    program = { module: new TextDecoder().decode(await unpacked('clast-module')), code: await WebAssembly.compile(await unpacked('clast-wasm')) };
+    program = { module: new TextDecoder().decode(await bundled('clast-module')), code: await WebAssembly.compile(await bundled('clast-wasm')) };
     await viewer;
     startEngine();
     if (!isGiven) rooms.grow.go();
