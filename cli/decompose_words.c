@@ -177,7 +177,7 @@ static void print_resolved(const clast_decomposition *r, double pairs_radius)
         cli_points_needed_print(r->points_needed);
     }
     (void)printf("\n");
-    if (pairs_radius > 0.0) {
+    if (pairs_radius > 0.0 && !isfinite(r->cells_bias)) {
         (void)printf("pairs are those within --pairs-radius %s; the distance that is taken without "
                      "it may resolve more\n",
                      cli_quantity(pairs_radius, "m"));
