@@ -247,23 +247,42 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
     return worst;
 }
 
-/// Statistics, and kinds of files, have options of their own.
+/// Kinds of files have options of their own. `may_be`: of which kinds there are files, as bits.
+static clast_status check_kinds(const config *c, unsigned may_be, const char *why)
+{
+    static const char *const series[] = {"degree", "level", NULL};
+    static const char *const points[] = {"spacing", NULL};
+    static const char *const volume[] = {"voxels", "threshold", "least_voxels", NULL};
+    const cli_idle rules[] = {
+        {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, series, why},
+        {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, points, why},
+        {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0, volume, why},
+    };
+    return cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]);
+}
+
+/// So have statistics; what the files are is known before they are read where --kind says it.
 static clast_status check_used(const config *c)
 {
     static const char *const drawn[] = {"resamples", "seed", NULL};
     static const char *const bare[] = {"voxel_type", "big_endian", "skip", NULL};
-    static const char *const series[] = {"degree", "level", NULL};
-    static const char *const points[] = {"spacing", NULL};
-    static const char *const volume[] = {"voxels", "threshold", "least_voxels", NULL};
-    const bool is_known = c->kind != CLAST_GRAINS_AUTO;
     const cli_idle rules[] = {
         {c->statistics[0] == '\0', drawn, "without --statistics"},
         {c->voxels[0] == '\0', bare, "without --voxels: other volumes have a header"},
-        {is_known && c->kind != CLAST_GRAINS_SERIES, series, "with this --kind"},
-        {is_known && c->kind != CLAST_GRAINS_POINTS, points, "with this --kind"},
-        {is_known && c->kind != CLAST_GRAINS_VOXELS, volume, "with this --kind"},
     };
-    return cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]);
+    CLI_GUARD(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
+    return c->kind == CLAST_GRAINS_AUTO ? CLAST_OK
+                                        : check_kinds(c, 1U << c->kind, "with this --kind");
+}
+
+/// Else once they have been: a file at fault may be of any kind.
+static clast_status check_read(const config *c, const clast_grains *grains)
+{
+    unsigned found = 0;
+    for (int64_t i = 0; i < grains->n; ++i) {
+        found |= 1U << grains->record[i].kind;
+    }
+    return grains->n_fault > 0 ? CLAST_OK : check_kinds(c, found, "with files of these kinds");
 }
 
 static clast_status run(const cli_common *common, void *config_bytes)
@@ -289,6 +308,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(volume_options(c, &options));
     CLI_TRY(clast_grains_read(common->n_argument, (const char *const *)common->argument, &options,
                               &shape.grains));
+    CLI_TRY(check_read(c, &shape.grains));
     if (all_have_unit(&shape.grains, unit_m)) {
         clast_grains_to_metres(&shape.grains, unit_m);
         shape.in_metres = true;

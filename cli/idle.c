@@ -77,8 +77,7 @@ clast_status cli_idle_cells(const cli_common *common, const clast_field *fields,
     static const char *const passes[] = {"max_pass", NULL};
     static const char *const radius[] = {"pairs_radius", NULL};
     const bool is_full = c->variant == CLAST_VARIANT_FULL;
-    const bool is_tree =
-        c->mesh == CLAST_CELLS_TREE || (c->mesh == CLAST_CELLS_AUTO && is_full && !c->paper);
+    const bool is_tree = clast_decompose_takes_tree(c);
     const bool may_pair = c->pairs || c->estimator == CLAST_ESTIMATOR_PAIRS ||
                           (c->estimator == CLAST_ESTIMATOR_AUTO && is_tree && c->extrapolate &&
                            !c->paper && c->events == CLAST_EVENTS_PAIRS);

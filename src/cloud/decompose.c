@@ -487,7 +487,7 @@ done:
 
 /// Boxes of bins are joined for their counts and keep the noise, and blobs narrower than a bin; the
 /// tree does not.
-static bool takes_tree(const clast_decompose_config *config)
+bool clast_decompose_takes_tree(const clast_decompose_config *config)
 {
     return config->mesh == CLAST_CELLS_TREE ||
            (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
@@ -498,7 +498,7 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                const clast_decompose_config *config, clast_decomposition *result)
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
-    const bool is_tree = takes_tree(config);
+    const bool is_tree = clast_decompose_takes_tree(config);
     if (result->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
         result->stop = result->n_test < 5      ? CLAST_STOP_UNTESTED
                        : result->before.reject ? CLAST_STOP_TESTED
@@ -518,11 +518,6 @@ static clast_status check_config(const clast_decompose_config *config)
     return clast_fields_check(clast_decompose_fields, &named);
 }
 
-bool clx_decompose_takes_tree(const clast_decompose_config *config)
-{
-    return takes_tree(config);
-}
-
 clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
                                  const clast_decompose_config *config)
 {
@@ -530,7 +525,7 @@ clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *
     CLX_TRY(check_config(config));
     CLX_TRY(clx_domain_check(domain));
     CLX_TRY(clx_cloud_check(cloud));
-    CLX_CHECK(cloud->variable == NULL || takes_tree(config), CLAST_E_CONFIG,
+    CLX_CHECK(cloud->variable == NULL || clast_decompose_takes_tree(config), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");
 done:
     return status;

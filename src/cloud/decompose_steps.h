@@ -18,6 +18,3 @@ clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sam
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
                                   const clast_decompose_config *config, clx_shown *cached,
                                   clast_decomposition *result);
-
-/// Whether cells are those of the uniformity tree, which needs no vote.
-bool clx_decompose_takes_tree(const clast_decompose_config *config);

@@ -376,7 +376,7 @@ static clast_status check_policy(const clast_workspace_policy *policy,
               "crossfit cuts both halves at each call: it goes with the policy tests = each and "
               "cells = each alone");
     CLX_CHECK(policy->tests != CLAST_TESTS_NEVER || config->variant >= CLAST_VARIANT_FAST ||
-                  clx_decompose_takes_tree(config),
+                  clast_decompose_takes_tree(config),
               CLAST_E_CONFIG,
               "tests = never: these cells are cut where the tests reject; take mesh = tree, or "
               "variant = fast");

@@ -34,6 +34,7 @@ class Messages(Case):
                 (shape, ("--skip", "4"), "without --voxels"), (shape, ("--big-endian",), "without --voxels"),
                 ((*shape, "--kind", "surface"), ("--level", "2"), "with this --kind"),
                 ((*shape, "--kind", "surface"), ("--spacing", "2"), "with this --kind"),
+                (shape, ("--level", "2"), "with files of these kinds"), (shape, ("--threshold", "2"), "with files of these kinds"),
                 (fill, ("--candidates", "5"), "with --strategy largest"), (fill, ("--no-first-at-centre",), "with --strategy largest"),
                 (fill, ("--seed", "5"), "with --strategy largest"), ((*fill, "--strategy", "random"), ("--tolerance", "0.1"), "without"),
                 (fill, ("--shrink", "1"), "without --outer"), ((*fill, "--overlap"), ("--tolerance", "0.1"), "with --overlap"),
