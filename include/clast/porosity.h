@@ -286,9 +286,9 @@ CLAST_API clast_status clast_porosity_mean_profile(int32_t n, const clast_table 
 /// horizontal. Random directions give eigenvalues of 1/3; a layered bed has a high vertical entry
 /// of the shortest axis.
 ///
-/// @param contacts  of clast_dem_contact_table, its columns b, normal_x, normal_y, normal_z; NULL
-/// or
-///                  without them: not known
+/// @param contacts  of clast_dem_contact_table, its columns b, normal_x, normal_y, normal_z and
+///                  branch_x_m, branch_y_m, branch_z_m; NULL or without them: normals are not
+///                  known, branches go to the nearest image
 /// @param period  x, y and z period [m], 0 for none; NULL: none
 /// @param table   must be empty; written only on success
 CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const clast_table *contacts,

@@ -78,3 +78,10 @@ double clx_rounding_factor(const clx_dem_body *body, double margin);
 
 /// Bounding radius [m] and volume [m3] of a shape at scale 1.
 void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2]);
+
+/// Skin that the widest grain of a domain needs, a share of its radius: its own in a cell, in which
+/// pairs meet in one image; else a tenth of that, which is searched more often.
+static inline double clx_least_skin(const clast_dem_config *config)
+{
+    return (config->domain == CLAST_DEM_CELL ? 1.0 : 0.1) * config->skin;
+}

@@ -83,10 +83,11 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
                           : is_cell                       ? fmin(fmin(c->width, depth), c->height)
                                                           : fmin(c->width, depth);
     if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
-        CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %s across, %s with its skin, more than half the period of %s",
-                  (long long)number, clx_unit_text(2.0 * radius, "m"),
-                  clx_unit_text(2.0 * radius * (1.0 + c->skin), "m"), clx_unit_text(narrow, "m"));
+        const double across = 2.0 * radius * (1.0 + clx_least_skin(c));
+        CLX_CHECK((is_cell ? 2.0 : 1.0) * across <= narrow, CLAST_E_GEOMETRY,
+                  "grain %lld reaches %s across, %s with its skin, more than %s of %s",
+                  (long long)number, clx_unit_text(2.0 * radius, "m"), clx_unit_text(across, "m"),
+                  is_cell ? "half the period" : "the period", clx_unit_text(narrow, "m"));
     } else if (c->domain != CLAST_DEM_OPEN) {
         CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
                   "grain %lld reaches %s across, the domain only %s", (long long)number,

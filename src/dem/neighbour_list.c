@@ -66,9 +66,11 @@ static void set_anchor(clast_dem *dem, int32_t i)
     v3_copy(at->position, clx_item_position(dem, i));
     memcpy(at->orientation, dem->motion[g].orientation, sizeof at->orientation);
     at->margin = dem->config.skin * radius + fmin(flight, radius);
-    for (int c = 0; c < 2; ++c) { // a pair may only touch in one image: see check_fit
+    for (int c = 0; c < 2; ++c) { // most pairs only touch in one image, none with its own
         if (dem->period[c] > 0.0) {
-            at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
+            const double most = (1.0 + dem->config.skin) * radius;
+            const double room = (4.0 * most <= dem->period[c] ? 0.25 : 0.5) * dem->period[c];
+            at->margin = fmin(at->margin, room - radius);
         }
     }
     for (int c = 0; c < 3 && dem->cell != NULL; ++c) {
@@ -137,38 +139,59 @@ done:
     return status;
 }
 
-/// One candidate of a stale item's query.
+/// Item k in the image at r from item i, `n` periods from where it is.
+static clast_status add_image(clast_dem *dem, int32_t i, int32_t k, const double r[3],
+                              const double n[2])
+{
+    clx_neighbour_list *l = &dem->list;
+    const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + l->anchor[i].margin +
+                          l->anchor[k].margin;
+    if (v3_norm2(r) >= cutoff * cutoff) {
+        return CLAST_OK;
+    }
+    const double sign = i < k ? 1.0 : -1.0;
+    clx_found found = {.a = i < k ? i : k, .b = i < k ? k : i};
+    for (int c = 0; c < 2; ++c) {
+        found.period[c] = (int16_t)(uint16_t)(int64_t)(sign * n[c]);
+    }
+    return add_found(l, found);
+}
+
+/// One candidate of a stale item's query: in its nearest image, and in others that are near.
 static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
 {
     CLAST_ASSERT(i >= 0 && i < dem->n_item && k >= 0 && k < dem->n_item);
-    clx_neighbour_list *l = &dem->list;
+    clast_status status = CLAST_OK;
+    const clx_neighbour_list *l = &dem->list;
     const clx_anchor *a = &l->anchor[i];
     const clx_anchor *b = &l->anchor[k];
-    if (k == i || (l->is_stale[k] != 0 && k < i) ||
+    if (k == i || (l->is_stale[k] != 0 && k < i) || clx_are_ghosts(dem, i, k) ||
         (dem->item != NULL && dem->item[i].grain == dem->item[k].grain)) {
         return CLAST_OK;
     }
+    const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
     double r[3];
-    int16_t period[2] = {0, 0};
+    double n[2] = {0.0, 0.0};
+    int beyond[2] = {0, 0};
     v3_sub(r, b->position, a->position);
     for (int c = 0; c < 2; ++c) {
         if (dem->period[c] > 0.0) {
-            const double n = floor(0.5 - r[c] / dem->period[c]);
-            period[c] = (int16_t)(uint16_t)(int64_t)n;
-            r[c] += n * dem->period[c];
+            n[c] = floor(0.5 - r[c] / dem->period[c]);
+            r[c] += n[c] * dem->period[c];
+            beyond[c] = 2.0 * cutoff > dem->period[c] ? 1 : 0;
         }
     }
     if (dem->cell != NULL) {
         clx_cell_offset(dem->cell, r);
     }
-    const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
-    if (v3_norm2(r) >= cutoff * cutoff || clx_are_ghosts(dem, i, k)) {
-        return CLAST_OK;
+    for (int x = -beyond[0]; x <= beyond[0]; ++x) {
+        for (int y = -beyond[1]; y <= beyond[1]; ++y) {
+            const double image[3] = {r[0] + x * dem->period[0], r[1] + y * dem->period[1], r[2]};
+            CLX_TRY(add_image(dem, i, k, image, (const double[2]){n[0] + x, n[1] + y}));
+        }
     }
-    const clx_found found =
-        i < k ? (clx_found){.a = i, .b = k, .period = {period[0], period[1]}}
-              : (clx_found){.a = k, .b = i, .period = {(int16_t)-period[0], (int16_t)-period[1]}};
-    return add_found(l, found);
+done:
+    return status;
 }
 
 /// All entries of the cell that the walk is in.
@@ -218,7 +241,12 @@ done:
     return status;
 }
 
-/// Found pairs by a, then b: counting sort and short insertions.
+static int compare(int32_t b, const int16_t period[2], const clx_found *f)
+{
+    return clx_pair_order(b, period, f->b, f->period);
+}
+
+/// Found pairs by a, then b and image: counting sort and short insertions.
 static clast_status sort_found(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -243,7 +271,8 @@ static clast_status sort_found(clast_dem *dem)
         for (int64_t k = begin[i] + 1; k < begin[i + 1]; ++k) {
             const clx_found f = l->sorted[k];
             int64_t at = k;
-            for (; at > begin[i] && l->sorted[at - 1].b > f.b; --at) {
+            for (; at > begin[i] && compare(l->sorted[at - 1].b, l->sorted[at - 1].period, &f) > 0;
+                 --at) {
                 l->sorted[at] = l->sorted[at - 1];
             }
             l->sorted[at] = f;
@@ -263,11 +292,6 @@ static clx_dem_pair new_pair(const clx_found *f)
 {
     return (clx_dem_pair){
         .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .active_from = -INFINITY};
-}
-
-static bool is_same(const clx_dem_pair *old, const clx_found *f)
-{
-    return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
 clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *l, clx_dem_pair *pair)
@@ -317,35 +341,25 @@ static void start_pair(clx_neighbour_list *l, const clx_found *f, int64_t n)
     }
 }
 
-/// Old and found pairs of one item, both sorted by b, into the other buffer at n.
+/// Old and found pairs of one item, both in order, into the other buffer at n.
 static int64_t merge_item(clx_neighbour_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
     CLAST_ASSERT(old <= old_end && l->found_begin[i] <= l->found_begin[i + 1]);
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
     while (old < old_end || f < f_end) {
-        const bool old_is_first = f == f_end || (old < old_end && l->pair[old].b < l->sorted[f].b);
-        if (old_is_first) {
-            if (stays(l, &l->pair[old])) {
-                keep_pair(l, old, n++);
-            } else {
-                drop_pair(l, old);
-            }
-            ++old;
-            continue;
-        }
-        if (old < old_end && l->pair[old].b == l->sorted[f].b) {
-            if (is_same(&l->pair[old], &l->sorted[f])) {
-                keep_pair(l, old, n++);
-            } else {
-                drop_pair(l, old);
-                start_pair(l, &l->sorted[f], n++);
-            }
-            ++old;
+        const int first = f == f_end ? -1
+                          : old == old_end
+                              ? 1
+                              : compare(l->pair[old].b, l->pair[old].period, &l->sorted[f]);
+        if (first > 0) {
+            start_pair(l, &l->sorted[f++], n++);
+        } else if (first == 0 || stays(l, &l->pair[old])) {
+            keep_pair(l, old++, n++);
+            f += first == 0;
         } else {
-            start_pair(l, &l->sorted[f], n++);
+            drop_pair(l, old++);
         }
-        ++f;
     }
     return n;
 }

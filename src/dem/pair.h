@@ -16,6 +16,15 @@ typedef struct clx_dem_pair {
     double slide[3];      ///< tangential displacement of b over a
 } clx_dem_pair;
 
+/// Pairs of one item come by b, then by image: below 0 where the first does.
+static inline int clx_pair_order(int32_t b, const int16_t period[2], int32_t other,
+                                 const int16_t others[2])
+{
+    return b != other               ? (b > other) - (b < other)
+           : period[0] != others[0] ? period[0] - others[0]
+                                    : period[1] - others[1];
+}
+
 /// Contact history of some laws, beside the tangential displacement.
 typedef struct clx_contact_history {
     double roll[3];     ///< torque of the rolling spring on b

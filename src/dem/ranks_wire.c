@@ -121,7 +121,8 @@ static int by_items(const void *left, const void *right)
 {
     const clx_dem_pair *a = &(*(const clx_wire_pair *const *)left)->pair;
     const clx_dem_pair *b = &(*(const clx_wire_pair *const *)right)->pair;
-    return a->a != b->a ? (a->a > b->a) - (a->a < b->a) : (a->b > b->b) - (a->b < b->b);
+    return a->a != b->a ? (a->a > b->a) - (a->a < b->a)
+                        : clx_pair_order(a->b, a->period, b->b, b->period);
 }
 
 /// Each grain once, from its owner where it came from there.

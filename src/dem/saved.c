@@ -318,8 +318,11 @@ static clast_status read_pair(const clast_dem *dem, const clx_dem_saved *s, int6
     const int32_t *id = &s->id[k * CLX_SAVED_ID];
     const double *in = &s->pair[k * CLX_SAVED_PAIR];
     const int32_t n_wall = dem->n_wall + (dem->container != NULL ? dem->container->n_tri : 0);
-    const bool is_next = k == 0 || id[0] > id[-CLX_SAVED_ID] ||
-                         (id[0] == id[-CLX_SAVED_ID] && id[1] > id[1 - CLX_SAVED_ID]);
+    int same = 0; // of a, b and b's image, by which pairs are in order
+    while (k > 0 && same < 4 && id[same] == id[same - CLX_SAVED_ID]) {
+        ++same;
+    }
+    const bool is_next = k == 0 || (same < 4 && id[same] > id[same - CLX_SAVED_ID]);
     CLX_CHECK(id[0] >= 0 && id[0] < dem->n_item && id[1] < dem->n_item && id[1] >= -n_wall &&
                   (id[1] < 0 || id[1] > id[0]) && is_next,
               CLAST_E_FORMAT, "pair %lld of the checkpoint joins %d and %d", (long long)k, id[0],

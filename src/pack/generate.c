@@ -177,9 +177,10 @@ done:
 static double reach_limit(const clast_dem_config *d)
 {
     const double depth = d->depth > 0.0 ? d->depth : d->width;
+    const double skin = clx_least_skin(d);
     return d->domain == CLAST_DEM_CELL
-               ? 0.25 * fmin(fmin(d->width, depth), d->height) / (1.0 + d->skin)
-           : d->domain == CLAST_DEM_PERIODIC ? 0.25 * fmin(d->width, depth) / (1.0 + d->skin)
+               ? 0.25 * fmin(fmin(d->width, depth), d->height) / (1.0 + skin)
+           : d->domain == CLAST_DEM_PERIODIC ? 0.5 * fmin(d->width, depth) / (1.0 + skin)
            : d->domain == CLAST_DEM_CYLINDER ? 0.5 * d->width
            : d->domain == CLAST_DEM_BOX      ? 0.5 * fmin(d->width, depth)
                                              : (double)INFINITY;
@@ -206,9 +207,9 @@ clast_status clx_pack_check_draws(clast_pack *p)
                   "grain %lld of this seed reaches %s across, more than %s of %s; take a wider "
                   "domain, or another seed if few grains are as large",
                   (long long)i, clx_unit_text(2.0 * reach, "m"),
-                  d->domain == CLAST_DEM_PERIODIC || d->domain == CLAST_DEM_CELL
-                      ? "half the period, less the skin,"
-                      : "the width",
+                  d->domain == CLAST_DEM_CELL       ? "half the period, less the skin,"
+                  : d->domain == CLAST_DEM_PERIODIC ? "the period, less the skin,"
+                                                    : "the width",
                   clx_unit_text(fmin(d->width, d->depth > 0.0 ? d->depth : d->width), "m"));
         mass += g.density * measures[1] * g.scale * g.scale * g.scale;
         CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,

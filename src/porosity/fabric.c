@@ -83,26 +83,36 @@ static void add_counts(rows *r, const clast_assembly *a, const int32_t *count)
     }
 }
 
+/// Tensor of directions of contacts between grains, from the table's columns: false without them.
+static bool sum_known(const clast_table *contacts, const char *const name[3], double tensor[3][3])
+{
+    const double *b = contacts != NULL ? clast_table_numbers(contacts, "b") : NULL;
+    const double *x = contacts != NULL ? clast_table_numbers(contacts, name[0]) : NULL;
+    const double *y = contacts != NULL ? clast_table_numbers(contacts, name[1]) : NULL;
+    const double *z = contacts != NULL ? clast_table_numbers(contacts, name[2]) : NULL;
+    int64_t n = 0;
+    if (b == NULL || x == NULL || y == NULL || z == NULL) {
+        return false;
+    }
+    for (int64_t c = 0; c < contacts->n_row; ++c) {
+        double way[3] = {x[c], y[c], z[c]};
+        if (b[c] >= 0.0 && v3_unit(way, way)) {
+            add_outer(tensor, 1.0, way);
+            ++n;
+        }
+    }
+    scale_tensor(tensor, n > 0 ? 1.0 / (double)n : 0.0);
+    return n > 0;
+}
+
 /// Contact normals: true where they are known, from the table or because all grains are spheres.
 static bool sum_normals(const clast_assembly *a, const clast_table *contacts, double branches[3][3],
                         double tensor[3][3])
 {
-    const double *b = contacts != NULL ? clast_table_numbers(contacts, "b") : NULL;
-    const double *x = contacts != NULL ? clast_table_numbers(contacts, "normal_x") : NULL;
-    const double *y = contacts != NULL ? clast_table_numbers(contacts, "normal_y") : NULL;
-    const double *z = contacts != NULL ? clast_table_numbers(contacts, "normal_z") : NULL;
+    static const char *const names[3] = {"normal_x", "normal_y", "normal_z"};
     bool is_known = true;
-    if (b != NULL && x != NULL && y != NULL && z != NULL) {
-        int64_t n = 0;
-        for (int64_t c = 0; c < contacts->n_row; ++c) {
-            const double normal[3] = {x[c], y[c], z[c]};
-            if (b[c] >= 0.0) {
-                add_outer(tensor, 1.0, normal);
-                ++n;
-            }
-        }
-        scale_tensor(tensor, n > 0 ? 1.0 / (double)n : 0.0);
-        return n > 0;
+    if (sum_known(contacts, names, tensor)) {
+        return true;
     }
     for (int32_t i = 0; i < a->n_grain && is_known; ++i) {
         is_known = a->shape[a->shape_id[i]].kind == CLAST_SHAPE_SPHERE;
@@ -111,31 +121,45 @@ static bool sum_normals(const clast_assembly *a, const clast_table *contacts, do
     return is_known;
 }
 
-static clast_status contacts(rows *r, const clast_assembly *a, const clast_table *known,
-                             const double period[3])
+/// Branch vectors: from the table, as grains wider than half a period touch in other images than
+/// the nearest, too; else to the nearest image. False if there is no contact.
+static bool sum_branches(const clast_assembly *a, const clast_table *known, const double period[3],
+                         double tensor[3][3])
 {
-    clast_status status = CLAST_OK;
-    double tensor[3][3] = {{0.0}};
-    int32_t *count = NULL;
+    static const char *const names[3] = {"branch_x_m", "branch_y_m", "branch_z_m"};
     int64_t n = 0;
-    CLX_TRY(clx_alloc(&count, a->n_grain, sizeof *count));
+    if (sum_known(known, names, tensor)) {
+        return true;
+    }
     for (int32_t c = 0; c < a->n_contact; ++c) {
         double b[3];
         v3_sub(b, a->position[a->contact[c][1]], a->position[a->contact[c][0]]);
         for (int k = 0; k < 3 && period != NULL; ++k) {
             b[k] -= period[k] > 0.0 ? period[k] * round(b[k] / period[k]) : 0.0;
         }
-        ++count[a->contact[c][0]];
-        ++count[a->contact[c][1]];
         if (v3_unit(b, b)) {
             add_outer(tensor, 1.0, b);
             ++n;
         }
     }
+    scale_tensor(tensor, n > 0 ? 1.0 / (double)n : 0.0);
+    return n > 0;
+}
+
+static clast_status contacts(rows *r, const clast_assembly *a, const clast_table *known,
+                             const double period[3])
+{
+    clast_status status = CLAST_OK;
+    double tensor[3][3] = {{0.0}};
+    double normals[3][3] = {{0.0}};
+    int32_t *count = NULL;
+    CLX_TRY(clx_alloc(&count, a->n_grain, sizeof *count));
+    for (int32_t c = 0; c < a->n_contact; ++c) {
+        ++count[a->contact[c][0]];
+        ++count[a->contact[c][1]];
+    }
     add_counts(r, a, count);
-    if (n > 0) {
-        double normals[3][3] = {{0.0}};
-        scale_tensor(tensor, 1.0 / (double)n);
+    if (sum_branches(a, known, period, tensor)) {
         if (sum_normals(a, known, tensor, normals)) {
             add_tensor(r, "normal", normals,
                        "greatest eigenvalue of Satake's fabric tensor of contact normals");

@@ -186,14 +186,14 @@ class Pack(Case):
         # two sizes by number: the large ones come late, but are told at once
         curve = self.folder / "two.csv"
         curve.write_text("size_mm\n" + "4\n" * 400 + "30\n")
-        self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "50mm",
-                          "--height", "0.5m", "--quiet", says=("reaches 30 mm across", "half the period", "seed"))
+        self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "32mm",
+                          "--height", "0.5m", "--quiet", says=("reaches 30 mm across", "more than the period", "seed"))
 
     def test_bad_input_is_one_line(self):
         self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.31935 us or less", "contact_scheme exact"))
         self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
         self.assert_fails(2, *SMALL, "--layer", "10nm", says=("1e+07 slices", "layer"))  # known before the run, not after it
-        self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "11mm", "--mass", "1g", says=("half the period",))
+        self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "5mm", "--mass", "1g", says=("more than the period",))
         self.assert_fails(2, *SMALL, "--shape-weight", "1", "--shape-weight", "2", says=("2 weights for 1 shapes",))
         self.assert_fails(3, *SMALL, "--shapes", str(self.folder / "none.stl"), says=("shapes",))
         self.assert_fails(2, *SMALL, "--domain", "open", says=("sides",))

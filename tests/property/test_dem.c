@@ -2,7 +2,9 @@
  * rises by itself. */
 #include "support.h"
 
+#include "dem/dem.h"
 #include "dem_scenes.h"
+#include "math/rng.h"
 #include <clast/dem.h>
 #include <clast/machine.h>
 #include <stdlib.h>
@@ -188,6 +190,83 @@ static void period_has_no_border(void **state)
     CHECK_REL(x[1][1], x[0][1], 1e-10);
 }
 
+enum { NARROW = 7, COPIES = 4 };
+
+/// A bed in a period of `n` by `n` times the narrow one, each grain n^2 times.
+static clast_dem *narrow_bed(scene_body_kind kind, int32_t n)
+{
+    static const double wide = 0.0094; // grains reach 8 mm across
+    clast_dem_config c = scene_physics();
+    clast_shape shape = {0};
+    clast_dem_grain grain[NARROW * COPIES] = {{0}};
+    c.domain = CLAST_DEM_PERIODIC;
+    c.width = n * wide;
+    c.height = 0.2;
+    c.floor = true;
+    c.gravity = 2000.0; // a bed within few steps
+    CHECK_OK(scene_body(kind, &shape));
+    for (int32_t k = 0; k < NARROW * n * n; ++k) {
+        const int32_t i = k / (n * n);
+        clx_rng rng = clx_rng_at(5, 0, (uint64_t)i);
+        clast_dem_grain *g = &grain[k];
+        *g = (clast_dem_grain){.scale = (i % 3 == 2 ? 0.0016 : 0.004) / shape.bounding_radius,
+                               .density = 2650.0};
+        g->position[0] = wide * (clx_rng_uniform(&rng) + k % n);
+        g->position[1] = wide * (clx_rng_uniform(&rng) + k / n % n);
+        g->position[2] = 0.0045 + 0.0085 * i;
+        g->velocity[2] = -0.5;
+        clx_rng_orientation(&rng, g->orientation);
+    }
+    clast_dem *dem = scene_bodies(&c, &shape, NARROW * n * n, grain);
+    assert_non_null(dem);
+    clast_shape_free(&shape);
+    return dem;
+}
+
+/// Pairs of grains that touch in more than one image.
+static int64_t count_double(const clast_dem *dem)
+{
+    const clx_dem_pair *pair = dem->list.pair;
+    int64_t n = 0;
+    for (int64_t k = 1; k < dem->list.n_pair; ++k) {
+        n += pair[k].touches && pair[k - 1].touches && pair[k].b >= 0 &&
+             pair[k].a == pair[k - 1].a && pair[k].b == pair[k - 1].b;
+    }
+    return n;
+}
+
+/* Grains wider than half the period touch each other in several images. Two by two of the period
+ * side by side, wide enough for one image a pair, are the same bed. */
+static void wide_grains_meet_in_every_image(void **state)
+{
+    (void)state;
+    int64_t n_double = 0;
+    for (int kind = 0; kind < N_SCENE_BODY; ++kind) {
+        clast_dem *narrow = narrow_bed((scene_body_kind)kind, 1);
+        clast_dem *wide = narrow_bed((scene_body_kind)kind, 2);
+        clast_dem_measures m[2];
+        clast_dem_grain a, b;
+        for (int turn = 0; turn < 40; ++turn) {
+            CHECK_OK(clast_dem_step(narrow, 50));
+            CHECK_OK(clast_dem_step(wide, 50));
+            clast_dem_measure(narrow, &m[0]);
+            clast_dem_measure(wide, &m[1]);
+            assert_int_equal(COPIES * m[0].n_contact, m[1].n_contact);
+            n_double += count_double(narrow);
+        }
+        for (int32_t k = 0; k < NARROW * COPIES; ++k) {
+            clast_dem_read_grain(narrow, k / COPIES, &a);
+            clast_dem_read_grain(wide, k, &b);
+            CHECK_ABS(b.position[2], a.position[2], 1e-9);
+            CHECK_ABS(b.velocity[0], a.velocity[0], 1e-6);
+            CHECK_ABS(b.velocity[1], a.velocity[1], 1e-6);
+        }
+        clast_dem_destroy(narrow);
+        clast_dem_destroy(wide);
+    }
+    assert_true(n_double > 20);
+}
+
 /// Velocities of pairs that meet through the border, b moved by so many periods in x and y: the
 /// same as without, but for the digits that its distance from the origin costs.
 static void check_distant_pairs(scene_body_kind kind)
@@ -245,6 +324,7 @@ int main(void)
         cmocka_unit_test(threads_change_no_bit_of_hulls),
         cmocka_unit_test(energy_never_rises_by_itself),
         cmocka_unit_test(period_has_no_border),
+        cmocka_unit_test(wide_grains_meet_in_every_image),
         cmocka_unit_test(crossings_are_counted_however_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

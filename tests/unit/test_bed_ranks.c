@@ -18,6 +18,7 @@ typedef struct {
     bool has_spheres; ///< beside, some of them larger than a rank's part of the bed
     void (*change)(clast_dem_config *config);
     bool has_energy; ///< with an energy book
+    double boulder;  ///< radius of its one large sphere [m]; 0: 9 mm
 } bed_case;
 
 static void roll(clast_dem_config *c)
@@ -52,20 +53,22 @@ static void stick(clast_dem_config *c)
 }
 
 static const bed_case cases[] = {
-    {"balls in a cylinder", SCENE_BALL, CLAST_DEM_CYLINDER, true, NULL, false},
-    {"balls in a periodic box, rolling springs", SCENE_BALL, CLAST_DEM_PERIODIC, false, roll,
-     false},
-    {"cubes in a periodic box", SCENE_CUBE, CLAST_DEM_PERIODIC, true, NULL, false},
+    {"balls in a cylinder", SCENE_BALL, CLAST_DEM_CYLINDER, true, NULL, false, 0.0},
+    {"balls in a periodic box, rolling springs", SCENE_BALL, CLAST_DEM_PERIODIC, false, roll, false,
+     0.0},
+    {"cubes in a periodic box", SCENE_CUBE, CLAST_DEM_PERIODIC, true, NULL, false, 0.0},
     {"octahedra in a box, exact steps, compared", SCENE_OCTAHEDRON, CLAST_DEM_BOX, false, hold,
-     false},
-    {"eggs in a cylinder, in water", SCENE_EGG, CLAST_DEM_CYLINDER, true, wet, false},
-    {"clumps in a periodic box", SCENE_CLUMP, CLAST_DEM_PERIODIC, true, NULL, true},
-    {"bricks in a box, compared", SCENE_BRICKS, CLAST_DEM_BOX, false, verify, true},
-    {"gems in a cylinder", SCENE_GEMS, CLAST_DEM_CYLINDER, true, NULL, true},
-    {"balls in a cell, rolling springs", SCENE_BALL, CLAST_DEM_CELL, false, roll, true},
-    {"octahedra in a cell", SCENE_OCTAHEDRON, CLAST_DEM_CELL, true, NULL, false},
-    {"clumps in a cell", SCENE_CLUMP, CLAST_DEM_CELL, true, NULL, true},
-    {"eggs that stick, in water", SCENE_EGG, CLAST_DEM_PERIODIC, true, stick, true},
+     false, 0.0},
+    {"eggs in a cylinder, in water", SCENE_EGG, CLAST_DEM_CYLINDER, true, wet, false, 0.0},
+    {"clumps in a periodic box", SCENE_CLUMP, CLAST_DEM_PERIODIC, true, NULL, true, 0.0},
+    {"bricks in a box, compared", SCENE_BRICKS, CLAST_DEM_BOX, false, verify, true, 0.0},
+    {"gems in a cylinder", SCENE_GEMS, CLAST_DEM_CYLINDER, true, NULL, true, 0.0},
+    {"balls in a cell, rolling springs", SCENE_BALL, CLAST_DEM_CELL, false, roll, true, 0.0},
+    {"octahedra in a cell", SCENE_OCTAHEDRON, CLAST_DEM_CELL, true, NULL, false, 0.0},
+    {"clumps in a cell", SCENE_CLUMP, CLAST_DEM_CELL, true, NULL, true, 0.0},
+    {"eggs that stick, in water", SCENE_EGG, CLAST_DEM_PERIODIC, true, stick, true, 0.0},
+    {"cubes below a boulder that touches them in two images", SCENE_CUBE, CLAST_DEM_PERIODIC, true,
+     NULL, true, 0.0195},
 };
 
 enum {
@@ -84,6 +87,7 @@ static clast_status add_layer(const bed_case *c, clast_dem *dem, int32_t layer, 
 {
     clast_dem_grain grain[LAYER];
     const int32_t n = layer == BOULDER ? 1 : LAYER;
+    const double large = c->boulder > 0.0 ? c->boulder : 0.009;
     for (int32_t i = 0; i < n; ++i) {
         clx_rng rng = clx_rng_at(7, 0, (uint64_t)(layer * LAYER + i));
         clast_dem_grain *g = &grain[i];
@@ -91,7 +95,7 @@ static clast_status add_layer(const bed_case *c, clast_dem *dem, int32_t layer, 
         double measures[2];
         clx_dem_shape_measures(dem, is_ball ? 1 : 0, measures);
         *g = (clast_dem_grain){.shape = is_ball ? 1 : 0,
-                               .scale = (layer == BOULDER ? 0.009 : 0.0043) / measures[0],
+                               .scale = (layer == BOULDER ? large : 0.0043) / measures[0],
                                .density = 2650.0};
         g->position[0] = n == 1 ? 0.0 : 0.0088 * (i % SIDE - 2.0);
         g->position[1] = n == 1 ? 0.0 : 0.0088 * (i / SIDE - 2.0);

@@ -141,6 +141,16 @@ static void normals_are_not_branches(void **state)
     CHECK_REL(value_of(&fabric, "branch_vertical"), 0.5, 1e-14);
     CHECK_REL(value_of(&fabric, "normal_vertical"), 1.0, 1e-14);
     clast_table_free(&fabric);
+    // through the border of a period of 1.5, though the nearest image is 0.5 away
+    const char *branch[3] = {"branch_x_m", "branch_y_m", "branch_z_m"};
+    for (int c = 0; c < 3; ++c) {
+        double *value = NULL;
+        CHECK_OK(clast_table_add_number(&contacts, branch[c], "m", &value));
+        value[0] = p[1][c];
+    }
+    CHECK_OK(clast_fabric(&a, &contacts, (const double[3]){1.5, 1.5, 0.0}, &fabric));
+    CHECK_REL(value_of(&fabric, "branch_vertical"), 0.5, 1e-14);
+    clast_table_free(&fabric);
     clast_table_free(&contacts);
     clast_assembly_free(&a);
     clast_shape_free(&brick);
