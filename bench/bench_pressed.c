@@ -1,11 +1,11 @@
 // What does a grain-step of a bed under a servo cost beside one of case P1?
 //
-//     build/release/bench/bench_pressed [N]          (10,000 grains each; some minutes)
+//     build/release/bench/bench_pressed [N [KPA]]    (10,000 grains each, 10 kPa; some minutes)
 //
 // Gravel hulls of 152 vertices (the forms of case P1), U1: one bed poured into a periodic box and
 // shaken for 0.6 s after the last was made, as P1; another in a cell that is periodic in x, y and
-// z, pressed to 10 kPa and held there. Then windows of one period of shaking are timed, bed by bed
-// in turn, for a machine's speed comes and goes too: the least of five. CPU time of one thread.
+// z, pressed to so many kPa and held there. Then windows of one period of shaking are timed, bed by
+// bed in turn, for a machine's speed comes and goes too: the least of five. CPU time of one thread.
 #include "gravel.h"
 #include "support.h"
 
@@ -70,9 +70,9 @@ static void pour(bed *b, const clast_shape form[N_FORM], double n)
     CHECK_OK(clast_pack_advance(b->pack, (int64_t)(0.6 / b->config.dem.time_step)));
 }
 
-static void press(bed *b, const clast_shape form[N_FORM], double n)
+static void press(bed *b, const clast_shape form[N_FORM], double n, double kilopascals)
 {
-    static char stage[] = "isotropic 10kPa until time 1000s";
+    static char stage[80];
     static char *stages[] = {stage};
     clast_dem_load load = {0};
     begin(b, "pressed by a servo", n * GRAIN);
@@ -84,6 +84,7 @@ static void press(bed *b, const clast_shape form[N_FORM], double n)
     c->dem.fluid_density = 0.0;
     c->load_rate = 10.0;
     c->max_load_time = 1e6;
+    (void)snprintf(stage, sizeof stage, "isotropic %gkPa until time 1000s", kilopascals);
     clast_text_list own = c->stages;
     c->stages = (clast_text_list){.n = 1, .item = stages};
     create(b, form);
@@ -91,7 +92,7 @@ static void press(bed *b, const clast_shape form[N_FORM], double n)
     do {
         CHECK_OK(clast_pack_advance(b->pack, 500));
         CHECK_OK(clast_dem_load_measure(clast_pack_dem(b->pack), &load));
-    } while (load.stress[2] < 9.9e3 || load.unbalanced > 0.05);
+    } while (load.stress[2] < 990.0 * kilopascals || load.unbalanced > 0.05);
 }
 
 static void time_window(bed *b)
@@ -106,12 +107,13 @@ static void time_window(bed *b)
 int main(int argc, char **argv)
 {
     const double n = argc > 1 ? atof(argv[1]) : 10000.0;
+    const double kilopascals = argc > 2 ? atof(argv[2]) : 10.0;
     clast_shape form[N_FORM] = {0};
     bed beds[2];
     clast_parallel_set_threads(1);
     support_gravel_forms(N_FORM, form);
     pour(&beds[0], form, n);
-    press(&beds[1], form, n);
+    press(&beds[1], form, n, kilopascals);
     for (int turn = 0; turn < TURNS; ++turn) {
         time_window(&beds[0]);
         time_window(&beds[1]);
