@@ -179,7 +179,8 @@ typedef struct clast_decompose_config {
 /// Fields of clast_decompose_config: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_decompose_fields[];
 
-/// Whether cells are those of the uniformity tree, which needs no vote, not joined bins.
+/// Whether cells are those of the uniformity tree, which needs no vote, not joined bins; no of
+/// NULL.
 CLAST_API bool clast_decompose_takes_tree(const clast_decompose_config *config);
 
 enum { CLAST_N_TEST = 5, CLAST_MAX_PASS = 64 };

@@ -3522,7 +3522,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
     'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
-    'clast_decompose_takes_tree': (c_bool, [POINTER(clast_decompose_config)], 'Whether cells are those of the uniformity tree, which needs no vote, not joined bins.'),
+    'clast_decompose_takes_tree': (c_bool, [POINTER(clast_decompose_config)], 'Whether cells are those of the uniformity tree, which needs no vote, not joined bins; no of NULL.'),
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
     'clast_uniformity_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_uniformity_config), POINTER(clast_uniformity)], '@param u [n][d] in the unit cube @param side [3] for the score.'),
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),

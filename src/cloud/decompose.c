@@ -489,9 +489,9 @@ done:
 /// tree does not.
 bool clast_decompose_takes_tree(const clast_decompose_config *config)
 {
-    return config->mesh == CLAST_CELLS_TREE ||
-           (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
-            config->variant == CLAST_VARIANT_FULL);
+    return config != NULL && (config->mesh == CLAST_CELLS_TREE ||
+                              (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
+                               config->variant == CLAST_VARIANT_FULL));
 }
 
 static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
