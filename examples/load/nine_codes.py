@@ -128,7 +128,7 @@ def silo(folder, options):
     mass = n * 2500 * math.pi / 6 * diameter ** 3
     write_start(os.path.join(folder, "silo_start.csv"), loose(n, diameter, lip + 0.6 * diameter, lambda z: (2 * (min(0.1, radius + z - lip) - 0.75 * diameter),) * 2, round_=True))
     clast("pack", *COMMON, "--start", f"{folder}/silo_start.csv", *materials(softer, "m1"), "--time-step", step_of(diameter, softer),
-          "--still-speed", "0.1", "--shaking-time", "0", "--domain", "cylinder", "--width", "0.1999m", "--height", "1m", "--floor=no", "--wall", f"silo {folder}/silo.off m",
+          "--still-speed", "0.03", "--shaking-time", "0", "--domain", "cylinder", "--width", "0.1999m", "--height", "1m", "--floor=no", "--wall", f"silo {folder}/silo.off m",
           "--wall", f"gate {folder}/gate.off m", "--outlet", f"z<{lip - diameter}m", "--stages", f"open gate until time {options.time or 5}s",
           "--series-time", "0.02s", "-o", run)
     rows = [row for row in table(run, "walls.csv") if row["stage"] == 1]
@@ -137,7 +137,7 @@ def silo(folder, options):
     steady = [row for row in rows if row[0] >= 0.3 and row[1] >= 0.4]
     rate = mass * (steady[0][1] - steady[-1][1]) / (steady[-1][0] - steady[0][0])
     with open(os.path.join(folder, "rate.json"), "w", encoding="utf-8") as file:
-        json.dump({"n": n, "diameter_m": diameter, "orifice_m": options.orifice, "rate_kg/s": rate}, file)
+        json.dump({"n": n, "diameter_m": diameter, "orifice_m": options.orifice, "softer": softer, "rate_kg/s": rate}, file)
     beverloo = 0.58 * 0.6 * 2500 * 9.81 ** 0.5 * max(0.0, options.orifice - 1.5 * diameter) ** 2.5
     print(f"{n} spheres of {1e3 * diameter:g} mm, orifice {1e3 * options.orifice:g} mm: {rate:.4f} kg/s from {steady[0][0]:.2f} to {steady[-1][0]:.2f} s; "
           f"C rho_b sqrt(g) (D - k d)^2.5 with C 0.58, k 1.5, rho_b 0.6 of 2500 (Beverloo, a flat bottom): {beverloo:.4f} kg/s; "
