@@ -193,14 +193,15 @@ clast_status clast_porosity_core_measure(const clast_assembly *assembly, const c
               "%.3g from its axis",
               n_size + 0.5, walls.ratio);
     CLX_TRY(clx_touch_set_init(assembly, &set));
-    // As in the bulk, what lies below the floor counts unless something is left out there.
-    core_sum c = {.assembly = assembly,
-                  .bed = bed,
-                  .set = &set,
-                  .method = options->method,
-                  .depth = depth,
-                  .ramp = walls.size,
-                  .edge = {options->trim > 0.0 ? bulk->z_low : -HUGE_VAL, bulk->z_high}};
+    core_sum c = {
+        .assembly = assembly,
+        .bed = bed,
+        .set = &set,
+        .method = options->method,
+        .depth = depth,
+        .ramp = walls.size,
+        .edge = {options->trim > 0.0 ? bulk->z_low : clx_lowest_edge(assembly, bed, options),
+                 bulk->z_high}};
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(add_grain(&c, i));
     }

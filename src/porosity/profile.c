@@ -218,7 +218,7 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
     }
     CLX_TRY(clx_alloc(&volume, n, sizeof *volume));
     clast_bed_volumes(bed, n, edge, volume);
-    edge[0] = bed->kind == CLAST_BED_PERIODIC_3D ? edge[0] : -HUGE_VAL;
+    edge[0] = clx_lowest_edge(assembly, bed, options);
     if (bed->kind != CLAST_BED_MESH &&
         bed->kind != CLAST_BED_PERIODIC_3D) { // what lies above a container's rim lies outside
         edge[n] = HUGE_VAL;
@@ -347,7 +347,8 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
               "the bed is %s high: trimming %s at both ends leaves nothing",
               clx_unit_text(made.top - bed->floor, "m"), clx_unit_text(options->trim, "m"));
     const bool cuts_low = options->trim > 0.0 || is_endless;
-    const double edge[2] = {cuts_low ? made.z_low : -HUGE_VAL, made.z_high};
+    const double edge[2] = {cuts_low ? made.z_low : clx_lowest_edge(assembly, bed, options),
+                            made.z_high};
     double solid[1] = {0.0};
     CLX_TRY(slabs(assembly, bed, options->method, 1, edge, solid));
     made.solid = solid[0];

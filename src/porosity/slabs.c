@@ -350,3 +350,13 @@ clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
     }
     return CLAST_OK;
 }
+
+double clx_lowest_edge(const clast_assembly *assembly, const clast_bed *bed,
+                       const clast_porosity_options *options)
+{
+    double low[3];
+    double high[3];
+    clast_assembly_bounds(assembly, low, high);
+    return bed->kind != CLAST_BED_PERIODIC_3D && low[2] > bed->floor - options->layer ? -HUGE_VAL
+                                                                                      : bed->floor;
+}

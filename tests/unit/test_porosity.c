@@ -209,6 +209,37 @@ static void cubic_lattice_has_its_porosity(void **state)
     clast_assembly_free(&a);
 }
 
+/// Grains in a hopper below the bed were all of the first slice, whose porosity fell below 0; what
+/// dips into the floor by less than a slice still is.
+static void what_lies_below_the_bed_is_of_no_slice(void **state)
+{
+    (void)state;
+    const double z[2] = {-0.01, -7.0};
+    clast_bed bed = {.kind = CLAST_BED_BOX, .high = {10.0, 10.0}};
+    const clast_porosity_options options = {.layer = 0.5, .cut = 0.999, .at_slice = true};
+    clast_shape shape = {0};
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &shape));
+    for (int k = 0; k < 2; ++k) {
+        clast_assembly a = {0};
+        clast_table profile = {0};
+        double sum = 0.0;
+        const double at[2][3] = {{5.0, 5.0, 5.0}, {5.0, 5.0, 1.0 + z[k]}};
+        one_grain(&shape, at[0], upright, 1.0, &a);
+        CHECK_OK(clast_assembly_add_grain(&a, 0, at[1], upright, 1.0, 2650.0));
+        CHECK_OK(clast_porosity_profile(&a, &bed, &options, &profile));
+        for (int64_t i = 0; i < profile.n_row; ++i) {
+            sum += clast_table_numbers(&profile, "solid_m3")[i];
+        }
+        CHECK_REL(sum, (k == 0 ? 2.0 : 1.0) * 4.0 / 3.0 * CLAST_PI, 1e-12);
+        clast_porosity_bulk bulk = {0};
+        CHECK_OK(clast_porosity_measure(&a, &bed, &profile, &options, &bulk));
+        CHECK_REL(bulk.solid, sum, 1e-12);
+        clast_table_free(&profile);
+        clast_assembly_free(&a);
+    }
+    clast_shape_free(&shape);
+}
+
 static void top_lies_where_the_profile_crosses(void **state)
 {
     (void)state;
@@ -324,6 +355,7 @@ int main(void)
         cmocka_unit_test(clump_counts_overlap_once),
         cmocka_unit_test(union_of_discs_has_known_areas),
         cmocka_unit_test(cubic_lattice_has_its_porosity),
+        cmocka_unit_test(what_lies_below_the_bed_is_of_no_slice),
         cmocka_unit_test(top_lies_where_the_profile_crosses),
         cmocka_unit_test(profile_is_the_same_for_any_threads),
         cmocka_unit_test(beds_are_read_and_written),
