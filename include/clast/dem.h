@@ -321,7 +321,7 @@ CLAST_API clast_status clast_dem_set_wall_material(clast_dem *dem, int32_t wall,
 /// Adds grains; all or none.
 ///
 /// @return CLAST_E_USAGE for an unknown shape or numbers that are not finite; CLAST_E_GEOMETRY for
-/// a grain that does not fit into the domain or half its period; CLAST_E_CONFIG when Hertz's
+/// a grain wider than the domain, its period or half a cell; CLAST_E_CONFIG when Hertz's
 /// contact of the smallest grain is too stiff for the time step
 CLAST_API clast_status clast_dem_add_grains(clast_dem *dem, int32_t n,
                                             const clast_dem_grain *grain);
