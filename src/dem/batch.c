@@ -57,9 +57,9 @@ static int edges(const clast_dem *dem, clx_batch *p, int from)
 }
 
 CLX_FOR_EACH_MACHINE
-static void force(const clast_dem *dem, const clx_batch *p, bool has_walls)
+static void force(const clast_dem *dem, const clx_batch *p, clx_batch_kind kind)
 {
-    batch_force(dem, p, has_walls);
+    batch_force(dem, p, kind);
 }
 
 void clx_batch_spheres(const clast_dem *dem, clx_batch *p)
@@ -97,14 +97,14 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *p)
     return p->n > CLX_LANES ? first | edges(dem, p, CLX_LANES) << CLX_LANES : first;
 }
 
-void clx_batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
+void clx_batch_force(const clast_dem *dem, const clx_batch *p, clx_batch_kind kind)
 {
-    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH && clx_batch_has_law(&dem->law));
+    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH && clx_batch_has_law(dem, kind));
 #if CLX_MAKES_WIDE
     if (uses_eight(p)) {
-        clx_avx512_force(dem, p, has_walls);
+        clx_avx512_force(dem, p, kind);
         return;
     }
 #endif
-    force(dem, p, has_walls);
+    force(dem, p, kind);
 }

@@ -34,14 +34,20 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *batch);
 void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
 void clx_batch_arms(clx_batch *batch);
 
-/// Whether clx_batch_force has code for this law.
-static inline bool clx_batch_has_law(const clx_law *law)
+/// Whether clx_batch_force has code for such contacts. Those with walls, and of parts of grains, go
+/// through lanes by the linear law alone, where no material and no wall's motion matters.
+static inline bool clx_batch_has_law(const clast_dem *dem, clx_batch_kind kind)
 {
-    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 &&
-           !law->is_wet;
+    if (dem->config.added_mass > 0.0) {
+        return false;
+    }
+    if (dem->laws.n > 0) {
+        return kind != CLX_BATCH_ANY && dem->laws.are_plain && !dem->law.is_exact;
+    }
+    return clx_law_is_plain(&dem->law) &&
+           (kind != CLX_BATCH_ANY || (dem->law.kind == CLAST_DEM_LINEAR && !clx_walls_move(dem)));
 }
 
-/// Pair forces by the linear law: clx_law_force in lanes, with the same bits. Writes forces,
-/// displacements and whether pairs touch; where one is apart, its active_from. `has_walls`: some b
-/// may be a wall.
-void clx_batch_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);
+/// Pair forces: clx_law_force in lanes, with the same bits. Writes forces, displacements and
+/// whether pairs touch; where one is apart, its active_from.
+void clx_batch_force(const clast_dem *dem, const clx_batch *batch, clx_batch_kind kind);

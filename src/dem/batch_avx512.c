@@ -25,8 +25,8 @@ int clx_avx512_edges(const clast_dem *dem, clx_batch *p)
     return contact_of_facets(dem, p, 0, true);
 }
 
-void clx_avx512_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
+void clx_avx512_force(const clast_dem *dem, const clx_batch *p, clx_batch_kind kind)
 {
-    batch_force(dem, p, has_walls);
+    batch_force(dem, p, kind);
 }
 #endif

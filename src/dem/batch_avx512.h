@@ -7,5 +7,5 @@
 void clx_avx512_spheres(const clast_dem *dem, clx_batch *batch);
 int clx_avx512_faces(const clast_dem *dem, clx_batch *batch);
 int clx_avx512_edges(const clast_dem *dem, clx_batch *batch);
-void clx_avx512_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);
+void clx_avx512_force(const clast_dem *dem, const clx_batch *batch, clx_batch_kind kind);
 #endif

@@ -24,9 +24,9 @@ CLX_INLINE void store3(double *out, const clx_lanes x[3])
 typedef int32_t ints __attribute__((vector_size(4 * CLX_LANES)));
 typedef uint32_t words __attribute__((vector_size(4 * CLX_LANES)));
 
-CLX_INLINE const double *doubles_at(const clx_grain *grain, size_t at)
+CLX_INLINE const double *doubles_at(const void *record, size_t at)
 {
-    return (const double *)(const void *)((const char *)grain + at);
+    return (const double *)(const void *)((const char *)record + at);
 }
 
 /// The four doubles that begin `at` bytes into each grain.
@@ -145,6 +145,14 @@ CLX_INLINE int contact_of_facets(const clast_dem *dem, clx_batch *p, int from, b
     return lanes_bits(good);
 }
 
+/// Which law, and which contacts: known where it is compiled.
+typedef struct {
+    bool has_walls; ///< some b may be a wall
+    bool is_exact;
+    bool is_hertz;
+    bool by_materials; ///< pairs have laws of their own
+} law_case;
+
 // The law is computed in three stages, each for both halves of a batch before the next: while one
 // half waits for its roots and divisions, the other goes on.
 
@@ -189,8 +197,25 @@ CLX_INLINE void add_image_velocity(const clx_periodic_cell *cell, const clx_batc
     velocity[2] = velocity[2] + cell->rate[2] * n[2];
 }
 
+static_assert(offsetof(clx_law, root_kappa) == offsetof(clx_law, stiffness) + 24 &&
+                  offsetof(clx_law, friction) == offsetof(clx_law, young) + 24,
+              "stiffness, damping, kappa, root_kappa; young, shear, alpha, friction");
+
+/// Four constants that begin `at` bytes into the pairs' laws.
+CLX_INLINE void read_laws(const clast_dem *dem, const clx_batch *p, int from, size_t at,
+                          clx_lanes out[4])
+{
+    const double *row[CLX_LANES];
+    for (int k = 0; k < CLX_LANES; ++k) {
+        const int32_t a = dem->body[p->a[from + k]->shape].material;
+        const int32_t b = dem->body[p->b[from + k]->shape].material;
+        row[k] = doubles_at(&dem->laws.law[a * dem->laws.n + b], at);
+    }
+    lanes_collect(out, row, 0);
+}
+
 /// Velocities, reduced mass and friction; the pairs' displacements.
-CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
+CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, law_case which,
                          contact_lanes *m)
 {
     clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb: fourth component is the mass
@@ -213,7 +238,12 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
     m->twirl = 0.5 * (lanes_dot(wa, normal) + lanes_dot(wb, normal));
     m->mass = va[3] * vb[3] / (va[3] + vb[3]);
     m->friction = lanes_all(dem->law.friction[0]);
-    if (has_walls) {
+    if (which.by_materials) {
+        clx_lanes law[4];
+        read_laws(dem, p, from, offsetof(clx_law, young), law);
+        m->friction = law[3];
+    }
+    if (which.has_walls) {
         clx_lanes is_wall;
         for (int k = 0; k < CLX_LANES; ++k) {
             is_wall[k] = p->pair[from + k]->b < 0 ? 1.0 : 0.0;
@@ -310,35 +340,77 @@ CLX_INLINE void rotate_slide(const clx_lanes normal[3], clx_lanes angle, clx_lan
     }
 }
 
+/// clx_springs
+typedef struct {
+    clx_lanes elastic, normal_damping, tangential, tangential_damping;
+} spring_lanes;
+
+/// clx_law_springs of the linear law.
+CLX_INLINE spring_lanes linear_springs(const clast_dem *dem, const clx_batch *p, int from,
+                                       law_case which, const contact_lanes *m)
+{
+    spring_lanes s;
+    clx_lanes law[4] = {lanes_all(dem->law.stiffness), lanes_all(dem->law.damping),
+                        lanes_all(dem->law.kappa), lanes_all(dem->law.root_kappa)};
+    if (which.by_materials) {
+        read_laws(dem, p, from, offsetof(clx_law, stiffness), law);
+    }
+    const clx_lanes k = m->mass * law[0];
+    s.normal_damping = m->mass * law[1];
+    s.elastic = k * -lanes_load(p->meet.gap + from);
+    s.tangential = law[2] * k;
+    s.tangential_damping = law[3] * s.normal_damping;
+    return s;
+}
+
+/// clx_law_springs of Hertz's law.
+CLX_INLINE spring_lanes hertz_springs(const clast_dem *dem, const clx_batch *p, int from,
+                                      law_case which, const contact_lanes *m)
+{
+    spring_lanes s;
+    clx_lanes a[4], b[4]; // radii second
+    clx_lanes law[4] = {lanes_all(dem->law.young), lanes_all(dem->law.shear),
+                        lanes_all(dem->law.alpha)};
+    const clx_lanes overlap = -lanes_load(p->meet.gap + from);
+    if (which.by_materials) {
+        read_laws(dem, p, from, offsetof(clx_law, young), law);
+    }
+    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), a);
+    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), b);
+    const clx_lanes radius = a[1] * b[1] / (a[1] + b[1]);
+    const clx_lanes root = lanes_root(radius * overlap);
+    const clx_lanes k = 4.0 / 3.0 * law[0] * lanes_root(radius);
+    s.elastic = 4.0 / 3.0 * law[0] * root * overlap;
+    s.normal_damping = law[2] * lanes_root(m->mass * k * lanes_root(overlap));
+    s.tangential = 8.0 * law[1] * root;
+    s.tangential_damping = s.normal_damping * lanes_root(s.tangential / (2.0 * law[0] * root));
+    return s;
+}
+
 /// clx_law_force up to Coulomb's limit.
-CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, law_case which,
                            contact_lanes *m)
 {
     clx_lanes along[3], normal[3], slide[3];
-    const clx_law *law = &dem->law;
     const double dt = dem->config.time_step;
-    const clx_lanes overlap = -lanes_load(p->meet.gap + from);
-    const clx_lanes k = m->mass * law->stiffness;
-    clx_lanes normal_damping = m->mass * law->damping;
-    clx_lanes kt = law->kappa * k;
-    clx_lanes dt_along = law->root_kappa * normal_damping;
-    clx_lanes elastic = k * overlap;
-    if (is_exact) {
-        elastic *= m->spring[0];
-        normal_damping *= m->damping[0];
-        kt *= m->spring[1];
-        dt_along *= m->damping[1];
+    spring_lanes s = which.is_hertz ? hertz_springs(dem, p, from, which, m)
+                                    : linear_springs(dem, p, from, which, m);
+    if (which.is_exact) {
+        s.elastic *= m->spring[0];
+        s.normal_damping *= m->damping[0];
+        s.tangential *= m->spring[1];
+        s.tangential_damping *= m->damping[1];
     }
     load_normal(p, from, normal);
     const clx_lanes apart = lanes_dot(m->velocity, normal);
     lanes_axpy(along, m->velocity, -apart, normal);
-    clx_lanes force = elastic - normal_damping * apart;
-    if (law->clip) {
+    clx_lanes force = s.elastic - s.normal_damping * apart;
+    if (dem->law.clip) {
         force = lanes_pick(force < 0.0, lanes_all(0.0), force);
     }
     m->normal_force = force;
     m->limit = m->friction * lanes_size(force);
-    m->inverse = -1.0 / kt;
+    m->inverse = -1.0 / s.tangential;
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
     }
@@ -346,8 +418,8 @@ CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, b
     lanes_axpy(slide, slide, lanes_all(dt), along);
     for (int c = 0; c < 3; ++c) {
         m->slide[c] = slide[c];
-        m->drag[c] = dt_along * along[c];
-        m->tangential[c] = -kt * slide[c] - m->drag[c];
+        m->drag[c] = s.tangential_damping * along[c];
+        m->tangential[c] = -s.tangential * slide[c] - m->drag[c];
     }
 }
 
@@ -419,32 +491,39 @@ CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from,
     write(p->to + from, p->pair + from, touching, out);
 }
 
-CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls,
-                               bool is_exact)
+CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, law_case which)
 {
     contact_lanes m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        approach(dem, p, h * CLX_LANES, has_walls, &m[h]);
-        if (is_exact) {
-            hold(dem, p, h * CLX_LANES, has_walls, &m[h]);
+        approach(dem, p, h * CLX_LANES, which, &m[h]);
+        if (which.is_exact) {
+            hold(dem, p, h * CLX_LANES, which.has_walls, &m[h]);
         }
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        law_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        law_forces(dem, p, h * CLX_LANES, which, &m[h]);
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        write_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        write_forces(dem, p, h * CLX_LANES, which.is_exact, &m[h]);
     }
 }
 
-/// force_of_lanes, compiled apart for each case.
-CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
+/// force_of_lanes, compiled apart for each case that clx_batch_has_law lets in.
+CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, clx_batch_kind kind)
 {
-    if (dem->law.is_exact) {
-        force_of_lanes(dem, p, true, true);
-    } else if (has_walls) {
-        force_of_lanes(dem, p, true, false);
+    if (dem->law.kind == CLAST_DEM_HERTZ) {
+        if (dem->laws.n > 0) {
+            force_of_lanes(dem, p, (law_case){.is_hertz = true, .by_materials = true});
+        } else {
+            force_of_lanes(dem, p, (law_case){.is_hertz = true});
+        }
+    } else if (dem->laws.n > 0) {
+        force_of_lanes(dem, p, (law_case){.by_materials = true});
+    } else if (dem->law.is_exact) {
+        force_of_lanes(dem, p, (law_case){.has_walls = true, .is_exact = true});
+    } else if (kind == CLX_BATCH_ANY) {
+        force_of_lanes(dem, p, (law_case){.has_walls = true});
     } else {
-        force_of_lanes(dem, p, false, false);
+        force_of_lanes(dem, p, (law_case){0});
     }
 }

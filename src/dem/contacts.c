@@ -343,11 +343,10 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
 static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     CLAST_ASSERT(n >= 1 && n <= PIECE);
-    const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0 &&
-                         dem->laws.n == 0 && !clx_walls_move(dem); // those have velocities
     const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        const bool has_law = clx_batch_has_law(dem, (clx_batch_kind)kind);
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
@@ -357,7 +356,7 @@ static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
                 }
             }
             if (has_law) {
-                clx_batch_force(dem, &batch, kind == CLX_BATCH_ANY);
+                clx_batch_force(dem, &batch, (clx_batch_kind)kind);
             } else {
                 force_of_each(dem, &batch);
             }

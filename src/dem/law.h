@@ -44,10 +44,17 @@ typedef struct clx_law {
 
 enum { CLX_MOST_MATERIALS = 256 };
 
+/// Springs, dashpots and friction alone: what lanes have code for (batch.h).
+static inline bool clx_law_is_plain(const clx_law *law)
+{
+    return law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 && !law->is_wet;
+}
+
 /// Laws by the materials that touch: law[a n + b]; n 0: all contacts have the configuration's.
 typedef struct clx_laws {
     int32_t n;
-    clx_law *law; ///< [n][n]
+    clx_law *law;   ///< [n][n]
+    bool are_plain; ///< each of them
 } clx_laws;
 
 /// One contact as the law sees it.

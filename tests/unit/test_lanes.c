@@ -221,9 +221,26 @@ static clx_grain random_grain(clx_rng *rng)
     clx_grain g = {.mass = 1e-4 * (1.0 + clx_rng_uniform(rng)), .radius = 4e-3};
     fill3(rng, 0.1, g.velocity);
     fill3(rng, 10.0, g.omega);
-    g.round_radius = 3.5e-3;
+    g.round_radius = 3.5e-3 * (1.0 + clx_rng_uniform(rng));
+    g.shape = (int32_t)clx_rng_below(rng, 2);
     g.held = 12.0 * clx_rng_uniform(rng);
     return g;
+}
+
+/* A law that lanes have, and the contacts that it is tried on. */
+typedef struct {
+    clast_dem_law law;
+    clast_dem_scheme scheme;
+    bool has_walls, by_materials;
+} law_in_lanes;
+
+/* The law between the materials of two grains. */
+static const clx_law *law_between(const clast_dem *dem, const clx_grain *a, const clx_grain *b)
+{
+    const clx_laws *laws = &dem->laws;
+    return laws->n == 0
+               ? &dem->law
+               : &laws->law[dem->body[a->shape].material * laws->n + dem->body[b->shape].material];
 }
 
 /* The scalar law for lane k of a batch. */
@@ -232,6 +249,7 @@ static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, doubl
 {
     const clx_grain *a = p->a[k];
     const clx_grain *b = p->b[k];
+    const clx_law *law = law_between(dem, a, b);
     double n[3], arm_a[3], arm_b[3], u[3], w[3];
     clx_contact_force force;
     for (int c = 0; c < 3; ++c) {
@@ -241,7 +259,9 @@ static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, doubl
     }
     clx_meeting m = {.overlap = -p->meet.gap[k],
                      .mass = p->pair[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
-                     .friction = dem->law.friction[p->pair[k]->b < 0]};
+                     .radius =
+                         a->round_radius * b->round_radius / (a->round_radius + b->round_radius),
+                     .friction = law->friction[p->pair[k]->b < 0]};
     v3_copy(m.normal, n);
     v3_cross(u, a->omega, arm_a);
     v3_add(u, u, a->velocity);
@@ -249,17 +269,17 @@ static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, doubl
     v3_add(w, w, b->velocity);
     v3_sub(m.velocity, w, u);
     m.twirl = 0.5 * (v3_dot(a->omega, n) + v3_dot(b->omega, n));
-    if (dem->law.is_exact) {
+    if (law->is_exact) {
         double load[2];
         clx_dem_touch t;
         v3_copy(t.normal, n);
         v3_copy(t.arm_a, arm_a);
         v3_copy(t.arm_b, arm_b);
-        clx_hold_pair(&dem->law, a, b, &t, &m, load);
+        clx_hold_pair(law, a, b, &t, &m, load);
         out->torque_b[3] = load[1];
         out->torque_a[3] = -load[0];
     }
-    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &force);
+    clx_law_force(law, &m, dem->config.time_step, slide, &force);
     v3_axpy(out->force, force.tangential, force.normal, n);
     v3_cross(out->torque_b, arm_b, out->force);
     v3_cross(out->torque_a, arm_a, out->force);
@@ -284,12 +304,13 @@ static void check_lane(const clx_batch *p, int k, const double slide[3],
 }
 
 /* Contact k of a batch: two grains, or one at a wall, in touch or just apart. */
-static bool make_touch(clx_rng *rng, clx_batch *p, int k, clx_grain grain[2], clx_dem_pair *pair)
+static bool make_touch(clx_rng *rng, bool has_walls, clx_batch *p, int k, clx_grain grain[2],
+                       clx_dem_pair *pair)
 {
     double n[3];
     grain[0] = random_grain(rng);
     grain[1] = random_grain(rng);
-    *pair = (clx_dem_pair){.b = clx_rng_below(rng, 4) == 0 ? -1 : 1};
+    *pair = (clx_dem_pair){.b = has_walls && clx_rng_below(rng, 4) == 0 ? -1 : 1};
     clx_rng_direction(rng, n);
     fill3(rng, clx_rng_below(rng, 3) == 0 ? 0.0 : 1e-7, pair->slide);
     const bool is_apart = clx_rng_below(rng, 5) == 0;
@@ -307,16 +328,45 @@ static bool make_touch(clx_rng *rng, clx_batch *p, int k, clx_grain grain[2], cl
     return is_apart;
 }
 
-static void check_law_in_lanes(clast_dem_scheme scheme)
+/* Two shapes of different materials; each pair of materials has friction, restitution, moduli and
+ * T_c of its own. */
+static void make_materials(clast_dem *dem)
+{
+    clast_shape shape = {0};
+    clast_dem_contact contact[4];
+    for (int k = 0; k < 4; ++k) {
+        const int unlike = k / 2 + k % 2;
+        contact[k] = clast_dem_contact_of(&dem->config, false);
+        contact[k].friction = 0.1 + 0.2 * unlike;
+        contact[k].restitution = 0.2 + 0.1 * unlike;
+        contact[k].collision_time *= 1.0 + 0.1 * unlike;
+        contact[k].young[0] *= 1.0 + unlike;
+    }
+    CHECK_OK(clast_dem_set_contacts(dem, 2, contact));
+    for (int32_t k = 0, id = 0; k < 2; ++k) {
+        CHECK_OK(clast_shape_sphere(k == 0 ? "first" : "second", 3e-3, &shape));
+        CHECK_OK(clast_dem_add_shape(dem, &shape, &id));
+        CHECK_OK(clast_dem_set_material(dem, id, k));
+        clast_shape_free(&shape);
+    }
+}
+
+static void check_law_in_lanes(const law_in_lanes *c)
 {
     clast_dem *dem = NULL;
     clast_dem_config config;
     clx_pair_force written[CLX_BATCH] = {0};
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
-    config.contact_scheme = (int32_t)scheme;
-    config.time_step *= scheme == CLAST_DEM_EXACT ? 2.0 : 1.0;
+    config.law = (int32_t)c->law;
+    config.contact_scheme = (int32_t)c->scheme;
+    config.time_step *= c->scheme == CLAST_DEM_EXACT ? 2.0 : 1.0;
     CHECK_OK(clast_dem_create(&config, &dem));
+    if (c->by_materials) {
+        make_materials(dem);
+    }
+    const clx_batch_kind kind = c->has_walls ? CLX_BATCH_ANY : CLX_BATCH_SPHERES;
+    assert_true(clx_batch_has_law(dem, kind));
     for (uint64_t i = 0; i < 500; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
         clx_grain grain[2 * CLX_BATCH];
@@ -326,14 +376,14 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
         clx_pair_force alone[CLX_BATCH] = {0};
         double slide[CLX_BATCH][3];
         for (int k = 0; k < n_pair; ++k) {
-            const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &pair[k]);
+            const bool is_apart = make_touch(&rng, c->has_walls, &p, k, &grain[2 * k], &pair[k]);
             p.to[k] = &written[k];
             v3_copy(slide[k], pair[k].slide);
             if (!is_apart) {
                 force_of_pair(dem, &p, k, slide[k], &alone[k]);
             }
         }
-        clx_batch_force(dem, &p, true);
+        clx_batch_force(dem, &p, kind);
         for (int k = 0; k < n_pair; ++k) {
             check_lane(&p, k, slide[k], &alone[k]);
         }
@@ -344,8 +394,17 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
 static void law_in_lanes_is_the_law_alone(void **state)
 {
     (void)state;
-    check_law_in_lanes(CLAST_DEM_EXPLICIT);
-    check_law_in_lanes(CLAST_DEM_EXACT);
+    const law_in_lanes laws[] = {
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, true, false},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, false},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXACT, true, false},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, true},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, false},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, true},
+    };
+    for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
+        check_law_in_lanes(&laws[i]);
+    }
 }
 
 /* Where grains 0 .. n - 1 of these are after a while, alone or together; they never meet. */
