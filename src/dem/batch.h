@@ -35,19 +35,22 @@ void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
 void clx_batch_arms(clx_batch *batch);
 
 /// Whether clx_batch_force has code for such contacts. Those with walls, and of parts of grains, go
-/// through lanes by the linear law alone, where no material and no wall's motion matters.
+/// through lanes by springs, dashpots and friction of the linear law alone, where no material and
+/// no wall's motion matters.
 static inline bool clx_batch_has_law(const clast_dem *dem, clx_batch_kind kind)
 {
+    const clx_law *law = &dem->law;
     if (dem->config.added_mass > 0.0) {
         return false;
     }
     if (dem->laws.n > 0) {
-        return kind != CLX_BATCH_ANY && dem->laws.are_plain && !dem->law.is_exact;
+        return kind != CLX_BATCH_ANY && dem->laws.are_plain && !law->is_exact;
     }
-    return clx_law_is_plain(&dem->law) &&
-           (kind != CLX_BATCH_ANY || (dem->law.kind == CLAST_DEM_LINEAR && !clx_walls_move(dem)));
+    return !law->has_history && !law->has_neck &&
+           (kind != CLX_BATCH_ANY ||
+            (law->kind == CLAST_DEM_LINEAR && clx_law_is_plain(law) && !clx_walls_move(dem)));
 }
 
-/// Pair forces: clx_law_force in lanes, with the same bits. Writes forces, displacements and
-/// whether pairs touch; where one is apart, its active_from.
+/// Pair forces: clx_law_force and clx_law_roll in lanes, with the same bits. Writes forces,
+/// displacements and whether pairs touch; where one is apart, its active_from.
 void clx_batch_force(const clast_dem *dem, const clx_batch *batch, clx_batch_kind kind);

@@ -151,6 +151,7 @@ typedef struct {
     bool is_exact;
     bool is_hertz;
     bool by_materials; ///< pairs have laws of their own
+    bool is_rough;     ///< there may be rolling friction or attraction
 } law_case;
 
 // The law is computed in three stages, each for both halves of a batch before the next: while one
@@ -161,7 +162,7 @@ typedef struct {
     clx_lanes active_from, slide[3]; ///< of the pairs
     clx_lanes velocity[3];           ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
-    clx_lanes normal_force, limit, tangential[3];
+    clx_lanes normal_force, pressed, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
     clx_lanes inverse;               ///< of the tangential stiffness, negative
     clx_lanes load[2];               ///< exact steps: the contact's stability load on a and b
@@ -262,6 +263,13 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, law
     }
 }
 
+/// Radii of spheres of equal volume, second, and stability loads, last.
+CLX_INLINE void read_radii(const clx_batch *p, int from, clx_lanes a[4], clx_lanes b[4])
+{
+    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), a);
+    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), b);
+}
+
 /// clx_mobility
 CLX_INLINE void mobility(clx_lanes mass, clx_lanes radius, const double *point,
                          const clx_lanes normal[3], clx_lanes out[2])
@@ -302,8 +310,7 @@ CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool ha
         normal[3]; // v: with masses; r: with radii
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
-    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), ra);
-    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), rb);
+    read_radii(p, from, ra, rb);
     load_normal(p, from, normal);
     mobility(va[3], ra[1], p->meet.point[0] + from, normal, of_a);
     mobility(vb[3], rb[1], p->arm_b[0] + from, normal, of_b);
@@ -375,8 +382,7 @@ CLX_INLINE spring_lanes hertz_springs(const clast_dem *dem, const clx_batch *p, 
     if (which.by_materials) {
         read_laws(dem, p, from, offsetof(clx_law, young), law);
     }
-    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), a);
-    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), b);
+    read_radii(p, from, a, b);
     const clx_lanes radius = a[1] * b[1] / (a[1] + b[1]);
     const clx_lanes root = lanes_root(radius * overlap);
     const clx_lanes k = 4.0 / 3.0 * law[0] * lanes_root(radius);
@@ -385,6 +391,46 @@ CLX_INLINE spring_lanes hertz_springs(const clast_dem *dem, const clx_batch *p, 
     s.tangential = 8.0 * law[1] * root;
     s.tangential_damping = s.normal_damping * lanes_root(s.tangential / (2.0 * law[0] * root));
     return s;
+}
+
+/// clx_law_pull
+CLX_INLINE clx_lanes pull_of(const clast_dem *dem, const clx_batch *p, int from)
+{
+    clx_lanes a[4], b[4];
+    read_radii(p, from, a, b);
+    const clx_lanes radius = a[1] * b[1] / (a[1] + b[1]);
+    return dem->law.cohesion == CLAST_DEM_AREA
+               ? dem->law.cohesion_energy * CLAST_PI * radius * -lanes_load(p->meet.gap + from)
+               : dem->law.pull * radius;
+}
+
+/// clx_law_roll of grains, with clx_reduced_inertia.
+CLX_INLINE void roll(const clast_dem *dem, const clx_batch *p, int from, const contact_lanes *m,
+                     const clx_lanes normal[3], clx_lanes rolling[3])
+{
+    clx_lanes wa[4], wb[4], a[4], b[4], turn[3];
+    collect(p->a + from, offsetof(clx_grain, velocity), a);
+    collect(p->b + from, offsetof(clx_grain, velocity), b);
+    const clx_lanes mass_a = a[3];
+    const clx_lanes mass_b = b[3];
+    read_radii(p, from, a, b);
+    collect(p->a + from, offsetof(clx_grain, omega), wa);
+    collect(p->b + from, offsetof(clx_grain, omega), wb);
+    const clx_lanes ia = 0.4 * mass_a * a[1] * a[1];
+    const clx_lanes ib = 0.4 * mass_b * b[1] * b[1];
+    const clx_lanes inertia = ia * ib / (ia + ib);
+    for (int c = 0; c < 3; ++c) {
+        turn[c] = wb[c] - wa[c];
+    }
+    lanes_axpy(turn, turn, -lanes_dot(turn, normal), normal);
+    const clx_lanes size = lanes_root(lanes_dot(turn, turn));
+    const clx_lanes most = dem->law.rolling * (a[1] * b[1] / (a[1] + b[1])) * m->pressed;
+    const clx_lanes stops = CLX_LAW_STOPS * inertia * size / dem->config.time_step;
+    const clx_lanes share =
+        lanes_pick(size > 0.0, -lanes_lesser(most, stops) / size, lanes_all(0.0));
+    for (int c = 0; c < 3; ++c) {
+        rolling[c] = share * turn[c];
+    }
 }
 
 /// clx_law_force up to Coulomb's limit.
@@ -409,7 +455,11 @@ CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, l
         force = lanes_pick(force < 0.0, lanes_all(0.0), force);
     }
     m->normal_force = force;
-    m->limit = m->friction * lanes_size(force);
+    m->pressed = lanes_size(force);
+    m->limit = m->friction * m->pressed;
+    if (which.is_rough && dem->law.cohesion != CLAST_DEM_DRY) {
+        m->normal_force = force - pull_of(dem, p, from);
+    }
     m->inverse = -1.0 / s.tangential;
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
@@ -463,7 +513,7 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
 }
 
 /// Coulomb's limit, then the pair forces; 0 where contacts are apart.
-CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from, law_case which,
                              const contact_lanes *m)
 {
     clx_lanes out[4][4]; // force, torque on b and on a, the pair's active_from and slide
@@ -483,8 +533,16 @@ CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from,
     lanes_cross(out[1], arm, turning);
     load3(p->meet.point[0] + from, arm);
     lanes_cross(out[2], arm, turning);
+    if (which.is_rough && dem->law.rolling > 0.0) {
+        clx_lanes rolling[3];
+        roll(dem, p, from, m, normal, rolling);
+        for (int c = 0; c < 3; ++c) {
+            out[1][c] = out[1][c] + where(touching, rolling[c]);
+            out[2][c] = out[2][c] + where(touching, rolling[c]);
+        }
+    }
     force[3] = out[1][3] = out[2][3] = lanes_all(0.0);
-    if (is_exact) {
+    if (which.is_exact) {
         out[1][3] = where(touching, m->load[1]);
         out[2][3] = where(touching, -m->load[0]);
     }
@@ -504,23 +562,26 @@ CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, law_cas
         law_forces(dem, p, h * CLX_LANES, which, &m[h]);
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        write_forces(dem, p, h * CLX_LANES, which.is_exact, &m[h]);
+        write_forces(dem, p, h * CLX_LANES, which, &m[h]);
     }
 }
 
 /// force_of_lanes, compiled apart for each case that clx_batch_has_law lets in.
 CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, clx_batch_kind kind)
 {
-    if (dem->law.kind == CLAST_DEM_HERTZ) {
-        if (dem->laws.n > 0) {
+    const clx_law *law = &dem->law;
+    if (dem->laws.n > 0) {
+        if (law->kind == CLAST_DEM_HERTZ) {
             force_of_lanes(dem, p, (law_case){.is_hertz = true, .by_materials = true});
         } else {
-            force_of_lanes(dem, p, (law_case){.is_hertz = true});
+            force_of_lanes(dem, p, (law_case){.by_materials = true});
         }
-    } else if (dem->laws.n > 0) {
-        force_of_lanes(dem, p, (law_case){.by_materials = true});
-    } else if (dem->law.is_exact) {
-        force_of_lanes(dem, p, (law_case){.has_walls = true, .is_exact = true});
+    } else if (law->kind == CLAST_DEM_HERTZ) {
+        force_of_lanes(dem, p, (law_case){.is_hertz = true, .is_rough = true});
+    } else if (law->is_exact) {
+        force_of_lanes(dem, p, (law_case){.has_walls = true, .is_exact = true, .is_rough = true});
+    } else if (!clx_law_is_plain(law)) {
+        force_of_lanes(dem, p, (law_case){.is_rough = true});
     } else if (kind == CLX_BATCH_ANY) {
         force_of_lanes(dem, p, (law_case){.has_walls = true});
     } else {

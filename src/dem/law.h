@@ -44,7 +44,7 @@ typedef struct clx_law {
 
 enum { CLX_MOST_MATERIALS = 256 };
 
-/// Springs, dashpots and friction alone: what lanes have code for (batch.h).
+/// Springs, dashpots and friction alone.
 static inline bool clx_law_is_plain(const clx_law *law)
 {
     return law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 && !law->is_wet;

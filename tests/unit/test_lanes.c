@@ -232,6 +232,8 @@ typedef struct {
     clast_dem_law law;
     clast_dem_scheme scheme;
     bool has_walls, by_materials;
+    double rolling_friction;
+    clast_dem_cohesion cohesion;
 } law_in_lanes;
 
 /* The law between the materials of two grains. */
@@ -280,9 +282,16 @@ static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, doubl
         out->torque_a[3] = -load[0];
     }
     clx_law_force(law, &m, dem->config.time_step, slide, &force);
+    v3_set(force.rolling, 0.0, 0.0, 0.0);
+    if (law->rolling > 0.0) {
+        v3_sub(m.roll, b->omega, a->omega);
+        clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &force);
+    }
     v3_axpy(out->force, force.tangential, force.normal, n);
     v3_cross(out->torque_b, arm_b, out->force);
     v3_cross(out->torque_a, arm_a, out->force);
+    v3_add(out->torque_b, out->torque_b, force.rolling);
+    v3_add(out->torque_a, out->torque_a, force.rolling);
 }
 
 /* Lane k has the bits of the scalar law; a pair that is apart waits for the path of its gap. */
@@ -361,6 +370,10 @@ static void check_law_in_lanes(const law_in_lanes *c)
     config.law = (int32_t)c->law;
     config.contact_scheme = (int32_t)c->scheme;
     config.time_step *= c->scheme == CLAST_DEM_EXACT ? 2.0 : 1.0;
+    config.rolling_friction = c->rolling_friction;
+    config.cohesion = (int32_t)c->cohesion;
+    config.cohesion_energy = c->cohesion == CLAST_DEM_AREA ? 1e4 : 0.0;
+    config.surface_energy = c->cohesion > CLAST_DEM_AREA ? 0.05 : 0.0;
     CHECK_OK(clast_dem_create(&config, &dem));
     if (c->by_materials) {
         make_materials(dem);
@@ -395,12 +408,17 @@ static void law_in_lanes_is_the_law_alone(void **state)
 {
     (void)state;
     const law_in_lanes laws[] = {
-        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, true, false},
-        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, false},
-        {CLAST_DEM_LINEAR, CLAST_DEM_EXACT, true, false},
-        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, true},
-        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, false},
-        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, true},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, true, false, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, false, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXACT, true, false, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, true, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, false, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, true, 0.0, CLAST_DEM_DRY},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, false, 0.1, CLAST_DEM_DRY},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXACT, false, false, 0.1, CLAST_DEM_DRY},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, false, 1e-3, CLAST_DEM_AREA},
+        {CLAST_DEM_HERTZ, CLAST_DEM_EXPLICIT, false, false, 0.0, CLAST_DEM_DMT},
+        {CLAST_DEM_LINEAR, CLAST_DEM_EXPLICIT, false, false, 0.1, CLAST_DEM_JKR},
     };
     for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
         check_law_in_lanes(&laws[i]);
