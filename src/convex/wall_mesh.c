@@ -81,10 +81,59 @@ static void make_hull(const clx_wall_triangle *t, flat_hull *h)
     }
 }
 
+/// Nearest point of a triangle: its foot within the sides, else on a side that has x beyond it.
+static void nearest_on(const clx_wall_triangle *t, const double x[3], double nearest[3])
+{
+    double from[3][3]; // x from each corner
+    double least = INFINITY;
+    for (int k = 0; k < 3; ++k) {
+        v3_sub(from[k], x, t->corner[k]);
+    }
+    v3_axpy(nearest, x, -v3_dot(from[0], t->normal), t->normal);
+    for (int k = 0; k < 3; ++k) {
+        double side[3];
+        double on[3];
+        if (!(v3_dot(from[k], t->out[k]) > 0.0)) {
+            continue;
+        }
+        v3_sub(side, t->corner[(k + 1) % 3], t->corner[k]);
+        const double share = v3_dot(from[k], side) / v3_norm2(side);
+        v3_axpy(on, t->corner[k], fmin(fmax(share, 0.0), 1.0), side);
+        const double d = v3_distance2(on, x);
+        if (d < least) {
+            least = d;
+            v3_copy(nearest, on);
+        }
+    }
+}
+
+/// A ball: the least move that parts them is along the line to the nearest point, however deep.
+static bool ball_contact(const clx_wall_triangle *t, const clx_placed *body, double max_gap,
+                         clx_contact *contact)
+{
+    double nearest[3];
+    double n[3];
+    nearest_on(t, body->position, nearest);
+    v3_sub(n, body->position, nearest);
+    const double distance = v3_norm(n);
+    contact->gap = distance - body->shape->round;
+    if (contact->gap > max_gap) {
+        return false;
+    }
+    if (!v3_unit(contact->normal, n)) {
+        v3_copy(contact->normal, t->normal);
+    }
+    v3_scale(contact->point, -0.5 * (distance + body->shape->round), contact->normal);
+    return true;
+}
+
 bool clx_triangle_contact(const clx_wall_triangle *t, const clx_placed *body, double max_gap,
                           clx_warm_start *warm_start, clx_contact *contact)
 {
     static const double unturned[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    if (body->shape->kind == CLX_CONVEX_SPHERE) {
+        return ball_contact(t, body, max_gap, contact);
+    }
     flat_hull h;
     make_hull(t, &h);
     const clx_convex wall = {.kind = CLX_CONVEX_HULL,

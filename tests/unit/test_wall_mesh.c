@@ -163,10 +163,54 @@ static void walls_survive_refused_memory(void **state)
     clast_mesh_free(&mesh);
 }
 
+/* A ball at a triangle alone, over its face, sides and corners, shallow and deep: the search that
+ * knows it only as an ellipsoid of equal axes. */
+static void ball_is_a_round_ellipsoid(void **state)
+{
+    (void)state;
+    const double turn[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const clx_convex ball = clx_convex_sphere(0.4);
+    const clx_convex egg = clx_convex_ellipsoid((const double[3]){0.4, 0.4, 0.4});
+    int n_apart = 0, n_beside = 0;
+    for (uint64_t i = 0; i < 3000; ++i) {
+        clx_rng rng = clx_rng_at(43, CLX_STREAM_TEST, i);
+        clast_mesh mesh = {0};
+        clx_wall_mesh *wall = NULL;
+        clx_contact of_ball, of_egg;
+        clx_placed body = {&ball, turn, {0.0, 0.0, 0.0}};
+        CHECK_OK(clast_mesh_alloc(3, 1, &mesh));
+        for (int k = 0; k < 3; ++k) {
+            mesh.tri[0][k] = k;
+            for (int c = 0; c < 3; ++c) {
+                mesh.vert[k][c] = clx_rng_uniform(&rng);
+                body.position[c] += mesh.vert[k][c] / 3.0;
+            }
+        }
+        CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+        for (int c = 0; c < 3; ++c) {
+            body.position[c] += 0.4 * clx_rng_normal(&rng);
+        }
+        const bool meets = clx_triangle_contact(wall->tri, &body, 0.1, NULL, &of_ball);
+        body.shape = &egg;
+        assert_int_equal(meets, clx_triangle_contact(wall->tri, &body, 0.1, NULL, &of_egg));
+        for (int c = 0; c < 3 && meets; ++c) {
+            CHECK_ABS(of_ball.gap, of_egg.gap, 1e-9);
+            CHECK_ABS(of_ball.normal[c], of_egg.normal[c], 1e-4);
+            CHECK_ABS(of_ball.point[c], of_egg.point[c], 1e-4);
+        }
+        n_apart += meets ? 0 : 1;
+        n_beside += meets && fabs(v3_dot(of_ball.normal, wall->tri[0].normal)) < 0.999 ? 1 : 0;
+        clx_wall_mesh_destroy(wall);
+        clast_mesh_free(&mesh);
+    }
+    assert_true(n_apart > 300 && n_beside > 500);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floor_of_triangles_is_a_plane),
+        cmocka_unit_test(ball_is_a_round_ellipsoid),
         cmocka_unit_test(box_pushes_from_each_wall),
         cmocka_unit_test(triangle_remembers),
         cmocka_unit_test(walls_survive_refused_memory),
