@@ -44,6 +44,13 @@ def silos(folder, name, library):
     rates, curves = [], []
     for run in sorted(folder.glob("silo*")):
         result = json.loads((run / "rate.json").read_text())
+        ours, theirs = read(run / "silo.csv"), read(run / "silo_lammps.csv") if (run / "silo_lammps.csv").exists() else []
+        mass = result["n"] * 2500 * math.pi / 6 * result["diameter_m"] ** 3
+        for program, rows in (("clast", ours), ("LAMMPS", theirs)):  # the head falls, and the rate a little with it
+            spans = [fit([(r["time_s"], -mass * r["mass_inside"]) for r in rows if begin <= r["time_s"] <= begin + 1])[0]
+                     for begin in (0.5, 1.5, 2.5) if rows and rows[-1]["time_s"] > begin + 0.99]
+            print(f"{run.name}, {program}: " + ", ".join(f"{w:.3f}" for w in spans) + " kg/s from 0.5, 1.5, 2.5 s on for a second")
+        result["lammps"] = fit([(r["time_s"], -mass * r["mass_inside"]) for r in theirs if 0.5 <= r["time_s"] <= 3.5])[0] if theirs else ""
         rates.append(result)
         if result["orifice_m"] == 0.06:
             curves.append((result["diameter_m"], [(r["time_s"], r["mass_inside"]) for r in read(run / "silo.csv")]))
@@ -53,8 +60,8 @@ def silos(folder, name, library):
     k = -slope * 0.06 / at_zero
     c = (at_zero / 0.06) ** 2.5 / (0.6 * 2500 * math.sqrt(9.81))
     small = (at_zero + slope * 4e-3) ** 2.5
-    write(f"{name}_rates.csv", ("orifice_m", "diameter_m", "n", "rate_kg/s", "by_the_fit_kg/s"),
-          [(r["orifice_m"], r["diameter_m"], r["n"], r["rate_kg/s"], (at_zero * (r["orifice_m"] - k * r["diameter_m"]) / 0.06) ** 2.5) for r in rates])
+    write(f"{name}_rates.csv", ("orifice_m", "diameter_m", "n", "rate_kg/s", "by_the_fit_kg/s", "lammps_kg/s"),
+          [(r["orifice_m"], r["diameter_m"], r["n"], r["rate_kg/s"], (at_zero * (r["orifice_m"] - k * r["diameter_m"]) / 0.06) ** 2.5, r["lammps"]) for r in rates])
     curves.sort()
     write(f"{name}_silo.csv", ("diameter_m", "time_s", "mass_inside"), [(d, *p) for d, xy in curves for p in xy])
     worst = max(abs((at_zero + slope * r["diameter_m"]) ** 2.5 / r["rate_kg/s"] - 1) for r in wide)
