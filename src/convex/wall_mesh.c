@@ -163,26 +163,28 @@ bool clx_triangle_owns(const clx_wall_triangle *t, const clx_placed *body,
     return true;
 }
 
-bool clx_triangle_face_contact(const clx_wall_triangle *t, const clx_placed *body,
-                               clx_contact *contact)
+/// Push along the triangle's own normal, away from the side of the body's position: where the
+/// body's deepest point lies over the triangle, or no farther beyond it than the least move. For a
+/// body whose least move off a triangle is sideways though it stands on the surface: a corner that
+/// meets the wall within its own overlap of an edge.
+static bool face_contact(const clx_wall_triangle *t, const clx_placed *body, clx_contact *contact)
 {
     double d[3];
+    double nearest[3];
     double plane[4];
+    clx_contact face;
+    const double beyond = ON_SIDE * t->bounding_radius - contact->gap;
     v3_sub(d, body->position, t->centroid);
     v3_scale(plane, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
     plane[3] = v3_dot(plane, t->centroid);
-    clx_plane_contact(body, plane, NULL, contact);
-    if (contact->gap >= 0.0) {
+    clx_plane_contact(body, plane, NULL, &face);
+    v3_add(d, face.point, body->position);
+    v3_axpy(d, d, plane[3] - v3_dot(plane, d), plane);
+    nearest_on(t, d, nearest);
+    if (!(face.gap < 0.0) || v3_distance(nearest, d) > beyond) {
         return false;
     }
-    v3_add(d, contact->point, body->position);
-    for (int k = 0; k < 3; ++k) {
-        double from[3];
-        v3_sub(from, d, t->corner[k]);
-        if (v3_dot(from, t->out[k]) > ON_SIDE * t->bounding_radius - contact->gap) {
-            return false;
-        }
-    }
+    *contact = face;
     return true;
 }
 
@@ -190,7 +192,7 @@ bool clx_triangle_own_contact(const clx_wall_triangle *t, const clx_placed *body
                               clx_contact *contact)
 {
     return clx_triangle_owns(t, body, contact) ||
-           (contact->gap < 0.0 && clx_triangle_face_contact(t, body, contact));
+           (contact->gap < 0.0 && face_contact(t, body, contact));
 }
 
 /// Squared distance of a point from a node's box.

@@ -47,13 +47,6 @@ bool clx_triangle_contact(const clx_wall_triangle *triangle, const clx_placed *b
 bool clx_triangle_owns(const clx_wall_triangle *triangle, const clx_placed *body,
                        const clx_contact *contact);
 
-/// Push along the triangle's own normal, away from the side of the body's position: where the
-/// body's deepest point lies over the triangle. For a body whose least move off a triangle is
-/// sideways though it stands on the surface: a corner that meets the wall within its own overlap of
-/// an edge.
-bool clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_placed *body,
-                               clx_contact *contact);
-
 /// The contact of a triangle that overlaps a body: `contact` as clx_triangle_contact found it if
 /// that belongs to the triangle, else its face's. False if another triangle has it.
 bool clx_triangle_own_contact(const clx_wall_triangle *triangle, const clx_placed *body,

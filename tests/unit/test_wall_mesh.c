@@ -206,11 +206,64 @@ static void ball_is_a_round_ellipsoid(void **state)
     assert_true(n_apart > 300 && n_beside > 500);
 }
 
+enum { AROUND = 64 };
+
+/* A funnel of 45 degrees down to a hole of radius 3. */
+static void make_funnel(clast_mesh *mesh)
+{
+    CHECK_OK(clast_mesh_alloc(2 * AROUND, 2 * AROUND, mesh));
+    for (int i = 0; i < AROUND; ++i) {
+        const double angle = 2.0 * CLAST_PI * i / AROUND;
+        const int32_t j = (i + 1) % AROUND;
+        v3_set(mesh->vert[i], 10.0 * cos(angle), 10.0 * sin(angle), 7.0);
+        v3_set(mesh->vert[AROUND + i], 3.0 * cos(angle), 3.0 * sin(angle), 0.0);
+        const int32_t t[2][3] = {{i, j, AROUND + j}, {i, AROUND + j, AROUND + i}};
+        for (int k = 0; k < 6; ++k) {
+            mesh->tri[2 * i + k / 3][k % 3] = t[k / 3][k % 3];
+        }
+    }
+}
+
+/* Bodies at the lip of a funnel, whichever way they lean over it: one push, as deep as the nearest
+ * point of the smooth funnel says, but for its facets (0.1 % of the hole). */
+static void lip_pushes_once_and_no_deeper(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_wall_mesh *wall = NULL;
+    const double turn[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const clx_convex shapes[2] = {clx_convex_sphere(0.8),
+                                  clx_convex_ellipsoid((const double[3]){0.8, 0.8, 0.8})};
+    make_funnel(&mesh);
+    CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+    for (uint64_t i = 0; i < 4000; ++i) {
+        clx_rng rng = clx_rng_at(44, CLX_STREAM_TEST, i);
+        clx_wall_contact met[4];
+        const double around = 2.0 * CLAST_PI * clx_rng_uniform(&rng);
+        const double lean =
+            CLAST_PI * (0.75 + 0.75 * clx_rng_uniform(&rng)); /* from the hole's lip */
+        const double depth = 0.02 * clx_rng_uniform(&rng);
+        const double out = 3.0 + (0.8 - depth) * cos(lean);
+        clx_placed body = {&shapes[i % 2],
+                           turn,
+                           {out * cos(around), out * sin(around), (0.8 - depth) * sin(lean)}};
+        const int32_t n = clx_wall_mesh_contacts(wall, &body, 0.0, 4, met);
+        assert_true(n == 1 || (n == 0 && depth < 5e-3));
+        if (n == 1) {
+            CHECK_ABS(met[0].contact.gap, -depth, 5e-3);
+            CHECK_ABS(met[0].contact.normal[2], sin(lean), 0.02);
+        }
+    }
+    clx_wall_mesh_destroy(wall);
+    clast_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floor_of_triangles_is_a_plane),
         cmocka_unit_test(ball_is_a_round_ellipsoid),
+        cmocka_unit_test(lip_pushes_once_and_no_deeper),
         cmocka_unit_test(box_pushes_from_each_wall),
         cmocka_unit_test(triangle_remembers),
         cmocka_unit_test(walls_survive_refused_memory),
