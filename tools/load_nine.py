@@ -46,11 +46,12 @@ def silos(folder, name, library):
         result = json.loads((run / "rate.json").read_text())
         ours, theirs = read(run / "silo.csv"), read(run / "silo_lammps.csv") if (run / "silo_lammps.csv").exists() else []
         mass = result["n"] * 2500 * math.pi / 6 * result["diameter_m"] ** 3
-        for program, rows in (("clast", ours), ("LAMMPS", theirs)):  # the head falls, and the rate a little with it
-            spans = [fit([(r["time_s"], -mass * r["mass_inside"]) for r in rows if begin <= r["time_s"] <= begin + 1])[0]
-                     for begin in (0.5, 1.5, 2.5) if rows and rows[-1]["time_s"] > begin + 0.99]
-            print(f"{run.name}, {program}: " + ", ".join(f"{w:.3f}" for w in spans) + " kg/s from 0.5, 1.5, 2.5 s on for a second")
-        result["lammps"] = fit([(r["time_s"], -mass * r["mass_inside"]) for r in theirs if 0.5 <= r["time_s"] <= 3.5])[0] if theirs else ""
+        late = [[(r["time_s"], -mass * r["mass_inside"]) for r in rows if 0.5 <= r["time_s"] <= 3.5] for rows in (ours, theirs)]
+        for program, xy in zip(("clast", "LAMMPS"), late):  # the head falls, and the rate a little with it
+            spans = [[p for p in xy if begin <= p[0] <= begin + 1] for begin in (0.5, 1.5, 2.5)]
+            if xy:
+                print(f"{run.name}, {program}: " + ", ".join(f"{fit(span)[0]:.3f} ({span[0][0]:.1f} to {span[-1][0]:.1f} s)" for span in spans if len(span) > 9) + " kg/s")
+        result["lammps"] = fit(late[1])[0] if late[1] else ""
         rates.append(result)
         if result["orifice_m"] == 0.06:
             curves.append((result["diameter_m"], [(r["time_s"], r["mass_inside"]) for r in read(run / "silo.csv")]))

@@ -207,7 +207,7 @@ def silo(folder, options):
     rows = [(row["time_s"] - rows[0]["time_s"], row["mass_kg"] / mass) for row in rows]
     write_rows(os.path.join(folder, "silo.csv"), ("time_s", "mass_inside"), rows)
     end = min(3.5, rows[-1][0])  # the comparison's own times are 0.5 to 3.5 s
-    rate = mass * outflow(rows, 0.5, end)
+    rate = round(mass * outflow(rows, 0.5, end), 9)
     with open(os.path.join(folder, "rate.json"), "w", encoding="utf-8") as file:
         json.dump({"n": n, "diameter_m": diameter, "orifice_m": options.orifice, "softer": softer, "rate_kg/s": rate}, file)
     beverloo = 0.58 * 0.6 * 2500 * 9.81 ** 0.5 * max(0.0, options.orifice - 1.5 * diameter) ** 2.5
