@@ -336,10 +336,16 @@ def main():
     parser.add_argument("--factor", type=float, default=4)
     parser.add_argument("--softer", type=float)
     parser.add_argument("--time", type=float)
-    parser.add_argument("--orifice", type=float, choices=(0.06, 0.04), default=0.06)
-    parser.add_argument("--grains", type=int, default=25000)
-    parser.add_argument("--lammps")
+    parser.add_argument("--orifice", type=float, choices=(0.06, 0.04), help="of the silo (default 0.06 m)")
+    parser.add_argument("--grains", type=int, help="of the impact's bed (default 25000)")
+    parser.add_argument("--lammps", help="the silo by this program too")
     options = parser.parse_args()
+    for name, case in (("orifice", "silo"), ("lammps", "silo"), ("grains", "impact")):
+        if getattr(options, name) is not None and options.case != case:
+            parser.error(f"--{name} acts on the {case} alone")
+    if options.case == "silo" and options.time is not None and options.time < 0.6:
+        parser.error("--time: the outflow is measured from 0.5 s on, give 0.6 s or more")
+    options.orifice, options.grains = options.orifice or 0.06, options.grains or 25000
     os.makedirs(options.folder, exist_ok=True)
     {"silo": silo, "drum": drum, "impact": impact}[options.case](options.folder, options)
 
