@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, refuse, settled, view, warn
+from ._core import (Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, quantity, refuse,
+                    settled, view, warn)
 from ._html import file_html
 from ._mesh import Mesh
 from ._runs import Assembly
 from ._tables import Path, Table, table_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spheres:
     """A clump of spheres in the surface's unit, and how well it fills it."""
 
@@ -70,7 +71,7 @@ def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Sphere
                    **{name: getattr(report, name) for name in _TOLD}, _owner=owner, _mesh=surface)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Porosity:
     """Bulk porosity of a bed between two heights, and what else was asked for; lengths in the run's unit, NaN: not measured."""
 
@@ -142,14 +143,7 @@ class _Bed:
 
     def length(self, name: str, value: Quantity, low: float = 0.0) -> float:
         """A number in the run's unit, or a text with its unit for a run in metres."""
-        length = ctypes.c_double(value if not isinstance(value, str) else 0.0)
-        if isinstance(value, str):
-            is_metre = self.grains.unit == "m"
-            check(call("clast_unit_parse_asked" if is_metre else "clast_unit_parse")(encoded("value", value), b"m" if is_metre else b"-",
-                                                                                     ctypes.byref(length)))
-        if not low <= length.value <= 1e9:
-            raise Error("CLAST_E_CONFIG", f"{name}: {value} is outside [{low:g}, 1e9]")
-        return length.value
+        return quantity(name, value, "m" if self.grains.unit == "m" else "-", low, 1e9)
 
 
 def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, method: str = "exact", layer: Quantity = 0.0, cut: float = 0.5,
@@ -170,7 +164,7 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     elif bed:
         b.bed.floor = bottom
     options = call("clast_porosity_options_default")()
-    options.method, options.cut, options.trim, options.at_slice = int(method == "spheres"), given["cut"], b.length("trim", trim), at_slice
+    options.method, options.cut, options.trim, options.at_slice = int(given["method"] == "spheres"), given["cut"], b.length("trim", trim), given["at_slice"]
     slice_height = b.length("layer", layer)
     if slice_height > 0:
         options.layer = slice_height

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from dataclasses import dataclass
 from typing import Any, Iterable
 
@@ -35,10 +36,19 @@ def warn_of_range(report: Any) -> None:
         words = ctypes.create_string_buffer(512)
         call("clast_range_use_words")(ctypes.byref(used), len(words), ctypes.cast(words, ctypes.c_char_p))
         shares = [100 * (one.outside / one.n if one.n > 0 else 0.0) for one in (report.start, report.collisions)]
-        warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the collisions")
+        since = f", over 0.1 % of them from t = {report.time:.4g} s on" if math.isfinite(report.time) else ""
+        warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the collisions{since}")
 
 
-@dataclass(frozen=True)
+def _warn_of_start(history: Table, law: Any) -> None:
+    """Warns where drawn particles do not hold what their law has, as the command does: a tail of few large ones is in few samples."""
+    mass, second = history["M1"][0], history["M2"][0]
+    if abs(mass - law.law_M1) > 0.01 * law.law_M1 or abs(second - law.law_M2) > 0.01 * law.law_M2:
+        warn(f"the particles drawn hold {100 * mass / law.law_M1:.4g} % of the mass and {100 * second / law.law_M2:.3g} % of M2 of their law at "
+             "the start: its tail is in few of so many; take more particles or solver='sectional'")
+
+
+@dataclass(frozen=True, eq=False)
 class Spectrum:
     """A box in time: `history` has numbers and moments [1/m3], `spectrum` a row a time and size; NaN: not, or not known."""
 
@@ -91,6 +101,8 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
     r = result.struct
     warn_of_range(r.range)
     history = table_of(result, r.history)
+    if s.solver == c.VALUES["CLAST_SOLVER_MONTE_CARLO"]:
+        _warn_of_start(history, r)
     return Spectrum(history, table_of(result, r.spectrum), r.spectrum.n_row // max(1, len(np.atleast_1d(history))), r.gel_time, r.is_gelation,
                     r.exact_gel_time, r.mass_error)
 

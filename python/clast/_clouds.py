@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._boxes import check_used, warn_of_range
-from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, numbers, refuse, settled, view, warn, whole
+from ._core import (Config, Fixed, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, numbers, people_write,
+                    refuse, settled, view, warn, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Decomposition:
     """Cells of uniform concentration, and what they say of events; NaN where the command prints null."""
 
@@ -94,12 +95,17 @@ class Decomposition:
 _COLUMNS = ("radius", "mass", "weight", "velocity", "variable")
 
 
-class Cloud:
+class Cloud(Fixed):
     """Positions (n, 1 to 3) [m] with what they carry; float64 arrays in C order are read where they lie, others converted once.
+
+    The arrays can be written into, not replaced.
 
     radius [m], mass [kg], weight (real particles that one stands for), variable (temperature or the like): (n,); velocity [m/s]: as
     positions. `domain` ("box:0,0,0,1,1,1", "sphere:5mm") is that of decompose and agglomerate, unless they name another.
     """
+
+    _FIXED = ("positions", *_COLUMNS)
+    positions: Floats
 
     def __init__(self, positions: Any, *, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
                  variable: Any = None, domain: str | None = None) -> None:
@@ -108,7 +114,7 @@ class Cloud:
 
     def _fill(self, name: str, positions: Any, given: dict[str, Any]) -> None:
         x = numbers(name, positions, [1, 2, 3])
-        self.positions: Floats = x
+        vars(self)["positions"] = x
         self._columns: dict[str, Floats] = {key: _column(key, value, x) for key, value in given.items() if value is not None}
 
     @classmethod
@@ -215,9 +221,31 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
         check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
         owner = Owner(result, "clast_decomposition_free")
         parts = _parts_of(cloud, own["sizes"], own["regular"], config.struct) if own["sizes"] else None
+        _warn_of_units(config.struct, cloud)
+        if config.struct.variant != c.VALUES["CLAST_VARIANT_TEST"] and result.pairs.n > 0:
+            _warn_of_pairs(result)
     if result.n_pass > 0 and result.points_per_bin < 10:
         warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
     return _decomposition(owner, cloud, parts)
+
+
+def _warn_of_units(config: Any, cloud: Cloud) -> None:
+    """Warns of points that take a thousandth of the domain's width or less, as the command does."""
+    domain = Owner(c.clast_domain(), "clast_domain_free")
+    check(call("clast_domain_parse")(config.domain, ctypes.byref(domain.struct)))
+    width = call("clast_domain_volume")(ctypes.byref(domain.struct)) ** (1 / cloud.positions.shape[1])
+    widest = float(np.ptp(cloud.positions, axis=0).max())
+    if 0 < widest < 1e-3 * width:
+        warn(f"all points lie within {people_write(widest, 'm')}, the domain is {people_write(width, 'm')} wide; are both in the same unit?")
+
+
+def _warn_of_pairs(found: Any) -> None:
+    """Warns where pairs and cells cannot both be right, as the command does."""
+    p = found.pairs.integral.fit_p
+    if found.disagree:
+        warn("events by pairs and by cells have no number in common; the cells hide structure, or points keep apart: look at g(r)")
+    elif p < 1e-3:
+        warn(f"g(r) is not that of points drawn from a density (p {f'= {p:.4g}' if p else '< 1e-300'}): it does not fall smoothly from r = 0")
 
 
 def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
@@ -229,7 +257,7 @@ def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
     return table_of(table)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Agglomeration:
     """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, spectrum.csv)."""
 
@@ -272,8 +300,12 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check_used(config.struct, [*keys, *given_columns])
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
+        _warn_of_units(config.struct.decompose, made[0])
     r = owner.struct
     warn_of_range(r.range)
+    if r.n_unresolved > 0:
+        warn(f"{r.n_unresolved} of {r.n_rebuilt + 1} times that cells were made the particles did not show their own structure (decompose tells "
+             "more): collisions there are a best guess, rather too few than too many")
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 

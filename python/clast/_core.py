@@ -6,13 +6,13 @@ import functools
 import importlib
 import inspect
 import math
-import operator
 import os
 import pathlib
 import signal
 import sys
 import threading
 import warnings
+from numbers import Integral, Real
 from typing import Any, Callable, Iterable, Iterator, NamedTuple, ParamSpec, Sequence, TypeVar, Union
 
 import numpy as np
@@ -34,7 +34,22 @@ class Error(Exception):
         self.code = code
 
     def __reduce__(self) -> tuple[type[Error], tuple[str, str]]:  # pools of processes send errors
-        return Error, (self.code, str(self))
+        return type(self), (self.code, str(self))
+
+
+class Missing(Error, AttributeError):
+    """A member that is not there: hasattr, getattr with a default and inspect take it for absent."""
+
+
+class Fixed:
+    """Whose members named in _FIXED cannot be replaced: the library would not see it, or read beyond what is there."""
+
+    _FIXED: tuple[str, ...] = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in self._FIXED:
+            raise AttributeError(f"{name}: cannot be replaced; write into the array, or make another {type(self).__name__}")
+        super().__setattr__(name, value)
 
 
 def _candidates() -> Iterator[str]:
@@ -78,10 +93,11 @@ def call(name: str) -> Any:
     return function
 
 
-def check(status: int) -> None:
-    """Raises what the calling thread's last call failed with."""
+def check(status: int, name: str = "") -> None:
+    """Raises what the calling thread's last call failed with, `name` before it."""
     if status != 0:
-        raise Error(_STATUS.get(status, str(status)), call("clast_error_detail")().decode("utf-8", "replace"))
+        detail = call("clast_error_detail")().decode("utf-8", "replace")
+        raise Error(_STATUS.get(status, str(status)), f"{name}: {detail}" if name else detail)
 
 
 def refuse(line: str) -> Error:
@@ -94,6 +110,8 @@ def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
         made = os.fsencode(text)
     except UnicodeEncodeError:
         raise refuse(f"{name}: {text!r} is no text that can be written as UTF-8") from None
+    except TypeError:
+        raise refuse(f"{name}: a {type(text).__name__} where a text or a path is wanted") from None
     if b"\0" in made:
         raise refuse(f"{name}: {text!r} has a NUL in it")
     return made
@@ -141,11 +159,16 @@ def fixed(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray
     return np.frombuffer(memoryview(seen.data).toreadonly(), seen.dtype).reshape(seen.shape) if seen.size else seen
 
 
-def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = np.float64) -> NDArray[Any]:
-    """`value` as the library reads it: as it is where it fits, else converted once; refused by `name` where it is no numbers."""
+def unmasked(name: str, value: Any) -> Any:
+    """The value; refused where it masks items, whose numbers mean nothing."""
     if isinstance(value, np.ma.MaskedArray) and np.any(np.asarray(value.mask)):
         raise refuse(f"{name}: an array with masked items; fill or drop them")
-    array = np.asarray(value)
+    return value
+
+
+def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = np.float64, least: int = 1) -> NDArray[Any]:
+    """`value` as the library reads it: as it is where it fits, else converted once; refused by `name` where it is no numbers."""
+    array = np.asarray(unmasked(name, value))
     if array.dtype.kind not in "fiu" or (np.dtype(dtype).kind == "i" and array.dtype.kind == "f"):
         raise refuse(f"{name}: an array of {array.dtype} where numbers ({np.dtype(dtype).name}) are wanted")
     if columns is not None and (array.ndim != 2 or array.shape[1] not in columns):
@@ -153,11 +176,82 @@ def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = n
         raise refuse(f"{name}: an array of shape {array.shape} where {wanted} is wanted")
     if columns is None and array.ndim != 1:
         raise refuse(f"{name}: an array of shape {array.shape} where (n,) is wanted")
-    if array.shape[0] == 0:
+    if array.shape[0] < least:
         raise refuse(f"{name}: an empty array")
-    if np.dtype(dtype).itemsize < 8 and array.dtype.itemsize >= 4 and (array.max() > 2**31 - 1 or array.min() < -2**31):
+    if array.size and np.dtype(dtype).itemsize < 8 and array.dtype.itemsize >= 4 and (array.max() > 2**31 - 1 or array.min() < -2**31):
         raise refuse(f"{name}: a number beyond 32 bits")
     return np.require(array, np.dtype(dtype), ["C", "A"])
+
+
+def items(name: str, value: Any) -> list[Any]:
+    """The values of a list, an array or a pandas.Series, or the one value there is; those of NumPy as Python's own."""
+    plain = value.tolist() if hasattr(unmasked(name, value), "tolist") else value
+    return [one.tolist() if hasattr(one, "tolist") else one for one in (plain if isinstance(plain, (list, tuple, range)) else [plain])]
+
+
+def single(name: str, value: Any) -> Any:
+    found = items(name, value)
+    if len(found) != 1:
+        raise refuse(f"{name}: takes one value, not {len(found)}")
+    return found[0]
+
+
+def written(name: str, value: Any) -> str | os.PathLike[str]:
+    """A value as the library parses it, a number in SI."""
+    if isinstance(value, (str, os.PathLike)):
+        return value
+    if isinstance(value, bool):
+        return str(value).lower()
+    if not isinstance(value, Real):
+        raise refuse(f"{name}: a {type(value).__name__} where a number or a text is wanted")
+    return str(int(value)) if isinstance(value, Integral) else repr(float(value))
+
+
+def flag(name: str, value: Any) -> bool:
+    """A flag by itself or by one of the words that the command takes ("yes", "off")."""
+    word = written(name, single(name, value))
+    if word not in _FLAGS:
+        raise refuse(f"{name}: '{word}' is neither true nor false")
+    return _FLAGS.index(word) < 4
+
+
+_FLAGS = ("true", "yes", "on", "1", "false", "no", "off", "0")
+
+
+def quantity(name: str, value: Any, unit: str = "-", low: float = -math.inf, high: float = math.inf) -> float:
+    """A number in SI, or a text with its unit."""
+    one = single(name, value)
+    if isinstance(one, str):
+        number = ctypes.c_double()
+        check(call("clast_unit_parse_asked")(encoded(name, one), unit.encode(), ctypes.byref(number)), name)
+        one = number.value
+    try:
+        if isinstance(one, bool) or not isinstance(one, Real) or one != one:
+            raise TypeError
+        return _inside(name, float(one), low, high)
+    except (TypeError, OverflowError):
+        raise refuse(f"{name}: {one!r} is no number") from None
+
+
+def whole(name: str, value: Any, low: float, high: float) -> int:
+    """A whole number that fits: ctypes would drop the bits that do not."""
+    one = single(name, value)
+    if isinstance(one, str):
+        one = int(one) if one.isdecimal() else quantity(name, one)
+    if isinstance(one, float) and one.is_integer():
+        one = int(one)
+    if isinstance(one, bool) or not isinstance(one, Integral):
+        raise refuse(f"{name}: {one!r} is no integer")
+    return _inside(name, int(one), low, high)
+
+
+N = TypeVar("N", int, float)
+
+
+def _inside(name: str, number: N, low: float, high: float) -> N:
+    if not low <= number <= high:
+        raise Error("CLAST_E_CONFIG", f"{name}: {number} lies outside {low:g} to {high:g}")
+    return number
 
 
 class Key(NamedTuple):
@@ -188,6 +282,20 @@ def warn(line: str) -> None:
 
 
 _HOME = os.path.dirname(__file__) + os.sep
+
+
+def note(line: str) -> None:
+    """What the command says as a note ("printable.stl: about 48 MB"), to the logger "clast"."""
+    import logging
+    logging.getLogger("clast").info("%s", line)
+
+
+def people_write(value: float, unit: str) -> str:
+    """A quantity in the unit in which people write it ("3.75 um")."""
+    factor = ctypes.c_double(1.0)
+    name = call("clast_unit_for")(value, unit.encode(), ctypes.byref(factor)).decode()
+    size = value * factor.value
+    return f"{size:{'.0f' if 1e4 <= abs(size) < 1e6 else '.4g'}} {name}"
 
 
 def given(names: dict[str, Any], but: str = "") -> dict[str, Any]:
@@ -238,17 +346,16 @@ class Config:
         if not found:
             near = next((n for n in (call("clast_fields_nearest")(table, name.encode()) for table in self._tables) if n), None)
             raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
-        takes_list = found[0].contents.type in (c.VALUES["CLAST_FIELD_TEXT_LIST"], c.VALUES["CLAST_FIELD_F64_LIST"])
-        items = list(value) if isinstance(value, (list, tuple, np.ndarray)) else [value]
-        if len(items) != 1 and not takes_list:
-            raise refuse(f"{name}: takes one value, not {len(items)}")
-        if not items:
+        kind = found[0].contents.type
+        takes_list = kind in (c.VALUES["CLAST_FIELD_TEXT_LIST"], c.VALUES["CLAST_FIELD_F64_LIST"])
+        values = items(name, value) if takes_list else [single(name, value)]
+        if not values:
             call("clast_field_clear")(found[0], self._bytes)
-        for k, item in enumerate(items):
-            is_text = isinstance(item, (str, os.PathLike))
-            text = item if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
-                repr(item.item() if isinstance(item, np.generic) else item)
-            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, encoded(name, text), k > 0))
+        for k, one in enumerate(values):
+            is_text = isinstance(one, (str, os.PathLike))
+            if kind == c.VALUES["CLAST_FIELD_U64"] and isinstance(one, float) and one.is_integer():
+                one = int(one)  # as 3.0 is where fewer bits are kept
+            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, encoded(name, written(name, one)), k > 0))
 
     def close(self) -> None:
         for table in self._tables:
@@ -260,12 +367,6 @@ class Config:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _log(_: Any, text: bytes) -> None:
-    """What comes next ("printable.stl: about 48 MB"), to the logger "clast"."""
-    import logging
-    logging.getLogger("clast").info("%s", text.decode("utf-8", "replace"))
 
 
 class Monitor:
@@ -280,7 +381,7 @@ class Monitor:
         self.struct = c.clast_monitor()
         self.struct.report = ctypes.cast(self._report, ctypes.c_void_p)
         self.struct.stop = ctypes.cast(self._stop, ctypes.c_void_p)
-        self._note = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)(_log)
+        self._note = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)(lambda _, text: note(text.decode("utf-8", "replace")))
         self.struct.note = ctypes.cast(self._note, ctypes.c_void_p)
 
     def _tell(self, _: Any, phase: bytes, done: int, total: int) -> None:
@@ -365,17 +466,6 @@ def nearest(name: str, names: Iterable[str]) -> str:
     return f"; did you mean {near[0]}?" if near else ""
 
 
-def whole(name: str, value: Any, low: int, high: int) -> int:
-    """An integer that fits: ctypes would drop the bits that do not."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise refuse(f"{name}: {value!r} is no integer") from None
-    if not low <= number <= high:
-        raise refuse(f"{name}: {number} lies outside {low} to {high}")
-    return number
-
-
 def choice(key: str, value: str, words: str) -> int:
     """The number of a word among "a|b|c"; any other is refused by name."""
     known = words.split("|")
@@ -399,18 +489,10 @@ def _value(name: str, key: Key, value: Any) -> Any:
     if key.kind == "choice":
         choice(name, value, key.choices or "")
     elif key.kind in ("number", "integer"):
-        if isinstance(value, str):
-            number = ctypes.c_double()
-            check(call("clast_unit_parse_asked")(encoded(name, value), key.unit.encode(), ctypes.byref(number)))
-            value = number.value
-        try:
-            value = float(value) if key.kind == "number" else operator.index(int(value) if value == int(value) else value)
-        except (TypeError, ValueError, OverflowError):
-            raise refuse(f"{name}: '{value}' is no {key.kind}") from None
-        if not (key.low is None or key.high is None or key.low <= value <= key.high):
-            raise Error("CLAST_E_CONFIG", f"{name}: {value!r} lies outside {key.low:g} to {key.high:g}")
+        ends = -math.inf if key.low is None else key.low, math.inf if key.high is None else key.high
+        value = quantity(name, value, key.unit, *ends) if key.kind == "number" else whole(name, value, *ends)
     elif key.kind == "flag":
-        value = bool(value)
+        value = flag(name, value)
     elif key.kind == "text":
-        value = os.fspath(value)
+        value = os.fsdecode(encoded(name, single(name, value)))
     return value

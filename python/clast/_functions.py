@@ -714,9 +714,10 @@ def export(
         table: str = '',
         unit: str = '',
 ) -> dict[str, Any]:
-    """Writes a run's grains as VTU, STL, OBJ, PLY, 3MF, CSV, JSON or LAMMPS dump by the name's end, or one `table` of the run.
+    """Writes a run's grains by the name's end, or one `table` of the run.
 
-    STL, OBJ and PLY name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
+    name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         level: fineness of spheres and ellipsoids: 20 * 4^level triangles (0 to 7; default 3)
@@ -1474,8 +1475,9 @@ def study(
 ) -> Study:
     """Runs a command for every combination of what varies: study(run="fill", argument="grain.stl", vary="spheres = 5|9", output="out").
 
-    `vary` and `fix` are texts as in YAML, lists of them, or dictionaries: vary={"spheres": [5, 9]}. Runs are processes of the command
-    `clast`, `jobs` at once (0: one a core). The same call goes on where it was stopped; runs that failed are tried again.
+    `vary` and `fix` are texts as in YAML, lists of them, or dictionaries of values as other calls take them: vary={"spheres": [5, 9]}.
+    Runs are processes of the command `clast`, `jobs` at once (0: one a core). The same call goes on where it was stopped; runs that failed
+    are tried again.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         run: command to run: aggregate, decompose, fill, ... (no default)

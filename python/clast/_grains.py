@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Floats, Owner, call, check, choice, encoded, html_table, refuse, settled, view
+from ._core import Floats, Owner, call, check, choice, encoded, html_table, items, quantity, refuse, settled, view, warn
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GrainStatistics:
     """Statistics of a set of grains: means and deviations with bootstrap intervals of 95 %, correlation, principal components."""
 
@@ -40,7 +40,7 @@ class GrainStatistics:
         return html_table({"grains": self.n, **self.zingg}) + self.columns._repr_html_() + file_html(zingg, "svg", "Zingg diagram")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Grains:
     """Measures of many grains: `table` as `clast shape -o` writes it, one line for each that could not be measured."""
 
@@ -67,6 +67,7 @@ def grain_statistics(table: Any, *, columns: str = "", resamples: int = 2000, se
     bootstrap = c.clast_bootstrap(n_resample=given["resamples"], level=0.95, seed=given["seed"])
     check(call("clast_grain_statistics_of")(ctypes.byref(rows.struct), encoded("columns", columns) or None, ctypes.byref(bootstrap),
                                             ctypes.byref(owner.struct)))
+    warn_of_rows(owner.struct.set)
     s = owner.struct.statistics
     shares = [f"q{round(100 * call('clast_quantile_share')(k)):02d}" for k in range(len(s.summary[0].quantile))] if s.n else []
     plain = [one[0] for one in c.clast_sample_summary._fields_ if one[0] not in ("quantile", "n_left_out", "is_constant")]
@@ -80,11 +81,18 @@ def grain_statistics(table: Any, *, columns: str = "", resamples: int = 2000, se
                            view(owner, s.variance, (s.n_pca,), np.float64), view(owner, s.explained, (s.n_pca,), np.float64), owner)
 
 
+def warn_of_rows(forms: Any) -> None:
+    """Warns of the rows of a table that were left out."""
+    words = ctypes.create_string_buffer(512)
+    call("clast_form_set_complaint")(ctypes.byref(forms), len(words), ctypes.cast(words, ctypes.c_char_p))
+    if words.value:
+        warn(words.value.decode("utf-8", "replace"))
+
+
 def _numbers(name: str, value: Any, counts: tuple[int, ...]) -> list[float]:
     """So many numbers above 0, from a number, a sequence or "A,B,C"."""
-    items = value.split(",") if isinstance(value, str) else list(value) if isinstance(value, (list, tuple, np.ndarray)) else [value]
     try:
-        found = [float(item) for item in items]
+        found = [float(one) for one in (value.split(",") if isinstance(value, str) else items(name, value))]
     except (TypeError, ValueError):
         found = []
     if len(found) not in counts or not all(0 < x < np.inf for x in found):
@@ -105,13 +113,14 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
     words = c.KEYS["shape"]
     given = settled("shape", dict(axes=axes, hull=hull, degree=degree, level=level, spacing=spacing, kind=kind, voxel_type=voxel_type,
                                   big_endian=big_endian, skip=skip, least_voxels=least_voxels))
-    options = c.clast_grains_options(kind=choice("kind", kind, words["kind"][5] or ""), hull=given["hull"], degree=given["degree"],
+    options = c.clast_grains_options(kind=choice("kind", given["kind"], words["kind"][5] or ""), hull=given["hull"], degree=given["degree"],
                                      level=given["level"], spacing=given["spacing"], dataset=encoded("dataset", dataset),
-                                     has_threshold=threshold is not None, threshold=threshold or 0.0, least_voxels=given["least_voxels"],
+                                     has_threshold=threshold is not None,
+                                     threshold=0.0 if threshold is None else quantity("threshold", threshold), least_voxels=given["least_voxels"],
                                      columns=encoded("columns", columns) or None,
                                      folder=None if surfaces is None else encoded("surfaces", surfaces))
     volume = options.volume
-    volume.type, volume.is_big_endian, volume.skip = choice("voxel_type", voxel_type, words["voxel_type"][5] or ""), big_endian, given["skip"]
+    volume.type, volume.is_big_endian, volume.skip = choice("voxel_type", given["voxel_type"], words["voxel_type"][5] or ""), given["big_endian"], given["skip"]
     if voxels is not None:
         sizes = _numbers("voxels", voxels, (3,))
         if any(size != int(size) or size >= 2**31 for size in sizes):
@@ -123,7 +132,7 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
     metres = ctypes.c_double()
     if unit:
         check(call("clast_unit_factor")(encoded("unit", unit), b"m", ctypes.byref(metres)))
-    return _measure(files, options, metres.value, choice("axes", axes, words["axes"][5] or ""))
+    return _measure(files, options, metres.value, choice("axes", given["axes"], words["axes"][5] or ""))
 
 
 def _measure(files: tuple[Path, ...], options: Any, metres: float, axes: int) -> Grains:
@@ -139,4 +148,6 @@ def _measure(files: tuple[Path, ...], options: Any, metres: float, axes: int) ->
         in_metres = False
     check(call("clast_grains_table")(ctypes.byref(g), axes, in_metres, ctypes.byref(table.struct)))
     faults, notes = (tuple(lines[k].text.decode("utf-8", "replace") for k in range(n)) for lines, n in ((g.fault, g.n_fault), (g.note, g.n_note)))
+    for line in notes:
+        warn(line)
     return Grains(table_of(table), faults, notes, "m" if in_metres else "model")

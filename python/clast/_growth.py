@@ -7,7 +7,7 @@ import os
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Monitor, Progress, call, check, encoded, refuse, text_of
+from ._core import Config, Monitor, Progress, call, check, encoded, people_write, refuse, text_of, warn
 from ._runs import Result
 from ._tables import Path
 
@@ -65,9 +65,18 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
             check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, None, m, ctypes.byref(result)) if resumed else
                               call("clast_pack_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
+        _warn_of_motion(result)
         return Result(values, resumed if output is None else os.fspath(output))
     finally:
         call("clast_pack_result_free")(ctypes.byref(result))
+
+
+def _warn_of_motion(r: Any) -> None:
+    """Warns of what still moves, as the command does."""
+    if r.phase == c.VALUES["CLAST_PACK_DONE"] and r.is_moving and r.n_stage == 0:
+        warn("the bed was level and still moves: its fastest grain is not below still_speed; rule='speed' waits until it is")
+    if r.fell:
+        warn(f"shaking ended while grains fell: the highest sank by {people_write(r.sank, 'm')} since; take a longer shaking_time")
 
 
 def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:

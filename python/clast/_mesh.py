@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, encoded, fixed, html_table, numbers, pinned, refuse, view, whole
+from ._core import (Error, Floats, Owner, call, check, choice, encoded, fixed, flag, html_table, note, numbers, pinned, refuse, settled, view, warn,
+                    whole)
 from ._tables import Path
 
 
@@ -102,11 +104,14 @@ def _halved(points: Floats, quads: NDArray[Any]) -> NDArray[Any]:
 
 
 class Mesh:
-    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or, of vertices, the array given."""
+    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or, of vertices, the array given.
+
+    Points alone have triangles of shape (0, 3).
+    """
 
     def __init__(self, vertices: Any, triangles: Any) -> None:
         """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
-        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32, least=0)
         tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
         _check_numbers("triangles", tri, len(vert))
         self._mesh: Any = c.clast_mesh()
@@ -117,9 +122,9 @@ class Mesh:
         self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, tri)
 
     @classmethod
-    def _own(cls, struct: Any) -> Mesh:
+    def _own(cls, struct: Any, owner: Owner | None = None) -> Mesh:
         mesh = cls.__new__(cls)
-        owner = Owner(struct, "clast_mesh_free")
+        owner = owner or Owner(struct, "clast_mesh_free")
         mesh._mesh, mesh._owner = struct, owner
         mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), fixed(owner, struct.tri, (struct.n_tri, 3), np.int32))
         return mesh
@@ -127,10 +132,18 @@ class Mesh:
     @classmethod
     def read(cls, path: Path, weld: bool = True) -> Mesh:
         """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
-        struct = c.clast_mesh()
-        name = encoded("path", path)
-        check(call("clast_mesh_read_welded" if weld else "clast_mesh_read")(name, ctypes.byref(struct), None))
-        return cls._own(struct)
+        struct, told, joined = c.clast_mesh(), c.clast_mesh_read_report(), c.clast_mesh_repair_report()
+        is_welded = flag("weld", weld)
+        check(call("clast_mesh_read")(encoded("path", path), ctypes.byref(struct), ctypes.byref(told)))
+        owner = Owner(struct, "clast_mesh_free")
+        for k in range(told.n_warning):
+            warn(f"{os.fspath(path)}: {told.warning[k].value.decode('utf-8', 'replace')}")
+        if is_welded:
+            check(call("clast_mesh_weld_auto")(ctypes.byref(struct), ctypes.byref(joined)))
+        if joined.n_merged > 0:
+            note(f"{os.fspath(path)}: {joined.n_merged} vert{'ex' if joined.n_merged == 1 else 'ices'} of open edges merged with others within "
+                 f"{joined.weld_distance:.3g} (model units)")
+        return cls._own(struct, owner)
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
@@ -146,11 +159,11 @@ class Mesh:
     def from_meshio(cls, mesh: Any) -> Mesh:
         """From anything with `points` and `cells` (meshio.Mesh): triangles, and quadrangles as two; points and lines are passed over."""
         points, cells = _parts("from_meshio", mesh, "points", "cells")
-        found = [np.zeros((0, 3), np.int64)]
+        found = [np.zeros((0, 3), np.int32)]
         for block in cells:
             kind, data = (block.type, block.data) if hasattr(block, "data") else block
             if kind == "triangle":
-                found.append(np.asarray(data))
+                found.append(numbers("triangles", data, [3], np.int32, least=0))
             elif kind == "quad":
                 quads = numbers("quads", data, [4], np.int32)
                 _check_numbers("quads", quads, len(points))
@@ -185,8 +198,10 @@ class Mesh:
     @classmethod
     def ellipsoid(cls, semi_axes: tuple[float, float, float], level: int = 4) -> Mesh:
         """An ellipsoid of 20 * 4^level triangles."""
-        struct = c.clast_mesh()
-        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), whole("level", level, 0, 9), ctypes.byref(struct)))
+        struct, axes = c.clast_mesh(), numbers("semi_axes", semi_axes, None)
+        if len(axes) != 3:
+            raise refuse(f"semi_axes: takes three numbers, not {len(axes)}")
+        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*axes), whole("level", level, 0, 9), ctypes.byref(struct)))
         return cls._own(struct)
 
     def close(self) -> None:
@@ -242,15 +257,13 @@ class Mesh:
 
     def shape(self, axes: str = "ellipsoid", hull: bool = False) -> Shape:
         """Size and form, as `clast shape` measures them."""
-        kind = c.VALUES.get(f"CLAST_AXES_{axes.upper()}")
-        if kind is None:
-            raise refuse(f"axes: '{axes}' is none of ellipsoid, box, fitted, feret, principal")
-        grain = c.clast_grain()
-        check(call("clast_grain_measure_hull" if hull else "clast_grain_measure")(self._struct(), ctypes.byref(grain)))
+        given, grain = settled("shape", dict(axes=axes, hull=hull)), c.clast_grain()
+        kind = choice("axes", given["axes"], c.KEYS["shape"]["axes"][5] or "")
+        check(call("clast_grain_measure_hull" if given["hull"] else "clast_grain_measure")(self._struct(), ctypes.byref(grain)))
         long, middle, least = grain.axes[kind].lis
         return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
                      sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,
-                     convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=axes)
+                     convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=given["axes"])
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"

@@ -4,21 +4,32 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import reprlib
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, choice, encoded, html_members, html_table, keys, refuse, settled, warn
+from ._core import Config, Error, Fixed, Owner, call, check, choice, encoded, html_members, html_table, items, keys, refuse, settled, warn
+from ._grains import warn_of_rows
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
-Moments = float | str | tuple[float, float]
+Moments = float | str | Sequence[float] | NDArray[Any]
 
 
-class Model:
+class Model(Fixed):
     """porosity = intercept + sum of coefficient times feature; from a name ("single_form_U1") or a file of `clast fit`."""
+
+    _FIXED = ("name", "source", "kind", "intercept", "coefficients", "ranges")
+    name: str
+    source: str
+    kind: str
+    intercept: float
+    coefficients: dict[str, float]
+    ranges: dict[str, tuple[float, float]]
 
     def __init__(self, name: Path) -> None:
         struct = c.clast_porosity_model()
@@ -35,13 +46,9 @@ class Model:
 
     def _keep(self, owner: Owner, struct: Any) -> None:
         self._owner, self._model = owner, struct
-        self.name: str = struct.name.decode()
-        self.source: str = struct.source.decode()
-        self.kind: str = call("clast_model_kind_name")(struct.kind).decode()
-        self.intercept: float = struct.intercept
-        self.coefficients: dict[str, float] = {struct.term[k].feature.decode(): struct.term[k].coefficient for k in range(struct.n_term)}
-        self.ranges: dict[str, tuple[float, float]] = {struct.range[k].feature.decode(): (struct.range[k].low, struct.range[k].high)
-                                                       for k in range(struct.n_range)}
+        vars(self).update(name=struct.name.decode(), source=struct.source.decode(), kind=call("clast_model_kind_name")(struct.kind).decode(),
+                          intercept=struct.intercept, coefficients={t.feature.decode(): t.coefficient for t in struct.term[:struct.n_term]},
+                          ranges={r.feature.decode(): (r.low, r.high) for r in struct.range[:struct.n_range]})
 
     def write(self, path: Path) -> None:
         """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
@@ -67,7 +74,7 @@ class Prediction:
     leverage: float = float("nan")
     kind: str = "single_form"
     source: str = ""
-    inputs: dict[str, Any] = field(default_factory=dict)
+    inputs: dict[str, Any] = field(default_factory=dict, hash=False)
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items() if not isinstance(v, (dict, tuple))})
@@ -75,13 +82,15 @@ class Prediction:
 
 def _moments(name: str, value: Moments) -> tuple[float, float | None]:
     """Mean, and standard deviation where there is one."""
-    if isinstance(value, str):
-        parts = re.split(r"\+-|\+/-|\u00b1", value)
-        try:
-            return float(parts[0]), float(parts[1]) if len(parts) == 2 else None if len(parts) == 1 else float("")
-        except ValueError:
-            raise refuse(f"{name}: '{value}' is no mean, as 0.65, or mean and standard deviation, as 0.65+-0.17") from None
-    return (float(value[0]), float(value[1])) if isinstance(value, (tuple, list)) else (float(value), None)
+    parts = re.split(r"\+-|\+/-|\u00b1", value) if isinstance(value, str) else items(name, value)
+    try:
+        found = [float(part) for part in parts if not isinstance(part, (bool, bytes))]
+    except (TypeError, ValueError):
+        found = []
+    if not len(found) == len(parts) in (1, 2) or not all(deviation >= 0 for deviation in found[1:]):
+        told = reprlib.repr(value if isinstance(value, str) else parts)
+        raise refuse(f"{name}: {told} is no mean, as 0.65, or mean and standard deviation, as 0.65+-0.17")
+    return found[0], found[1] if len(found) == 2 else None
 
 
 def _choose(model: Model | Path, grading: str, has_spread: bool) -> Model:
@@ -124,7 +133,7 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     if _choose(model, grading, False).kind == "columns":
         raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
-    _complain(owner)
+    warn_of_rows(owner.struct)
     chosen = _choose(model, grading, owner.struct.n > 1)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     given = settled("predict", dict(resamples=resamples, seed=seed))
@@ -132,14 +141,6 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     check(call("clast_porosity_predict_set")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(bootstrap),
                                              ctypes.byref(inputs), ctypes.byref(found)))
     return _prediction(chosen, found, inputs, "table")
-
-
-def _complain(forms: Owner) -> None:
-    """Warns of the rows of a table that were left out."""
-    words = ctypes.create_string_buffer(512)
-    call("clast_form_set_complaint")(ctypes.byref(forms.struct), len(words), ctypes.cast(words, ctypes.c_char_p))
-    if words.value:
-        warn(words.value.decode("utf-8", "replace"))
 
 
 def _predict_moments(flatness: Moments | None, elongation: Moments | None, model: Model | Path, grading: str, grains: int) -> Prediction:
@@ -168,15 +169,17 @@ def predict_beds(table: Any, *, model: Model | Path = "auto", grading: str = "U1
     chosen = _choose(model, grading, False)
     if chosen.kind == "columns":
         check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
+        if beds.struct.n_row < rows.struct.n_row:
+            warn(f"{rows.struct.n_row - beds.struct.n_row} of {rows.struct.n_row} rows left out: missing or infinite")
         return table_of(beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
-    _complain(owner)
+    warn_of_rows(owner.struct)
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
     return table_of(beds)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fit:
     """A linear porosity model of a table of beds, and how good it is; tables as `clast fit -o` writes them."""
 
@@ -235,6 +238,10 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
         check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source),
                                               ctypes.byref(config.struct), ctypes.byref(made.struct)))
+    left_out = data.struct.left_out
+    if left_out.n_row > 0:
+        warn(f"{left_out.n_row} of {beds.struct.n_row} rows left out (first: row {left_out.column[0].number[0]:.0f}, "
+             f"{left_out.column[1].text[0].decode('utf-8', 'replace')})")
     return _fit(data, made)
 
 

@@ -5,14 +5,14 @@ import ctypes
 import json
 import os
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Owner, Quantity, call, check, choice, encoded, fixed, html_table, refuse, settled, view
+from ._core import Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, check, choice, encoded, fixed, html_table, quantity, refuse, settled, view
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
@@ -24,13 +24,15 @@ SI = "Numbers are in SI units (m, kg, s, Pa, J) where their name has no unit."
 class Result:
     """A run's results under the names of its summary.json: `result.porosity`, `result["porosity"]`."""
 
-    values: dict[str, Any]
+    values: dict[str, Any] = field(hash=False)
     folder: str | None
 
     def __getitem__(self, name: str) -> Any:
         return self.values[name]
 
     def __getattr__(self, name: str) -> Any:
+        if name == "run":  # which refused: Python comes here for what raises AttributeError
+            return self._opened()
         if name.startswith("_") or name not in self.values:
             raise AttributeError(f"no result {name}; there are {', '.join(self.values)}" if not name.startswith("_") else name)
         return self.values[name]
@@ -38,28 +40,39 @@ class Result:
     @property
     def run(self) -> Run:
         """The run's folder, where one was written."""
+        return self._opened()
+
+    def _opened(self) -> Run:
         if self.folder is None:
-            raise refuse("run: no folder was written; call with output=FOLDER")
-        return Run(self.folder)
+            raise Missing("CLAST_E_ARGUMENT", "run: no folder was written; call with output=FOLDER")
+        try:
+            return Run(self.folder)
+        except Error as error:
+            raise Missing(error.code, str(error)) from None
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in self.values.items() if not isinstance(v, (list, dict))}, foot=SI)
         return self.run._shown(numbers) if self.folder is not None and os.path.isdir(self.folder) else numbers
 
 
-class Assembly:
-    """Placed grains: views of the state's own memory."""
+class Assembly(Fixed):
+    """Placed grains: views of the state's own memory, which can be written into and not replaced."""
+
+    _FIXED = ("unit", "positions", "orientations", "scales", "densities", "shape_ids")
+    unit: str
+    positions: Floats
+    orientations: Floats  #: quaternions w, x, y, z
+    scales: Floats
+    densities: Floats
+    shape_ids: NDArray[np.int32]  #: which cannot be written either
 
     def __init__(self, owner: Owner) -> None:
         a = owner.struct
         n = a.n_grain
         self._owner = owner
-        self.unit: str = a.unit.decode()
-        self.positions: Floats = view(owner, a.position, (n, 3), np.float64)
-        self.orientations: Floats = view(owner, a.orientation, (n, 4), np.float64)  #: quaternions w, x, y, z
-        self.scales: Floats = view(owner, a.scale, (n,), np.float64)
-        self.densities: Floats = view(owner, a.density, (n,), np.float64)
-        self.shape_ids: NDArray[np.int32] = fixed(owner, a.shape_id, (n,), np.int32)
+        vars(self).update(unit=a.unit.decode(), positions=view(owner, a.position, (n, 3), np.float64),
+                          orientations=view(owner, a.orientation, (n, 4), np.float64), scales=view(owner, a.scale, (n,), np.float64),
+                          densities=view(owner, a.density, (n,), np.float64), shape_ids=fixed(owner, a.shape_id, (n,), np.int32))
 
     @classmethod
     def read(cls, path: Path) -> Assembly:
@@ -71,12 +84,10 @@ class Assembly:
         return cls(Owner(struct, "clast_assembly_free"))
 
     @classmethod
-    def read_spheres(cls, path: Path, *, columns: str = "", diameter: Quantity = 0.0) -> Assembly:
+    def read_spheres(cls, path: Path, *, columns: str = "", diameter: Quantity | None = None) -> Assembly:
         """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
-        size = ctypes.c_double(diameter if not isinstance(diameter, str) else 0.0)
-        if isinstance(diameter, str):
-            check(call("clast_unit_parse")(encoded("diameter", diameter), b"m", ctypes.byref(size)))
-        options, struct = c.clast_packing_options(columns=encoded("columns", columns), diameter=size.value), c.clast_assembly()
+        size = 0.0 if diameter is None else quantity("diameter", diameter, "m", 0, 1e9)
+        options, struct = c.clast_packing_options(columns=encoded("columns", columns), diameter=size), c.clast_assembly()
         check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct)))
         return cls(Owner(struct, "clast_assembly_free"))
 
@@ -94,7 +105,7 @@ class Assembly:
         return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
 
     def write(self, path: Path) -> None:
-        """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
+        """Writes by the name's end, as `export`; lengths are in the assembly's own unit."""
         check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), None, None))
 
     def view(self, triangles: int = 100_000, title: str = "clast") -> View:
@@ -123,9 +134,10 @@ class Assembly:
 
 def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool = False, colour: str = "grain", table: str = "",
            unit: str = "") -> dict[str, Any]:
-    """Writes a run's grains as VTU, STL, OBJ, PLY, 3MF, CSV, JSON or LAMMPS dump by the name's end, or one `table` of the run.
+    """Writes a run's grains by the name's end, or one `table` of the run.
 
-    STL, OBJ and PLY name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
+    name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
     """
     given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit))
     if table:
@@ -136,7 +148,7 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     grains = run if isinstance(run, Assembly) else Assembly.read(run)
     bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
     chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
-    options = c.clast_export_options(level=given["level"], points=points, colour=choice("colour", colour, "grain|order|size|shape"),
+    options = c.clast_export_options(level=given["level"], points=given["points"], colour=choice("colour", given["colour"], "grain|order|size|shape"),
                                      unit=None if chosen is None else encoded("chosen", chosen))
     told = c.clast_export_report()
     check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
@@ -174,7 +186,10 @@ class Run:
 
     @property
     def grains(self) -> Assembly:
-        return Assembly.read(self.folder)
+        try:
+            return Assembly.read(self.folder)
+        except Error as error:
+            raise Missing(error.code, str(error)) from None
 
     def table(self, name: str) -> Table:
         """A table of the folder by its name ("history", "profile")."""

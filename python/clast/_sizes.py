@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, encoded, html_table, refuse, view, whole
+from ._core import Error, Floats, Owner, call, check, encoded, html_table, quantity, refuse, settled, view, whole
 from ._tables import Table
 
 
@@ -30,11 +30,8 @@ class Grading:
 
     def __init__(self, text: str, *, spread: str = "step", count: str = "mean") -> None:
         self._handle: Any = None
-        kinds = []
-        for name, value, prefix in (("spread", spread, "CLAST_SPREAD_"), ("count", count, "CLAST_COUNT_")):
-            kinds.append(c.VALUES.get(prefix + value.upper()))
-            if kinds[-1] is None:
-                raise refuse(f"{name}: '{value}' is none of {', '.join(n[len(prefix):].lower() for n in c.VALUES if n.startswith(prefix))}")
+        given = settled("grading", dict(spread=spread, count=count))
+        kinds = [c.VALUES[f"CLAST_{name}_{given[name]}".upper()] for name in ("spread", "count")]
         curve, handle = Owner(c.clast_curve(), "clast_curve_free"), ctypes.c_void_p()
         check(call("clast_grading_load")(encoded("text", text), kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
         self._handle, self._curve = _Handle(handle), curve
@@ -53,7 +50,7 @@ class Grading:
         """The size that this share of the grains (by="number") or of their volume (by="mass") does not exceed [m]."""
         if by not in ("number", "mass"):
             raise refuse(f"by: '{by}' is none of number, mass")
-        return float(call("clast_grading_size" if by == "number" else "clast_grading_mass_size")(self._open(), share))
+        return float(call("clast_grading_size" if by == "number" else "clast_grading_mass_size")(self._open(), quantity("share", share, low=0, high=1)))
 
     def draw(self, n: int, seed: int = 1) -> Floats:
         """Sizes of grains 0 .. n - 1 [m]: a function of the seed and the grain's number alone."""
@@ -74,7 +71,7 @@ class Grading:
 
     def n_expected(self, mass: float, density: float = 2650.0, grain_volume: float = np.pi / 6) -> float:
         """Grains that a mass [kg] holds on average; grain_volume is that of a grain by the cube of its sieve size."""
-        return mass / (density * grain_volume * self.mean_cube)
+        return quantity("mass", mass, "kg") / (quantity("density", density, "kg/m^3") * quantity("grain_volume", grain_volume) * self.mean_cube)
 
     @property
     def classes(self) -> Table:

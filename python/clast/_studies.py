@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse, warn
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, given, items, nearest, refuse, settled, single, warn, whole, written
 from ._tables import Path, Table, read_table
 
 
@@ -113,32 +113,48 @@ def _check_keys(command: str, keys: dict[str, Any]) -> None:
     if command == "study" or command not in c.KEYS:
         raise refuse(f"run: '{command}' is no command that a study can run{nearest(command, c.KEYS)}")
     for name in ("vary", "fix"):
-        entries = keys.get(name) or ()
-        for entry in [entries] if isinstance(entries, str) else entries:
+        for entry in [] if keys.get(name) is None else map(str, items(name, keys[name])):
             key = entry.split("=")[0].strip().replace("-", "_")
             if "=" not in entry or key not in c.KEYS[command]:
                 raise Error("CLAST_E_CONFIG", f"{name}: clast {command} has no key '{key}'{nearest(key, c.KEYS[command])}" if "=" in entry
                             else f"{name}: takes key=value, not '{entry}'")
-    if int(keys.get("seeds") or 1) > 1 and "seed" not in c.KEYS[command]:
+    if settled("study", dict(seeds=keys.get("seeds")))["seeds"] > 1 and "seed" not in c.KEYS[command]:
         raise refuse(f"seeds: clast {command} draws nothing at random; seeds must be 1")
+
+
+def _entries(command: str, name: str, values: dict[str, Any]) -> list[str]:
+    """A dictionary as texts of YAML: values that vary beside each other, those of a list that all runs share below each other."""
+    made = []
+    for key, value in given(values).items():
+        kind, _, unit, *_ = c.KEYS.get(command, {}).get(key.replace("-", "_"), ("text", "", "-"))
+        texts = [_text(key, unit, one) for one in (items(key, value) if name == "vary" or kind in ("texts", "numbers") else [single(key, value)])]
+        if not texts:
+            raise refuse(f"{key}: an empty list")
+        made += [f"{key}={text}" for text in (["|".join(texts)] if name == "vary" else texts)]
+    return made
+
+
+def _text(key: str, unit: str, value: Any) -> str:
+    """A value with its unit: a process reads no bare lengths and angles."""
+    is_bare = unit == "-" or isinstance(value, (str, os.PathLike, bool))
+    return f"{os.fspath(written(key, value))}{'' if is_bare else ' ' + unit}"
 
 
 def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: int = 0, progress: Progress = None, **keys: Any) -> Study:
     """Runs a command for every combination of what varies: study(run="fill", argument="grain.stl", vary="spheres = 5|9", output="out").
 
-    `vary` and `fix` are texts as in YAML, lists of them, or dictionaries: vary={"spheres": [5, 9]}. Runs are processes of the command
-    `clast`, `jobs` at once (0: one a core). The same call goes on where it was stopped; runs that failed are tried again.
+    `vary` and `fix` are texts as in YAML, lists of them, or dictionaries of values as other calls take them: vary={"spheres": [5, 9]}.
+    Runs are processes of the command `clast`, `jobs` at once (0: one a core). The same call goes on where it was stopped; runs that failed
+    are tried again.
     """
-    for name, given in (("vary", vary), ("fix", fix)):
-        if isinstance(given, dict):
-            given = [f"{key}={'|'.join(map(str, v)) if isinstance(v, (list, tuple)) else v}" if name == "vary" else f"{key}={v}"
-                     for key, v in given.items()]
-        if given is not None:
-            keys[name] = given
+    for name, value in (("vary", vary), ("fix", fix)):
+        if value is not None:
+            keys[name] = _entries(run, name, value) if isinstance(value, dict) else value
     _check_keys(run, keys)
+    n_job = whole("jobs", jobs, 0, 4096)
     workers, report, monitor = _Workers(_program(), run), c.clast_study_report(), Monitor(progress)
     before = call("clast_parallel_threads")()
-    call("clast_parallel_set_threads")(jobs)
+    call("clast_parallel_set_threads")(n_job)
     try:
         with Config(c.clast_study_config(), "clast_study_fields", {"run": run, **keys}) as config:
             status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), encoded("output", output),

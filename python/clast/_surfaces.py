@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, call, check, encoded, refuse, settled, whole
+from ._core import Config, Error, Owner, call, check, encoded, refuse, settled, warn, whole
 from ._mesh import Mesh, MeshCheck
 from ._runs import Result
 from ._tables import Path
@@ -49,17 +49,33 @@ def mesh_repair(surface: Surface, *, output: Path | None = None, **keys: Any) ->
                                         ctypes.byref(report)))
     mesh = Mesh._own(made)
     found: MeshCheck = mesh.check()
-    return _keep(mesh, {**_numbers(report), "is_solid": found.is_solid, "check": found}, output)
+    kept = _keep(mesh, {**_numbers(report), "is_solid": found.is_solid, "check": found}, output)
+    if report.n_separated > 0 and output is not None and _is_stl(output):
+        warn(f"an STL cannot keep {report.n_separated} doubled vertices apart; write .ply, .obj or .off to keep touching surfaces separate")
+    return kept
+
+
+def _is_stl(path: Path) -> bool:
+    return bool(call("clast_mesh_format_of_path")(encoded("output", path)) == c.VALUES["CLAST_MESH_STL"])
 
 
 def mesh_hull(surface: Surface, *, output: Path | None = None) -> SurfaceResult:
     """The convex hull of a surface or of points, and the volume that it adds."""
     mesh = _read(surface, weld=False)
     hull = mesh.hull()
-    welded = _read(surface).check() if len(mesh.triangles) else None
-    volume = welded.volume if welded is not None and welded.closed and welded.oriented else float("nan")
+    volume = _solid_volume(mesh) if len(mesh.triangles) else float("nan")
     return _keep(hull, {"n_vertex": len(hull.vertices), "n_triangle": len(hull.triangles), "volume": volume, "area": mesh.area,
                         "hull_volume": hull.volume, "hull_area": hull.area, "added_volume": hull.volume - volume}, output)
+
+
+def _solid_volume(mesh: Mesh) -> float:
+    """Volume of what the surface bounds, once it is welded; NaN where it is open."""
+    struct = c.clast_mesh()
+    check(call("clast_mesh_copy")(mesh._struct(), ctypes.byref(struct)))
+    owner = Owner(struct, "clast_mesh_free")
+    check(call("clast_mesh_weld_auto")(ctypes.byref(struct), None))
+    found = Mesh._own(struct, owner).check()
+    return found.volume if found.closed and found.oriented else float("nan")
 
 
 def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = None) -> SurfaceResult:
@@ -68,7 +84,7 @@ def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = N
     struct, report, given = c.clast_mesh(), c.clast_mesh_simplify_report(), _read(surface)
     check(call("clast_mesh_simplify")(given._struct(), wanted, ctypes.byref(struct), ctypes.byref(report)))
     made, volume, apart = Mesh._own(struct), report.volume_after, report.deviation
-    if output is not None and os.fspath(output).lower().endswith(".stl"):  # 24 bits
+    if output is not None and _is_stl(output):  # 24 bits
         check(call("clast_mesh_round_float")(ctypes.byref(struct)))
         volume = made.volume
     values = {**_numbers(report), "volume": volume, "volume_change": volume / report.volume_before - 1.0, "hausdorff": apart.hausdorff,
@@ -80,21 +96,22 @@ def mesh_form(surface: Surface, *, flatness: float = 0.0, elongation: float = 0.
               hull: int = 0, output: Path | None = None) -> SurfaceResult:
     """A grain in its principal frame, stretched to S/I, I/L and sieve size (0: its own); hull > 0 takes the convex hull first."""
     wanted = settled("mesh form", dict(flatness=flatness, elongation=elongation, size=size, unit_form=unit_form, hull=hull))
-    if unit_form and (flatness or elongation or size):
+    n_face = wanted["hull"]
+    if wanted["unit_form"] and (wanted["flatness"] or wanted["elongation"] or wanted["size"]):
         raise refuse("unit_form: makes L = I = S = 1; leave flatness, elongation and size out")
-    if 0 < hull < 4:
-        raise refuse(f"hull: a solid has 4 faces or more, not {hull}")
+    if 0 < n_face < 4:
+        raise refuse(f"hull: a solid has 4 faces or more, not {n_face}")
     mesh = _read(surface)
-    if hull == 0:
+    if n_face == 0:
         _require_solid(mesh)
     else:
         struct = c.clast_mesh()
-        check(call("clast_reform_hull")(mesh._struct(), hull, ctypes.byref(struct)))
+        check(call("clast_reform_hull")(mesh._struct(), n_face, ctypes.byref(struct)))
         mesh = Mesh._own(struct)
     turned, before = _principal(mesh)
     own = dict(flatness=before["flatness"], elongation=before["elongation"], size=before["D"])
     lengths = (ctypes.c_double * 3)(1.0, 1.0, 1.0)
-    if not unit_form:
+    if not wanted["unit_form"]:
         call("clast_form_lengths")(*(wanted[key] or own[key] for key in own), lengths)
     made = c.clast_mesh()
     check(call("clast_reform_mesh")(turned._struct(), lengths, ctypes.byref(made)))
@@ -142,9 +159,22 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     mesh = _read(surface, weld=False)
     if factor != 1.0:
         mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
-    options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", name) or None)
+    options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", wanted["name"]) or None)
     check(call("clast_mesh_write")(mesh._struct(), encoded("output", output), ctypes.byref(options)))
+    if _is_stl(output):
+        _warn_of_loss(mesh, output)
     return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "factor": factor})
+
+
+def _warn_of_loss(mesh: Mesh, output: Path) -> None:
+    """Warns of what the 24 bits of STL lose, as the command does: by the file's size, which is what a reader will find."""
+    with np.errstate(all="ignore"):
+        moved = np.abs(mesh.vertices - mesh.vertices.astype(np.float32)).max() / np.ptp(mesh.vertices, axis=0).max()
+    if moved > 1e-6:
+        warn(f"STL keeps 24 bits: coordinates move by up to {moved:.2g} of the extent; move the surface near the origin or write PLY")
+    n = len(mesh.triangles) - (os.path.getsize(output) - 84) // 50
+    if n > 0:
+        warn(f"{n} triangles have two corners that are one in the 24 bits of STL and were left out; write PLY to keep them")
 
 
 def _metres(unit: str) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Owner, call, check, encoded, html_table, refuse, view
+from ._core import Owner, call, check, encoded, html_table, refuse, unmasked, view
 
 Path = str | os.PathLike[str]
 Text = Path  #: where a key takes words, or a file
@@ -120,7 +120,7 @@ def _columns_of(name: str, value: Any) -> dict[str, NDArray[Any]]:
         names = tuple(value.keys())
     if names is None:
         raise refuse(f"{name}: a {type(value).__name__} where a file, a structured array, a DataFrame or a dictionary of columns is wanted")
-    found = {str(column): np.asarray(value[column]) for column in names}
+    found = {str(column): np.asarray(unmasked(f"{name}: column {column}", value[column])) for column in names}
     for column, values in found.items():
         if values.ndim != 1 or values.dtype.kind not in "fiubUSO":
             raise refuse(f"{name}: column {column} of shape {values.shape} and type {values.dtype} is neither numbers nor texts")

@@ -9,19 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Monitor, Owner, Progress, call, check, encoded, refuse, view
+from ._core import Config, Fixed, Monitor, Owner, Progress, call, check, encoded, refuse, view
 from ._runs import Assembly
 from ._tables import Path
 
 
-class Picture:
-    """A picture: `rgba` (height, width, 4) looks into the library's memory; a notebook shows it."""
+class Picture(Fixed):
+    """A picture: `rgba` (height, width, 4) looks into the library's memory, to be written into; a notebook shows it."""
+
+    _FIXED = ("rgba", "pixel_size")
+    rgba: NDArray[np.uint8]
+    pixel_size: float  #: in the grains' unit of length
 
     def __init__(self, owner: Owner) -> None:
         image = owner.struct
         self._owner = owner
-        self.rgba: NDArray[np.uint8] = view(owner, image.rgba, (image.height, image.width, 4), np.uint8)
-        self.pixel_size: float = image.pixel_size  #: in the grains' unit of length
+        vars(self).update(rgba=view(owner, image.rgba, (image.height, image.width, 4), np.uint8), pixel_size=image.pixel_size)
 
     def write(self, path: Path) -> None:
         """Writes a PNG file, whole or not at all."""

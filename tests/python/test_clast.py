@@ -180,7 +180,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(clast.porosity(grains, bed=bed, trim="2mm", layer="1mm", at_slice=True).porosity, found.porosity)
         self.assertTrue(np.array_equal(grains.positions, before))
         for keys, line in (({}, "^bed: .* does not say what holds the grains"), (dict(bed="cylinder:1mm"), "^bed: grains take"),
-                           (dict(bed=bed, trim="2"), "2"), (dict(bed=bed, trim=-1.0), "^trim: -1.0 is outside")):
+                           (dict(bed=bed, trim="2"), "2"), (dict(bed=bed, trim=-1.0), "^trim: -1.0 lies outside")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.porosity(path, **keys)
 

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -180,6 +181,20 @@ class Commands(unittest.TestCase):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
 
+    def test_values_of_a_study_are_those_of_every_call(self):
+        """A bare length was refused by every run, False was "False", and range(3, 5) one value."""
+        fix = dict(core="sphere", core_size=270e-6, coat="sphere", size=[30e-6, "20um"], core_density=np.float64(2500), fall_speed=np.bool_(True), picture=False, mode=None)
+        found = clast.study(run="aggregate", fix=fix, vary={"replicate": range(1, 3), "cone": np.array([0.1, 0.2])}, jobs="1", output=self.folder / "one")
+        self.assertEqual((found.n_done, found.n_failed), (4, 0))
+        one = clast.open(self.folder / "one/runs/000004/out")
+        del fix["mode"]
+        said = clast.aggregate(**fix, replicate=2, cone=0.2)
+        self.assertEqual((one.summary["n_grain"], one.summary["d_agg"]), (said.n_grain, said.d_agg))
+        for vary, line in (({"spheres": np.ma.MaskedArray([3, 4], mask=[0, 1])}, "^spheres: .*masked"), ({"spheres": [b"3"]}, "^spheres: a bytes"), ({"sphere": 3}, "did you mean spheres"),
+                           ({"spheres": []}, "^spheres: ")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.study(run="fill", argument=MENGER, vary=vary, output=self.folder / "x")
+
     def test_a_study_without_the_command_names_the_cure(self):
         env = {**os.environ, "CLAST": "", "PATH": "/nowhere"}
         code = "import clast; clast.study(run='fill', argument='x.stl', vary='spheres=1', output='x')"
@@ -307,6 +322,97 @@ class Commands(unittest.TestCase):
         with self.assertLogs("clast", "INFO") as caught:
             clast.aggregate(core="sphere", core_size="270um", coat="sphere", size="100um", replicate=2, printable=True, output=self.folder / "run")
         self.assertIn("printable", caught.output[0])
+
+    def said(self, *words):
+        """What the command says on both streams, without its JSON."""
+        done = subprocess.run([os.environ["CLAST"], *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=self.folder, text=True)
+        return " ".join(done.stdout.split())
+
+    def test_warnings_are_those_of_the_command(self):
+        """A reviewer found a dozen warnings of the command that Python kept to itself."""
+        x = np.random.default_rng(0).random((300, 3))
+        box = "box:0,0,0,1,1,1"
+        small, points, sets = (self.write(f"{name}.csv", dict(zip("xyz", columns.T))) for name, columns in
+                               (("small", x * 1e-3), ("points", x), ("sets", np.random.default_rng(2).random((500, 3)) ** 3)))
+        pack = dict(curve="4mm", mass="5g", width="12mm", height="0.1m", shaking_time=0)
+        flags = [word for key, value in pack.items() for word in (f"--{key.replace('_', '-')}", f"{value}s" if value == 0 else value)]
+        agglomerate, box_model = dict(constant=1e-4, duration=1.0, n_step=2), dict(concentration=1e12, constant=1e-12, duration=1.0, n_step=2,
+                                                                                   initial="exponential", particles=50)
+        tail = ("--constant", 1e-12, "--duration", "1s", "--n-step", 2, "--initial", "exponential", "--particles", 50)
+        rows = {"flatness": [0.6, 0.7, -1.0, 0.65, 0.5], "elongation": [0.7, 0.8, 0.7, 0.66, 0.6]}
+        beds = form_beds()
+        beds["porosity"][4] = np.nan
+        for use, words, lines in (
+                (lambda: clast.decompose(x * 1e-3, domain=box), ("decompose", small, "--domain", box),
+                 ["all points lie within 999.2 um, the domain is 1 m wide; are both in the same unit?"]),
+                (lambda: clast.agglomerate(x * 1e-3, domain=box, **agglomerate),
+                 ("agglomerate", small, "--domain", box, "--constant", 1e-4, "--duration", "1s", "--n-step", 2),
+                 ["all points lie within 999.2 um, the domain is 1 m wide", "of 1 times that cells were made the particles did not show their own structure"]),
+                (lambda: clast.pack(**pack), ("pack", *flags), ["the bed was level and still moves: its fastest grain is not below still_speed",
+                                                                 "shaking ended while grains fell: the highest sank by"]),
+                (lambda: clast.box_model(**box_model), ("agglomerate", "--box-model", "--concentration", 1e12, *tail),
+                 ["the particles drawn hold 96.86 % of the mass and 89.3 % of M2 of their law at the start"]),
+                (lambda: clast.grain_statistics(rows, resamples=10), ("shape", self.write("rows.csv", rows), "--statistics", "s"),
+                 ["1 of 5 rows left out: 1 not positive (row 3)"]),
+                (lambda: clast.shapes(self.folder / "rows.csv"), ("shape", "rows.csv"), ["1 of 5 rows left out: 1 not positive (row 3)"]),
+                (lambda: clast.fit(beds, n_permutation=0), ("fit", self.write("beds.csv", beds), "--n-permutation", 0),
+                 ["1 of 63 rows left out (first: row 5, "])):
+            told = self.said(*words)
+            for line in lines:
+                self.assertIn(line, told)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                use()
+            heard = [str(one.message) for one in caught]
+            self.assertEqual(len(heard), len(lines), heard)
+            for line, one in zip(lines, heard):
+                self.assertIn(line, one)
+
+    def test_a_model_of_columns_tells_the_beds_it_left_out(self):
+        k = np.arange(40.0)
+        beds = {"x": k, "y": np.sin(k), "porosity": 0.3 + 0.001 * k + 0.01 * np.sin(k * k)}
+        model = clast.fit(beds, features="columns", n_term=1, n_permutation=0).model
+        with self.assertWarnsRegex(UserWarning, "^1 of 2 rows left out: missing or infinite"):
+            clast.predict_beds({"x": [1.0, np.nan], "y": [1.0, np.nan]}, model=model)
+
+    def test_pairs_and_cells_that_disagree_are_told(self):
+        """Points that keep apart: g(r) does not fall from r = 0, and pairs find no structure."""
+        x = (np.mgrid[:8, :8, :8].reshape(3, -1).T + 0.5 + 0.2 * np.random.default_rng(1).random((512, 3))) / 9
+        path, box = self.write("even.csv", dict(zip("xyz", x.T))), "box:0,0,0,1,1,1"
+        line = re.search("warning: (events by pairs|g\\(r\\) is not).*?:", self.said("decompose", path, "--domain", box, "--pairs"))[0][9:]
+        with self.assertWarnsRegex(UserWarning, f"^{re.escape(line[:12])}"):
+            clast.decompose(x, domain=box, pairs=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            clast.decompose(x, domain=box)
+
+    def test_what_surfaces_lose_is_told(self):
+        path = self.folder / "curve.obj"
+        path.write_text("v 0 0 0\nv 2 0 0\nv 0.5 0.5 1\nv 0 2 0\nf 1 2 3 4\ncurv 1 2\n")
+        with self.assertWarnsRegex(UserWarning, "^.*curve.obj: .*passed over") as caught:
+            clast.Mesh.read(path)
+        self.assertEqual(caught.filename, __file__)
+        grain = clast.Mesh.read(GRAIN)
+        far = clast.Mesh(grain.vertices + 1e4, grain.triangles)
+        far.write(self.folder / "far.ply")
+        told = self.said("mesh", "convert", "far.ply", "-o", "far.stl")
+        for given in (far, self.folder / "far.ply"):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                clast.mesh_convert(given, self.folder / "far2.stl")
+            self.assertEqual([str(one.message)[:20] for one in caught][:1], ["STL keeps 24 bits: c"])
+            for one in caught:
+                self.assertIn(str(one.message), told)
+        touching = clast.Mesh(np.concatenate([grain.vertices, grain.vertices + [100, 0, 0]]), np.concatenate([grain.triangles, grain.triangles + len(grain.vertices)]))
+        touching.vertices[len(grain.vertices)] = touching.vertices[0]
+        one_corner = touching.triangles.copy()
+        one_corner[one_corner == len(grain.vertices)] = 0
+        with self.assertWarnsRegex(UserWarning, "^an STL cannot keep 1 doubled vert.* apart; write .ply, .obj or .off"):
+            clast.mesh_repair(clast.Mesh(touching.vertices, one_corner), split=True, output=self.folder / "two.stl")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            clast.mesh_hull(path)
+        self.assertEqual(len(caught), 1)  # the file is read once
 
     def test_a_medium_is_one_number_or_one_a_particle(self):
         x = np.random.default_rng(1).random((50, 3)) * 1e-4

@@ -4,6 +4,7 @@ CTest runs this plain, and in the build with sanitizers under AddressSanitizer, 
 """
 import copy
 import gc
+import inspect
 import itertools
 import multiprocessing
 import os
@@ -103,7 +104,7 @@ class Lives(unittest.TestCase):
     def test_everything_may_be_left_at_the_end(self):
         script = ("import sys; sys.path.insert(0, %r); sys.argv = ['x']\nfrom test_misuse import MAKERS\n"
                   "left = [(make(), views(make())) for make, views in MAKERS.values()]; left.append(left)\nprint('end')")
-        done = subprocess.run([sys.executable, "-c", script % str(ROOT / "tests/python")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", script % str(ROOT / "tests/python")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "end\n", ""))
 
     def test_copies_own_nothing_twice(self):
@@ -125,6 +126,47 @@ class Lives(unittest.TestCase):
         self.assertEqual(mesh.volume, clast.Mesh.read(GRAIN).volume)
         cloud = pickle.loads(pickle.dumps(clast.Cloud(X, domain=BOX)))
         self.assertEqual(cloud.decompose().pair_integral, clast.decompose(X, domain=BOX).pair_integral)
+
+    def test_points_without_triangles(self):
+        path = os.path.join(FOLDER.name, "points.ply")
+        pathlib.Path(path).write_text("ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nend_header\n"
+                                      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+        for made in (clast.Mesh.read(path, weld=False), pickle.loads(pickle.dumps(clast.Mesh.read(path, weld=False))), clast.mesh_convert(path, path[:-4] + "2.ply", scale=2.0).mesh,
+                     clast.Mesh(np.eye(4)[:, :3], np.zeros((0, 3), int))):
+            self.assertEqual((len(made.vertices), made.triangles.shape), (4, (0, 3)))
+            self.assertGreater(made.hull().volume, 0.1)
+            for use in (made.shape, made.check, lambda: made.area, lambda: clast.fill(made), lambda: clast.mesh_repair(made), lambda: clast.mesh_simplify(made, 9),
+                        lambda: clast.mesh_form(made), lambda: made.write(path[:-4] + ".stl"), made.to_trimesh, lambda: repr(made)):
+                try:
+                    use()
+                except clast.Error as error:
+                    self.assertEqual(len(str(error).splitlines()), 1)
+
+    def test_results_can_be_compared_and_looked_into(self):
+        for name, (make, _) in {**MAKERS, "Result": (lambda: clast.aggregate(**SMALL), None), "Prediction": (lambda: clast.predict(0.6, 0.7), None)}.items():
+            if name == "Table":
+                continue  # is an array
+            made, again = make(), make()
+            self.assertEqual((made == made, made != made, bool(made == again) == bool(made != again)), (True, False, False), name)
+            self.assertTrue(made != again or hash(made) == hash(again), name)
+            self.assertGreater(len(inspect.getmembers(made)), 5, name)
+        run = clast.open(RUN)
+        self.assertGreater(len(inspect.getmembers(run.grains)), len(inspect.getmembers(object)))
+
+    def test_members_that_are_not_there(self):
+        """hasattr, getattr with a default and inspect ask for what raises AttributeError."""
+        result = clast.aggregate(**SMALL)
+        self.assertEqual((hasattr(result, "run"), getattr(result, "run", 3)), (False, 3))
+        with self.assertRaisesRegex(clast.Error, "^run: no folder was written; call with output=FOLDER"):
+            result.run
+        with tempfile.TemporaryDirectory() as folder:
+            result = clast.aggregate(**SMALL, picture=False, output=os.path.join(folder, "run"))
+            run = result.run
+        self.assertEqual((hasattr(result, "run"), hasattr(run, "grains")), (False, False))
+        for error in (lambda: result.run, lambda: run.grains):
+            with self.assertRaisesRegex(clast.Error, "run") as caught:
+                error()
+            self.assertEqual(str(pickle.loads(pickle.dumps(caught.exception))), str(caught.exception))
 
     def test_a_temporary_is_not_freed_while_it_is_used(self):
         for use in (lambda: clast.mesh_simplify(GRAIN, 50), lambda: clast.mesh_repair(GRAIN), lambda: clast.mesh_form(GRAIN, flatness=0.5),
@@ -230,6 +272,23 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(ValueError):
                 array.flags.writeable = True
 
+    def test_arrays_cannot_be_replaced_under_the_library(self):
+        """Strided or shorter arrays in their place were read as they lay, beyond their end."""
+        cloud, grains = clast.Cloud(X.copy(), mass=np.ones(400), domain=BOX), clast.Assembly.read(RUN)
+        for made, names in ((cloud, ("positions", "mass", "radius", "weight", "velocity", "variable")), (clast.Mesh.read(GRAIN), ("vertices", "triangles")),
+                            (grains, ("positions", "orientations", "scales", "densities", "shape_ids", "unit")),
+                            (MAKERS["Picture"][0](), ("rgba", "pixel_size")), (MAKERS["Model"][0](), ("intercept", "coefficients", "name", "kind", "source", "ranges"))):
+            for name in names:
+                with self.assertRaisesRegex(AttributeError, name):
+                    setattr(made, name, X[::2])
+        want = cloud.decompose().pair_integral
+        cloud.positions[:] *= 0.5  # what is written into them is read
+        self.assertNotEqual(cloud.decompose().pair_integral, want)
+        cloud.domain = "box:0,0,0,0.5,0.5,0.5"
+        self.assertAlmostEqual(cloud.decompose().pair_integral / 8 / want, 1)
+        again = pickle.loads(pickle.dumps(cloud))
+        self.assertEqual((again.mass[3], again.decompose().pair_integral), (1.0, cloud.decompose().pair_integral))
+
     def test_numbers_that_are_none(self):
         for bad in (np.nan, np.inf, -np.inf, 1e308, 1e-320):
             grain = clast.Mesh.read(GRAIN)
@@ -276,6 +335,112 @@ class Keywords(unittest.TestCase):
                     lambda: clast.Mesh.read(GRAIN).write("x\0.stl"), lambda: clast.fit(beds(), name="a\0b"), lambda: clast.porosity(RUN, bed="cylinder:1m\0")):
             with self.assertRaisesRegex(clast.Error, "NUL"):
                 use()
+
+    def test_flags_are_words_everywhere(self):
+        """`bool("no")` is true: half of the functions took a word for its contrary."""
+        grain, bed = clast.Mesh.read(GRAIN), dict(bed="periodic:-3.5mm,-3.5mm,3.5mm,3.5mm")
+        for name, use in (("local", lambda flag: len(clast.porosity(LATTICE, **bed, local=flag).local)), ("at_slice", lambda flag: clast.porosity(LATTICE, **bed, at_slice=flag).z_high),
+                          ("test_only", lambda flag: clast.decompose(X**3, domain=BOX, test_only=flag).n_cell), ("hull", lambda flag: grain.shape(hull=flag).volume),
+                          ("hull", lambda flag: clast.shape(GRAIN, hull=flag).volume), ("hull", lambda flag: clast.shapes(GRAIN, hull=flag).table["volume"][0]),
+                          ("unit_form", lambda flag: clast.mesh_form(GRAIN, unit_form=flag).after["I"]),
+                          ("weld", lambda flag: len(clast.Mesh.read(GRAIN, weld=flag).vertices)),
+                          ("points", lambda flag: clast.export(RUN, os.path.join(FOLDER.name, "x.vtu"), points=flag)["n_vertex"]),
+                          ("fall_speed", lambda flag: len(clast.aggregate(**SMALL, fall_speed=flag).values))):
+            for flag in (False, True):
+                for word in (*(("yes", "1", 1) if flag else ("no", "off", 0)), np.bool_(flag), np.array(flag)):
+                    self.assertEqual(use(word), use(flag), (name, word))
+            for bad in ("maybe", "No", 2, 0.5):
+                with self.assertRaisesRegex(clast.Error, f"^{name}: '{bad}' is neither true nor false"):
+                    use(bad)
+        with self.assertRaisesRegex(clast.Error, "^unit_form: makes"):
+            clast.mesh_form(GRAIN, flatness=0.5, unit_form="yes")
+
+    def test_values_of_numpy_and_pandas(self):
+        for keys in (dict(core_size=np.array(270e-6)), dict(replicate=np.array(20)), dict(replicate=20.0), dict(replicate=np.float32(20)), dict(size=np.array([30e-6])),
+                     dict(core_size=[np.array("270um")]), dict(size=[np.array(30e-6)])):
+            self.assertEqual(clast.aggregate(**{**SMALL, **keys}).n_grain, 21, keys)
+        want = clast.aggregate(**{**SMALL, "size": [30e-6, 20e-6]}).n_grain
+        lists = [np.array([30e-6, 20e-6]), (np.float64(30e-6), "20um"), np.array(["30um", "20um"])]
+        try:
+            import pandas
+            lists += [pandas.Series([30e-6, 20e-6]), pandas.Index(["30um", "20um"])]
+        except ImportError:
+            pass
+        for size in lists:
+            self.assertEqual(clast.aggregate(**{**SMALL, "size": size}).n_grain, want)
+        brownian = dict(domain="box:0,0,0,1e-4,1e-4,1e-4", kernel="brownian", radius=np.full(400, 1e-6), duration="100s", n_step=2)
+        self.assertEqual(list(clast.agglomerate(X * 1e-4, **brownian, temperature=np.array(300.0)).history["n_particle"]),
+                         list(clast.agglomerate(X * 1e-4, **brownian, temperature=300).history["n_particle"]))
+
+    def test_one_rule_for_whole_numbers(self):
+        grading = clast.Grading("U3")
+        want = clast.decompose(X, domain=BOX, seed=3).pair_integral
+        for seed in (3, 3.0, np.float32(3), np.array(3.0), "3"):
+            self.assertEqual(clast.decompose(X, domain=BOX, seed=seed).pair_integral, want)
+            self.assertEqual(digest(grading.draw(4, seed)), digest(grading.draw(4, 3)))
+            self.assertEqual(clast.predict(table=FORMS, seed=seed, resamples=9).standard_error, clast.predict(table=FORMS, seed=3, resamples=9).standard_error)
+            self.assertEqual(clast.mesh_synthesize(seed).volume, clast.mesh_synthesize(3).volume)
+        for seed in (True, np.bool_(True), 3.5, float("nan"), [1, 2], b"3", 1j):
+            for use in (lambda: clast.decompose(X, domain=BOX, seed=seed), lambda: grading.draw(4, seed), lambda: clast.grain_statistics(FORMS, seed=seed, resamples=9)):
+                with self.assertRaisesRegex(clast.Error, "^seed: "):
+                    use()
+
+    def test_errors_name_the_key(self):
+        bed, grain, grading = dict(bed="periodic:-3.5mm,-3.5mm,3.5mm,3.5mm"), clast.Mesh.read(GRAIN), clast.Grading("U3")
+        for use, name in ((lambda: clast.porosity(LATTICE, **bed, trim=[1, 2]), "trim"), (lambda: clast.porosity(LATTICE, **bed, trim="abc"), "trim"),
+                          (lambda: clast.porosity(LATTICE, **bed, trim={}), "trim"), (lambda: clast.porosity(LATTICE, **bed, trim=True), "trim"),
+                          (lambda: clast.porosity(LATTICE, **bed, floor="5kg"), "floor"), (lambda: clast.porosity(LATTICE, **bed, gap=float("nan")), "gap"),
+                          (lambda: clast.porosity(LATTICE, **bed, columns=3), "columns"), (lambda: clast.shapes(GRAIN, threshold="grey"), "threshold"),
+                          (lambda: clast.mesh_form(GRAIN, size=True), "size"), (lambda: clast.mesh_form(GRAIN, size="2kg"), "size"),
+                          (lambda: clast.Assembly.read_spheres(LATTICE, diameter={}), "diameter"), (lambda: clast.Assembly.read_spheres(LATTICE, diameter="1kg"), "diameter"),
+                          (lambda: clast.Grading("U3", spread=3), "spread"), (lambda: clast.Grading("U3", count="Exact"), "count"), (lambda: clast.Grading(3), "text"),
+                          (lambda: grading.size("few"), "share"), (lambda: grading.size(float("nan")), "share"), (lambda: grading.size(2), "share"),
+                          (lambda: grading.n_expected("1m"), "mass"), (lambda: grain.shape(3), "axes"), (lambda: grain.shape("n"), "axes"),
+                          (lambda: clast.Mesh.ellipsoid((1, 1)), "semi_axes"), (lambda: clast.Mesh.ellipsoid((1, 1, 1, 1)), "semi_axes"),
+                          (lambda: clast.Mesh.ellipsoid(("1mm", 1, 1)), "semi_axes"), (lambda: clast.Mesh.ellipsoid(1), "semi_axes"), (lambda: clast.Mesh.read(3), "path"),
+                          (lambda: clast.Mesh.ellipsoid((1, 1, 1), level=None), "level"), (lambda: clast.mesh_convert(GRAIN, "x.ply", name=3), "name"),
+                          (lambda: clast.pack(curve=b"4mm"), "curve"), (lambda: clast.shapes(GRAIN, voxels={}), "voxels"), (lambda: clast.Model(3), "name"),
+                          (lambda: clast.study(run="fill", output="x", jobs="two"), "jobs"), (lambda: clast.study(run="fill", output="x", jobs=-1), "jobs"),
+                          (lambda: clast.study(run="fill", output="x", seeds="few"), "seeds")):
+            with self.assertRaisesRegex(clast.Error, f"^{name}: ") as caught:
+                use()
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def test_texts_are_numbers_where_the_command_takes_them(self):
+        self.assertEqual(clast.mesh_form(GRAIN, hull="20").n_triangle, clast.mesh_form(GRAIN, hull=20).n_triangle)
+        self.assertEqual(len(clast.shapes(GRAIN, threshold="128")), 1)
+        self.assertEqual(clast.Grading("U3").size("0.5"), clast.Grading("U3", spread=None).size(0.5))
+        self.assertEqual(len(clast.Assembly.read_spheres(LATTICE, diameter=None)), 294)
+
+    def test_moments_are_one_number_or_two(self):
+        """A NaN or negative deviation took the model without one."""
+        want = clast.predict((0.65, 0.17), (0.7, 0.1)).porosity
+        pairs = [[0.65, 0.17], np.array([0.65, 0.17]), "0.65+-0.17", ["0.65", 0.17]]
+        try:
+            import pandas
+            pairs.append(pandas.Series([0.65, 0.17]))
+        except ImportError:
+            pass
+        for pair in pairs:
+            self.assertEqual(clast.predict(pair, (0.7, 0.1)).porosity, want)
+        self.assertEqual(clast.predict(np.array(0.65), np.float32(0.7)).model, "single_form_U1")
+        for bad in ((0.65, -0.1), (0.65, float("nan")), (0.65, 0.1, 0.1), (), "0.65+--0.17", "0.65+-nan", True, (0.65, True), {}, [[0.65, 0.1]], np.full(99, 0.65),
+                    np.ma.MaskedArray([0.65, 0.1], mask=[0, 1]), b"0.65"):
+            for use in (lambda: clast.predict(bad, (0.7, 0.1)), lambda: clast.predict(flatness=(0.7, 0.1), elongation=bad)):
+                with self.assertRaisesRegex(clast.Error, "^(flatness|elongation): ") as caught:
+                    use()
+                self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def test_masks_are_not_lost(self):
+        def masked(values):
+            return np.ma.MaskedArray(values, mask=np.arange(len(values)) == 1)
+        for use in (lambda: clast.predict(table={**FORMS, "flatness": masked(FORMS["flatness"])}), lambda: clast.grain_statistics({**FORMS, "flatness": masked(FORMS["flatness"])}),
+                    lambda: clast.box_model(sizes={"size": masked([1, 2]), "number": [1.0, 2.0]}, constant=1, n_step=2), lambda: clast.fit({**beds(), "x": masked(beds()["x"])}),
+                    lambda: clast.aggregate(**{**SMALL, "size": masked([3e-5, 2e-5])}), lambda: clast.aggregate(**{**SMALL, "core_size": np.ma.masked}),
+                    lambda: clast.shapes(GRAIN, voxels=masked([2, 2, 2]))):
+            with self.assertRaisesRegex(clast.Error, "^(table: column flatness|sizes: column size|table: column x|size|core_size|voxels): .*masked items"):
+                use()
+        self.assertEqual(clast.predict(table={**FORMS, "flatness": np.ma.MaskedArray(FORMS["flatness"])}).porosity, clast.predict(table=FORMS).porosity)
 
     def test_integers_that_do_not_fit(self):
         grading = clast.Grading("U3")

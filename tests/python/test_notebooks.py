@@ -16,10 +16,12 @@ MISSING = [name for name in ("nbconvert", "ipykernel", "matplotlib") if importli
 
 
 def words(path):
-    """What each cell printed, and whether it drew."""
+    """What each cell printed, and whether it drew; warnings, which name a file of the kernel's, are no part of it."""
     found = []
     for cell in json.loads(path.read_text())["cells"]:
         for out in cell.get("outputs", ()):
+            if out.get("name") == "stderr":
+                continue
             data = out.get("data", {})
             text = "" if "image/png" in data else "".join(out.get("text") or data.get("text/plain", ()))
             found.append((text, "image/png" in data))

@@ -100,6 +100,15 @@ class Others(unittest.TestCase):
         with self.assertRaisesRegex(clast.Error, "^cells: 1 of kind tetra; a surface has triangles"):
             clast.Mesh.from_meshio(meshio.Mesh(CUBE, [("tetra", np.array([[0, 1, 2, 4]]))]))
 
+    def test_indices_of_any_width(self):
+        for kind in ("u8", "i8", "u4", "i2", ">i4"):
+            of = types.SimpleNamespace(points=self.grain.vertices, cells=[("triangle", self.grain.triangles.astype(kind))])
+            self.same(clast.Mesh.from_meshio(of))
+        both = clast.Mesh.from_meshio(types.SimpleNamespace(points=CUBE, cells=[("triangle", SIDES[:1, :3].astype("u8")), ("quad", SIDES[1:].astype("i8"))]))
+        self.assertEqual(len(both.triangles), 11)
+        with self.assertRaisesRegex(clast.Error, "^triangles: a number beyond 32 bits"):
+            clast.Mesh.from_meshio(types.SimpleNamespace(points=CUBE, cells=[("triangle", np.array([[0, 1, 2**63]], "u8"))]))
+
     def test_quadrangles_are_cut_inside(self):
         for turn in range(4):  # an arrow head: area 1, its hull has 2
             arrow = np.array([[0, 0, 0], [2, 0, 0], [0.5, 0.5, 0], [0, 2, 0.0]])
