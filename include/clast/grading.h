@@ -125,12 +125,14 @@ CLAST_API double clast_grading_draw(const clast_grading *grading, uint64_t seed,
 /// Smallest and largest size that can be drawn; the largest is INFINITY for an uncut log-normal.
 CLAST_API void clast_grading_range(const clast_grading *grading, double *low, double *high);
 
-/// Share of the grains, and of their volume at equal shape, that is not larger than this size.
+/// Share of the grains, and of their volume at equal shape, that is not larger than this size; NaN
+/// for NaN.
 CLAST_API double clast_grading_share(const clast_grading *grading, double size);
 CLAST_API double clast_grading_mass_share(const clast_grading *grading, double size);
 
 /// Size that this share of the grains, or of their volume, does not exceed [m]; the inverses of the
-/// two above, in closed form but for masses under `linear` (bisection to the last bits).
+/// two above, in closed form but for masses under `linear` (bisection to the last bits). NaN for a
+/// share outside 0 to 1.
 CLAST_API double clast_grading_size(const clast_grading *grading, double share);
 CLAST_API double clast_grading_mass_size(const clast_grading *grading, double share);
 

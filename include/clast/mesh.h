@@ -54,10 +54,10 @@ CLAST_API double clast_mesh_volume(const clast_mesh *mesh);
 /// Greatest vertex-to-vertex distance, exact (farthest pair of the convex hull's vertices).
 CLAST_API clast_status clast_mesh_length(const clast_mesh *mesh, double *length);
 
-/// Box with one corner at the origin and these edges, 12 triangles.
+/// Box with one corner at the origin and these edges (above 0), 12 triangles.
 CLAST_API clast_status clast_mesh_box(double x, double y, double z, clast_mesh *mesh);
 
-/// Ellipsoid of these semi-axes: an icosahedron divided `level` times (20 * 4^level triangles), on
+/// Ellipsoid of these semi-axes (above 0): an icosahedron divided `level` times (20 * 4^level triangles), on
 /// the surface.
 CLAST_API clast_status clast_mesh_ellipsoid(const double semi_axes[3], int level, clast_mesh *mesh);
 

@@ -57,6 +57,7 @@ CLAST_API double clast_drag_sphere_reynolds(double best);
 ///     C = 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn))                                      [Davies1945]
 ///
 /// @param knudsen  mean free path of the gas over the radius; 0: no slip
+/// @return NaN for less than 0
 CLAST_API double clast_slip_correction(double knudsen);
 
 /// Factor on the drag of a body among others that settle at this local porosity, with no net flow:

@@ -3,7 +3,19 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <math.h>
 #include <string.h>
+
+static clast_status check_lengths(const char *what, const double length[3])
+{
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < 3; ++k) {
+        CLX_CHECK(length[k] > 0.0 && isfinite(length[k]), CLAST_E_ARGUMENT,
+                  "%s is %g, not above 0 and finite", what, length[k]);
+    }
+done:
+    return status;
+}
 
 clast_status clast_mesh_box(double x, double y, double z, clast_mesh *mesh)
 {
@@ -11,15 +23,16 @@ clast_status clast_mesh_box(double x, double y, double z, clast_mesh *mesh)
     static const int32_t tri[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
                                        {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
                                        {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    clast_status status = CLAST_OK;
     clast_mesh made = {0};
-    const clast_status status = clast_mesh_alloc(8, 12, &made);
-    if (status == CLAST_OK) {
-        for (int i = 0; i < 8; ++i) {
-            v3_set(made.vert[i], (i & 1) ? x : 0.0, (i & 2) ? y : 0.0, (i & 4) ? z : 0.0);
-        }
-        memcpy(made.tri, tri, sizeof tri);
-        *mesh = made;
+    CLX_TRY(check_lengths("an edge of the box", (const double[3]){x, y, z}));
+    CLX_TRY(clast_mesh_alloc(8, 12, &made));
+    for (int i = 0; i < 8; ++i) {
+        v3_set(made.vert[i], (i & 1) ? x : 0.0, (i & 2) ? y : 0.0, (i & 4) ? z : 0.0);
     }
+    memcpy(made.tri, tri, sizeof tri);
+    *mesh = made;
+done:
     return status;
 }
 
@@ -104,6 +117,7 @@ clast_status clast_mesh_ellipsoid(const double semi_axes[3], int level, clast_me
     clast_status status = CLAST_OK;
     clast_mesh sphere = {0};
     CLX_CHECK(level >= 0 && level <= 9, CLAST_E_USAGE, "icosphere level %d is outside 0..9", level);
+    CLX_TRY(check_lengths("a semi-axis of the ellipsoid", semi_axes));
     CLX_TRY(icosahedron(&sphere));
     for (int i = 0; i < level; ++i) {
         clast_mesh fine = {0};

@@ -79,6 +79,9 @@ double clast_drag_sphere_reynolds(double best)
 
 double clast_slip_correction(double knudsen)
 {
+    if (!(knudsen >= 0.0)) {
+        return (double)NAN;
+    }
     return knudsen > 0.0 ? 1.0 + knudsen * (1.257 + 0.4 * exp(-1.1 / knudsen)) : 1.0;
 }
 
@@ -86,7 +89,7 @@ double clast_drag_hindrance(double reynolds, double porosity)
 {
     const double off = 1.5 - log10(reynolds);
     const double n = 3.7 - 0.65 * exp(-0.5 * off * off);
-    return pow(fmin(1.0, fmax(0.36, porosity)), -(n + 1.0));
+    return pow(porosity < 0.36 ? 0.36 : porosity > 1.0 ? 1.0 : porosity, -(n + 1.0));
 }
 
 /// Root of C_D Re^2 = wanted by halving in log Re between bounds that hold it.

@@ -562,7 +562,7 @@ static double law_size(const clast_grading *g, bool by_mass, double share)
 
 double clast_grading_share(const clast_grading *grading, double size)
 {
-    if (grading == NULL) {
+    if (grading == NULL || isnan(size)) {
         return (double)NAN;
     }
     return grading->kind == LAW_PIECES ? pieces_share(grading, false, size)
@@ -571,7 +571,7 @@ double clast_grading_share(const clast_grading *grading, double size)
 
 double clast_grading_mass_share(const clast_grading *grading, double size)
 {
-    if (grading == NULL) {
+    if (grading == NULL || isnan(size)) {
         return (double)NAN;
     }
     return grading->kind == LAW_PIECES ? pieces_share(grading, true, size)
@@ -580,7 +580,7 @@ double clast_grading_mass_share(const clast_grading *grading, double size)
 
 double clast_grading_size(const clast_grading *grading, double share)
 {
-    if (grading == NULL) {
+    if (grading == NULL || !(share >= 0.0 && share <= 1.0)) {
         return (double)NAN;
     }
     return grading->kind == LAW_PIECES ? pieces_size(grading, false, share)
@@ -589,7 +589,7 @@ double clast_grading_size(const clast_grading *grading, double share)
 
 double clast_grading_mass_size(const clast_grading *grading, double share)
 {
-    if (grading == NULL) {
+    if (grading == NULL || !(share >= 0.0 && share <= 1.0)) {
         return (double)NAN;
     }
     return grading->kind == LAW_PIECES ? pieces_size(grading, true, share)

@@ -490,6 +490,12 @@ static void bad_work_on_surfaces_is_refused(void **state)
     clast_fields_free(clast_mesh_repair_fields, &repair);
     clast_fields_free(clast_synthesize_fields, &synthesize);
     clast_mesh_free(&box);
+    const double lengths[] = {(double)NAN, 0.0, -1.0, (double)INFINITY};
+    for (int k = 0; k < 4; ++k) {
+        clast_mesh made;
+        REFUSED_INTO(made, clast_mesh_box(1.0, lengths[k], 1.0, &made));
+        REFUSED_INTO(made, clast_mesh_ellipsoid((double[3]){1.0, 1.0, lengths[k]}, 1, &made));
+    }
 }
 
 int main(void)

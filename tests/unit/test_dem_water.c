@@ -77,6 +77,7 @@ static void clouds_settle_as_richardson_and_zaki(void **state)
     CHECK_REL(clast_drag_hindrance(1e-3, 0.7), pow(0.7, -4.7), 1e-3);
     CHECK_REL(clast_drag_hindrance(1e6, 0.7), pow(0.7, -4.7), 1e-3);
     assert_true(clast_drag_hindrance(1.0, 0.2) == clast_drag_hindrance(1.0, 0.36));
+    assert_true(isnan(clast_drag_hindrance(1.0, NAN)) && isnan(clast_drag_hindrance(NAN, 0.5)));
     clast_dem_config c = water();
     c.width = 0.01;
     c.fluid_viscosity = 2.0; /* Re below 1e-2 */

@@ -235,6 +235,8 @@ static void inverses_are_inverses(void **state)
             CHECK_ABS(clast_grading_share(g, clast_grading_size(g, u)), u, 1e-12);
             CHECK_ABS(clast_grading_mass_share(g, clast_grading_mass_size(g, u)), u, 1e-12);
         }
+        assert_true(isnan(clast_grading_size(g, NAN)) && isnan(clast_grading_mass_size(g, 50.0)));
+        assert_true(isnan(clast_grading_share(g, NAN)) && isnan(clast_grading_mass_share(g, NAN)));
         CHECK_REL(clast_grading_size(g, 0.0), low, 1e-12);
         CHECK_REL(clast_grading_size(g, 1.0), high, 1e-12);
         clast_grading_destroy(g);

@@ -115,6 +115,7 @@ static void small_spheres_slip(void **state)
 {
     (void)state;
     assert_true(clast_slip_correction(0.0) == 1.0);
+    assert_true(isnan(clast_slip_correction(NAN)) && isnan(clast_slip_correction(-1.0)));
     CHECK_ABS(clast_slip_correction(0.66), 1.88, 0.005);
     CHECK_REL(clast_slip_correction(1e4), 1.657e4, 1e-3);
 }

@@ -105,7 +105,10 @@ static void unusable_input_is_refused(void **state)
     CHECK_STATUS(clast_shape_sphere("s", INFINITY, &s), CLAST_E_GEOMETRY);
     CHECK_STATUS(clast_shape_sphere("", 1.0, &s), CLAST_E_USAGE);
     CHECK_STATUS(clast_shape_ellipsoid("e", (double[3]){1.0, 0.0, 1.0}, &s), CLAST_E_GEOMETRY);
-    CHECK_OK(clast_mesh_box(1.0, 1.0, -1.0, &box));
+    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &box));
+    for (int i = 0; i < box.n_vert; ++i) {
+        box.vert[i][2] *= -1.0;
+    }
     CHECK_STATUS(clast_shape_mesh("inside_out", &box, &s), CLAST_E_GEOMETRY);
     assert_non_null(strstr(clast_error_detail(), "inside_out"));
     box.vert[3][1] = INFINITY;
