@@ -9,8 +9,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHOWN = ("aggregate", "pack", "shape", "decompose")
-TYPES = {"number": "number", "integer": "number", "flag": "boolean", "text": "string", "texts": "string | string[]",
-         "numbers": "Quantity | Quantity[]"}
+TYPES = {"integer": "number", "flag": "boolean", "text": "string", "texts": "string | string[]"}
+ASKED = ("m", "rad")  # units without which the command takes no number
 # What is linked in, with the file of its terms in its sources.
 LINKED = (("qhull", "COPYING.txt"), ("jansson", "LICENSE"), ("libyaml", "License"), ("zlib", "zlib.h"), ("libpng", "LICENSE"),
           ("pixman", "COPYING"), ("cairo", "COPYING"), ("cairo", "COPYING-MPL-1.1"), ("glibc", "COPYING.LIB"))
@@ -53,8 +53,8 @@ export class ClastError extends Error {{
 export interface Columns {{ [name: string]: Float64Array }}
 export type Points = string | Uint8Array | Record<string, ArrayLike<number>>;
 
-/** A value as it is typed in a terminal: 30e-6 or '30um'. */
-export type Quantity = number | string;
+/** A length or an angle as it is typed in a terminal, with its unit: '30um', '45deg'. */
+export type Quantity = string;
 """
 
 TAIL = """
@@ -85,8 +85,10 @@ export function columnsOf(text: string): Columns;
 def type_of(field):
     if field["choices"] is not None:
         return " | ".join(f"'{choice}'" for choice in field["choices"].split("|"))
-    kind = TYPES[field["type"]]
-    return "Quantity" if kind == "number" and field["unit"] != "-" else kind
+    if field["type"] in TYPES:
+        return TYPES[field["type"]]
+    one = "Quantity" if field["unit"] in ASKED else "number" if field["unit"] == "-" else "number | string"
+    return f"{one} | ({one})[]" if field["type"] == "numbers" else one
 
 
 def options_of(command):

@@ -44,6 +44,9 @@ class SameAnswer(unittest.TestCase):
         self.assertTrue(told["same"])
         self.assertEqual((told["aborted"], told["refused"]), ("AbortError", "ClastError"))
         self.assertEqual(told["waiting"], [True, "AbortError", 0])
+        self.assertEqual(told["files"][0], told["files"][1])
+        self.assertIn("bed/summary.json true", told["files"][0])
+        self.assertTrue(told["no"]["reject"], told["no"])
         print(f"two beds one after the other {told['one']:.1f} s, in two workers {told['many']:.1f} s")
 
 

@@ -1,4 +1,4 @@
-// ClastWorkers under node: workers.mjs PACKAGE CORES -> {one, many, same, ...}: seconds of runs one after the other and side by side; what aborted ones say.
+// ClastWorkers under node: workers.mjs PACKAGE CORES -> {one, many, same, ...}: seconds of runs one after the other and side by side; what aborted ones say, the files they tell of, a check's no.
 import { pathToFileURL } from 'node:url';
 
 const { load, loadWorkers } = await import(pathToFileURL(`${process.argv[2]}/clast.mjs`).href);
@@ -27,5 +27,13 @@ last.abort(); // it waits for a worker yet, and ends before those that have one
 await row[workers.most];
 all.abort();
 const waiting = [order[0] === workers.most, ...new Set(await Promise.all(row)), workers.busy];
+const named = async (runner) => {
+  const names = [];
+  const { status, files } = await runner.run(['pack', '--curve', '4mm', '--mass', '1g', '--width', '20mm', '--height', '30mm', '--max-steps', '2000', '-o', 'bed'],
+    { onFile: (path, bytes) => names.push(`${path} ${bytes.length > 0}`) });
+  return [status, Object.keys(files).length, ...names];
+};
+const files = [await named(clast), await named(workers)];
+const no = await workers.json(['decompose', 'p.csv', '--test-only', '--domain=box:0,0,3481,59'], { files: { 'p.csv': `x,y\n${[...Array(60).keys()].map((k) => `${k * k},${k}`).join('\n')}\n` } });
 const refused = await workers.pack({ curve: '4' }).then(() => 'done', (fault) => fault.name);
-process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, waiting, refused }));
+process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, waiting, refused, files, no }));

@@ -3,7 +3,7 @@
 const HOME = '/work'; // where a command line runs; its files live in memory
 const PROGRESS = /^([a-z][a-z ]*?) (\d+)(?:\/(\d+))?/;
 
-/// A command line that ended with another exit code than 0; the message is the command's own line.
+/// A command line that ended with another exit code than 0 and 1; the message is the command's own line.
 export class ClastError extends Error {
   constructor(words, result) {
     super(result.stderr.trim().split('\n').pop() || `clast ${words[0]} ended with code ${result.status}`);
@@ -172,11 +172,11 @@ export class Clast {
     return { status, stdout: out.text(), stderr: err.text(), files: Object.fromEntries(found) };
   }
 
-  /// The same for a command with --json: its object; a ClastError where the exit code is another than 0.
+  /// The same for a command with --json: its object, also of a check that answered no (1); a ClastError for any other exit code but 0.
   async json(words, how) {
     const whole = [...words, '--json'];
     const result = await this.run(whole, how);
-    if (result.status !== 0) throw new ClastError(whole, result);
+    if (result.status > 1) throw new ClastError(whole, result);
     return { ...JSON.parse(result.stdout), files: result.files, command: commandLine(whole) };
   }
 
@@ -203,10 +203,11 @@ export class Clast {
 
 /// What a worker runs: this module's Clast, fed by messages.
 const SERVE = `
-const answer = (port) => async ({ program, words, files, wantsProgress }) => {
+const answer = (port) => async ({ program, words, files, wantsProgress, wantsFiles }) => {
   try {
     const onProgress = wantsProgress ? (progress) => port.postMessage({ progress }) : undefined;
-    port.postMessage({ result: await new Clast(program).run(words, { files, onProgress }) });
+    const onFile = wantsFiles ? (path, bytes) => port.postMessage({ path, bytes }, [bytes.buffer]) : undefined;
+    port.postMessage({ result: await new Clast(program).run(words, { files, onProgress, onFile }) });
   } catch (fault) { port.postMessage({ fault: String(fault) }); }
 };
 if (typeof self === 'object') self.onmessage = ({ data }) => answer(self)(data);
@@ -265,13 +266,14 @@ export class ClastWorkers extends Clast {
     });
   }
 
-  async runAlone(words, { files = {}, onProgress, signal }) {
+  async runAlone(words, { files = {}, onProgress, onFile, signal }) {
     signal?.throwIfAborted();
     let worker = null;
     try {
       return await new Promise((done, fail) => {
-        const hear = ({ progress, result, fault }) => {
+        const hear = ({ progress, path, bytes, result, fault }) => {
           if (progress) onProgress(progress);
+          else if (path !== undefined) onFile(path, bytes);
           else if (fault) fail(new Error(fault));
           else done(result);
         };
@@ -279,7 +281,7 @@ export class ClastWorkers extends Clast {
         newWorker(hear, (message) => fail(new Error(message))).then((made) => {
           worker = made;
           if (signal?.aborted) worker.terminate();
-          else worker.postMessage({ program: this.program, words: words.map(String), files, wantsProgress: Boolean(onProgress) });
+          else worker.postMessage({ program: this.program, words: words.map(String), files, wantsProgress: Boolean(onProgress), wantsFiles: Boolean(onFile) });
         }, fail);
       });
     } finally {
