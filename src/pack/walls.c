@@ -3,10 +3,11 @@
 // The servo looks every 25 steps at the mean force F since its last look and gives the wall a speed
 // along the direction in which it presses,
 //
-//     v = e + integral of e / (20 tau),  e = (A - F) / (K tau),  |e|, |v| <= load_rate height
+//     v = e + integral of e / (5 tau),  e = (A - F) / (K tau),  |e|, |v| <= load_rate height
 //
 // A the wanted force, K the springs of the wall's contacts, which no bed behind it exceeds, tau =
-// 250 steps. [docs/theory/load.md "Walls"]
+// 50 steps; the integral begins anew where e changes its sign, as a bed many times softer than K
+// would swing. [docs/theory/load.md "Walls"]
 #include "pack/walls.h"
 
 #include "base/alloc.h"
@@ -17,7 +18,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double SLOWLY = (double)CLX_SERVO_STEPS / (20.0 * CLX_SERVO_TIME);
+enum { WALL_TIME = 2 * CLX_SERVO_STEPS };
+
+/// Share of a look's speed that the servo keeps: Delta / (5 tau).
+static const double SLOWLY = (double)CLX_SERVO_STEPS / (5.0 * WALL_TIME);
 
 bool clx_pack_has_walls(const clast_pack_config *c)
 {
@@ -292,10 +296,11 @@ static clast_status press(clast_pack *p, const clast_pack_wall *wall, int32_t nu
     const double most = p->config.load_rate * p->tall;
     double springs = 0.0;
     CLX_TRY(clx_wall_stiffness(p->dem, number, wall->press, &springs));
-    const double stiff = springs * CLX_SERVO_TIME * p->config.dem.time_step;
+    const double stiff = springs * WALL_TIME * p->config.dem.time_step;
     const bool is_near = fabs(off) < most * stiff;
     const double wanted = is_near ? off / stiff : copysign(most, off);
-    const double steady = p->wall[number].steady + SLOWLY * wanted;
+    const double kept = p->wall[number].steady * off > 0.0 ? p->wall[number].steady : 0.0;
+    const double steady = kept + SLOWLY * wanted;
     p->wall[number].steady = is_near ? fmin(fmax(steady, -most), most) : 0.0;
     *speed = fmin(fmax(wanted + p->wall[number].steady, -most), most);
 done:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """clast pack, walls that move, are pressed or open, and outlets: their table, going on after a kill, bad input."""
 import csv
+import math
 import os
 import signal
 import struct
@@ -62,6 +63,15 @@ class Walls(Case):
         self.assertLess(abs(energy["rest"]), 1e-10 * energy["put_in"])
         self.assertGreater(energy["walls"], 0)
         self.assertAlmostEqual(energy["walls"], sum(table[-1][f"{name}_work_J"] for name in ("lid", "floor", "left")), 12)
+
+    def test_a_lid_stops_at_its_pressure(self):
+        """A bed many times softer than the lid's contacts: the servo does not press it to more than it is to carry."""
+        run = self.folder / "run"
+        result = clast("pack", "--curve", "4mm", "--initial-speed", "0.5", "--fluid-density", "0", "--shaking-time", "0", "--shake-amplitude", "0", "--seed", "1",
+                       "--width", "24mm", "--height", "50mm", "--mass", "8g", "--lid", "--wall", "lid", "--load-rate", "4/s", "--load-rest", "0.01", "--stages",
+                       "lid=2kPa until rest", "--series-time", "1ms", "-o", run, "--quiet", "-j", "1")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertLess(max(row["lid_force_z_N"] for row in rows(run / "walls.csv")), 1.1 * 2e3 * math.pi * 12e-3 ** 2)
 
     def silo(self):
         plate, gate = self.folder / "plate.stl", self.folder / "gate.stl"
