@@ -5,11 +5,15 @@
 #include "geom/topology.h"
 #include "math/vec3.h"
 
-enum { LEAF = 4, MOST_NEAR = 256 };
+enum { LEAF = 4, MOST_NEAR = 256, MOST_OWNERS = 16 };
 
 /// Share of the triangle within which a point counts as on a side, and the lean that rounding
 /// makes.
 static const double ON_SIDE = 1e-6;
+
+/// Times its least move that a body may reach beyond the plane of a triangle that pushes it along
+/// its normal: sharper needles than one in forty are not held.
+static const double DEEPEST = 40.0;
 
 /// Pushes whose normals are closer than this cosine are one.
 static const double SAME_PUSH = 0.9;
@@ -163,36 +167,70 @@ bool clx_triangle_owns(const clx_wall_triangle *t, const clx_placed *body,
     return true;
 }
 
-/// Push along the triangle's own normal, away from the side of the body's position: where the
-/// body's deepest point lies over the triangle, or no farther beyond it than the least move. For a
-/// body whose least move off a triangle is sideways though it stands on the surface: a corner that
-/// meets the wall within its own overlap of an edge.
-static bool face_contact(const clx_wall_triangle *t, const clx_placed *body, clx_contact *contact)
+void clx_triangle_face_contact(const clx_wall_triangle *t, const clx_placed *body,
+                               clx_contact *contact)
 {
     double d[3];
-    double nearest[3];
     double plane[4];
-    clx_contact face;
-    const double beyond = ON_SIDE * t->bounding_radius - contact->gap;
     v3_sub(d, body->position, t->centroid);
     v3_scale(plane, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
     plane[3] = v3_dot(plane, t->centroid);
-    clx_plane_contact(body, plane, NULL, &face);
-    v3_add(d, face.point, body->position);
-    v3_axpy(d, d, plane[3] - v3_dot(plane, d), plane);
-    nearest_on(t, d, nearest);
-    if (!(face.gap < 0.0) || v3_distance(nearest, d) > beyond) {
-        return false;
-    }
-    *contact = face;
-    return true;
+    clx_plane_contact(body, plane, NULL, contact);
 }
 
-bool clx_triangle_own_contact(const clx_wall_triangle *t, const clx_placed *body,
-                              clx_contact *contact)
+/// Whether the foot of a body's deepest point is on the triangle, or beyond sides over which the
+/// surface goes on: flat by no more than the body is deep, hollow by ten times that, as there it
+/// is beyond the neighbour, too.
+static bool has_foot(const clx_wall_triangle *t, const clx_placed *body, const clx_contact *face)
 {
-    return clx_triangle_owns(t, body, contact) ||
-           (contact->gap < 0.0 && face_contact(t, body, contact));
+    double foot[3];
+    double nearest[3];
+    double beyond = 1.0;
+    const int behind = v3_dot(face->normal, t->normal) < 0.0;
+    v3_add(foot, face->point, body->position);
+    v3_sub(nearest, foot, t->corner[0]);
+    v3_axpy(foot, foot, -v3_dot(nearest, t->normal), t->normal);
+    for (int k = 0; k < 3; ++k) {
+        double d[3];
+        v3_sub(d, foot, t->corner[k]);
+        if (v3_dot(d, t->out[k]) > ON_SIDE * t->bounding_radius) {
+            if (t->tilt[k][behind] > ON_SIDE) {
+                return false;
+            }
+            beyond = t->tilt[k][1 - behind] > ON_SIDE ? 10.0 : beyond;
+        }
+    }
+    nearest_on(t, foot, nearest);
+    return v3_distance(nearest, foot) <= ON_SIDE * t->bounding_radius - beyond * face->gap;
+}
+
+bool clx_triangle_pushes(const clx_wall_triangle *t, const clx_placed *body,
+                         const clx_contact *least, int32_t n, const clx_contact *owner,
+                         clx_contact *face)
+{
+    if (body->shape->kind == CLX_CONVEX_SPHERE) { // its nearest points are those of the surface
+        return false;
+    }
+    clx_triangle_face_contact(t, body, face);
+    if (!(face->gap < 0.0) || face->gap < DEEPEST * least->gap) {
+        return false;
+    }
+    clx_placed moved = *body;
+    for (int32_t i = 0; i < n; ++i) {
+        if (v3_dot(owner[i].normal, face->normal) > SAME_PUSH) {
+            return false;
+        }
+        v3_axpy(moved.position, moved.position, -owner[i].gap, owner[i].normal);
+    }
+    if (n == 0) {
+        return has_foot(t, body, face);
+    }
+    clx_contact left;
+    if (!clx_triangle_contact(t, &moved, 0.0, NULL, &left) || !(left.gap < ON_SIDE * least->gap)) {
+        return false;
+    }
+    clx_triangle_face_contact(t, &moved, &left);
+    return left.gap < 0.0 && has_foot(t, &moved, &left);
 }
 
 /// Squared distance of a point from a node's box.
@@ -272,16 +310,35 @@ int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body
     CLAST_ASSERT(cap > 0);
     int32_t tri[MOST_NEAR];
     int32_t n = 0;
+    clx_contact owner[MOST_OWNERS];
+    int32_t n_owner = 0;
+    bool has_orphans = false;
     const int32_t n_near = clx_wall_mesh_near(
         wall, body->position, body->shape->bounding_radius + max_gap, MOST_NEAR, tri);
     // More than fit: every triangle is tested, which is slow but misses none.
     const int32_t n_ask = n_near <= MOST_NEAR ? n_near : wall->n_tri;
-    for (int32_t i = 0; i < n_ask; ++i) {
-        clx_wall_contact one = {.tri = n_near <= MOST_NEAR ? tri[i] : i};
-        const clx_wall_triangle *t = &wall->tri[one.tri];
-        if (clx_triangle_contact(t, body, max_gap, NULL, &one.contact) &&
-            clx_triangle_own_contact(t, body, &one.contact)) {
-            n = insert(contact, n, cap, &one);
+    for (int pass = 0; pass < (has_orphans ? 2 : 1); ++pass) {
+        for (int32_t i = 0; i < n_ask; ++i) {
+            clx_wall_contact one = {.tri = n_near <= MOST_NEAR ? tri[i] : i};
+            clx_contact least;
+            const clx_wall_triangle *t = &wall->tri[one.tri];
+            if (!clx_triangle_contact(t, body, max_gap, NULL, &least)) {
+                continue;
+            }
+            const bool owns = clx_triangle_owns(t, body, &least);
+            one.contact = least;
+            has_orphans = has_orphans || (!owns && least.gap < 0.0);
+            if (pass == 0
+                    ? owns
+                    : !owns && least.gap < 0.0 &&
+                          clx_triangle_pushes(t, body, &least, n_owner, owner, &one.contact)) {
+                n = insert(contact, n, cap, &one);
+            }
+        }
+        for (; pass == 0 && n_owner < n && n_owner < MOST_OWNERS &&
+               contact[n_owner].contact.gap < 0.0;
+             ++n_owner) {
+            owner[n_owner] = contact[n_owner].contact;
         }
     }
     return n;
@@ -327,8 +384,9 @@ static void measure_tilts(const clast_mesh *mesh, const clx_topology *topology, 
         }
         const bool is_consistent = clx_half_from(mesh, half) == clx_half_to(mesh, twin);
         const double lean = (is_consistent ? 1.0 : -1.0) * v3_dot(other.normal, t->out[k]);
-        t->tilt[k][0] = fmax(lean, 0.0);
-        t->tilt[k][1] = fmax(-lean, 0.0);
+        const double alike = (is_consistent ? 1.0 : -1.0) * v3_dot(other.normal, t->normal);
+        t->tilt[k][0] = lean > 0.0 && alike < 0.0 ? 1.0 : fmax(lean, 0.0);
+        t->tilt[k][1] = lean < 0.0 && alike < 0.0 ? 1.0 : fmax(-lean, 0.0);
     }
 }
 

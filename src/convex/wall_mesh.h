@@ -11,6 +11,7 @@ typedef struct clx_wall_triangle {
     double out[3][3];  ///< unit, in the plane, out over side k (from corner k to k + 1)
     double tilt[3][2]; ///< most that a push may lean over side k (sine), from the normal's side and
                        ///< from behind: 0 where the surface is flat or hollow, 1 at a free edge
+                       ///< and where the neighbour's plane is turned by more than a right angle
     double centroid[3];
     double bounding_radius; ///< of the corners from the centroid
 } clx_wall_triangle;
@@ -47,10 +48,21 @@ bool clx_triangle_contact(const clx_wall_triangle *triangle, const clx_placed *b
 bool clx_triangle_owns(const clx_wall_triangle *triangle, const clx_placed *body,
                        const clx_contact *contact);
 
-/// The contact of a triangle that overlaps a body: `contact` as clx_triangle_contact found it if
-/// that belongs to the triangle, else its face's. False if another triangle has it.
-bool clx_triangle_own_contact(const clx_wall_triangle *triangle, const clx_placed *body,
-                              clx_contact *contact);
+/// Push along the triangle's own normal, away from the side of the body's position, as deep as the
+/// body reaches beyond its plane.
+void clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_placed *body,
+                               clx_contact *contact);
+
+/// Whether a triangle that overlaps a body, and does not own its least move, pushes along its own
+/// normal all the same: no owner pushes that way, the body moved by all owners' pushes overlaps it
+/// yet, and the body's deepest point is over it or, where the surface goes on flat or hollow, no
+/// farther beyond than it is deep.
+///
+/// @param body  its shape and turn    @param least  the triangle's own least move
+/// @param owner  [n] contacts of the triangles that own theirs    @param face  out
+bool clx_triangle_pushes(const clx_wall_triangle *triangle, const clx_placed *body,
+                         const clx_contact *least, int32_t n, const clx_contact *owner,
+                         clx_contact *face);
 
 /// All contacts of a body with the wall whose gap is at most max_gap, deepest first: one for each
 /// direction of push (25 degrees), at most `cap`. Returns how many.

@@ -118,7 +118,9 @@ void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
     const clx_placed body = place(dem, pair->a, &ball);
     const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
     if (clx_triangle_contact(t, &body, 0.0, warm_start, &contact)) {
-        (void)clx_triangle_own_contact(t, &body, &contact);
+        if (pair->touches != 0 && !clx_triangle_owns(t, &body, &contact)) { // it was found to push
+            clx_triangle_face_contact(t, &body, &contact);
+        }
         touch_from_contact(&contact, touch);
     } else {
         touch->distance = contact.gap;
@@ -204,6 +206,30 @@ static void inherit(const candidates *p, const clx_contact *c, int64_t k, double
     }
 }
 
+/// Pushes of triangles that own no least move, beside those that do.
+static void add_faces(const clast_dem *dem, int32_t i, const clx_placed *body, candidates *p)
+{
+    clx_contact owner[CLX_CONTAINER_TOUCHES];
+    const int32_t n_owner = p->n;
+    memcpy(owner, p->contact, sizeof owner);
+    for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
+        const clx_dem_pair *pair = &dem->list.pair[k];
+        clx_contact least;
+        clx_contact face;
+        if (!clx_pair_is_container(dem, pair)) {
+            break;
+        }
+        const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
+        const clx_warm_start *known = clx_pair_warm_start(dem, pair);
+        clx_warm_start start = known != NULL ? *known : (clx_warm_start){0};
+        if (clx_triangle_contact(t, body, 0.0, known != NULL ? &start : NULL, &least) &&
+            least.gap < 0.0 && !clx_triangle_owns(t, body, &least) &&
+            clx_triangle_pushes(t, body, &least, n_owner, owner, &face)) {
+            insert(p, &face, k);
+        }
+    }
+}
+
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES])
 {
@@ -212,6 +238,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     const clx_placed body = place(dem, i, &ball);
     const double travel = dem->travel[clx_item_grain(dem, i)] + dem->walls.path;
     const double near = 0.1 * clx_item_radius(dem, i);
+    bool has_orphans = false;
     for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
         clx_dem_pair *pair = &dem->list.pair[k];
         clx_contact c;
@@ -226,9 +253,16 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
             clx_triangle_contact(t, &body, near, clx_pair_warm_start(dem, pair), &c);
         remember(&p, pair, clx_pair_history(dem, pair), &c, is_near, k);
         pair->active_from = travel + fmax(c.gap, 0.0);
-        if (is_near && c.gap < 0.0 && clx_triangle_own_contact(t, &body, &c)) {
-            insert(&p, &c, k);
+        if (is_near && c.gap < 0.0) {
+            const bool owns = clx_triangle_owns(t, &body, &c);
+            has_orphans = has_orphans || !owns;
+            if (owns) {
+                insert(&p, &c, k);
+            }
         }
+    }
+    if (has_orphans && body.shape->kind != CLX_CONVEX_SPHERE) {
+        add_faces(dem, i, &body, &p);
     }
     for (int32_t m = 0; m < p.n; ++m) {
         clx_dem_pair *pair = &dem->list.pair[p.pair[m]];

@@ -53,8 +53,9 @@ static inline bool clx_law_is_plain(const clx_law *law)
 /// Laws by the materials that touch: law[a n + b]; n 0: all contacts have the configuration's.
 typedef struct clx_laws {
     int32_t n;
-    clx_law *law;   ///< [n][n]
-    bool are_plain; ///< each of them
+    clx_law *law;    ///< [n][n]
+    bool are_plain;  ///< each of them
+    double adhesion; ///< the greatest of them, or of the configuration's
 } clx_laws;
 
 /// One contact as the law sees it.

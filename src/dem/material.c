@@ -45,6 +45,7 @@ clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n, const clast_dem_c
     clx_law *law = NULL;
     bool has_history = dem->law.has_history;
     bool are_plain = true;
+    double adhesion = 0.0;
     CLX_CHECK(n >= 1 && n <= CLX_MOST_MATERIALS, CLAST_E_USAGE, "%d materials: 1 to %d", n,
               CLX_MOST_MATERIALS);
     CLX_CHECK(dem->n_grain == 0 && dem->laws.n == 0, CLAST_E_USAGE,
@@ -62,9 +63,10 @@ clast_status clast_dem_set_contacts(clast_dem *dem, int32_t n, const clast_dem_c
             law[a * n + b] = law[b * n + a] = clx_law_of_contact(&dem->config, c);
             has_history = has_history || law[a * n + b].has_history;
             are_plain = are_plain && clx_law_is_plain(&law[a * n + b]);
+            adhesion = fmax(adhesion, law[a * n + b].adhesion);
         }
     }
-    dem->laws = (clx_laws){n, law, are_plain};
+    dem->laws = (clx_laws){n, law, are_plain, adhesion};
     dem->law.has_history = has_history;
     law = NULL;
 done:

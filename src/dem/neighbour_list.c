@@ -11,6 +11,7 @@
 #include "base/lines.h"
 #include "convex/facet.h"
 #include "dem/container.h"
+#include "dem/pair_force.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,7 +66,7 @@ static void set_anchor(clast_dem *dem, int32_t i)
     const double flight = LOOK_AHEAD * dem->config.time_step * v3_norm(dem->grain[g].velocity);
     v3_copy(at->position, clx_item_position(dem, i));
     memcpy(at->orientation, dem->motion[g].orientation, sizeof at->orientation);
-    at->margin = dem->config.skin * radius + fmin(flight, radius);
+    at->margin = fmax(dem->config.skin * radius + fmin(flight, radius), clx_item_neck(dem, i));
     for (int c = 0; c < 2; ++c) { // most pairs only touch in one image, none with its own
         if (dem->period[c] > 0.0) {
             const double most = (1.0 + dem->config.skin) * radius;

@@ -128,6 +128,15 @@ static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pai
     return -clx_jkr_tear(clx_pair_law(dem, pair), pair->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
+/// Length of the longest neck that an item may have, at a plane, by the stickiest law; 0 for laws
+/// that have none.
+static inline double clx_item_neck(const clast_dem *dem, int32_t item)
+{
+    clx_law law = dem->law;
+    law.adhesion = fmax(law.adhesion, dem->laws.adhesion);
+    return law.has_neck ? -clx_jkr_tear(&law, clx_item_curve(dem, item)) : 0.0;
+}
+
 /// Factor on a grain's inertia by the fluid that moves along (added mass): 1 + C_m rho_f / rho.
 static inline double clx_heavier(const clast_dem *dem, const clx_motion *m)
 {

@@ -9,19 +9,42 @@
 #include "dem/touch.h"
 #include "math/vec3.h"
 
-/// Triangles whose planes are closer than this cosine are one wall.
+/// Triangles whose pushes are closer than this cosine are one wall.
 static const double SAME_WALL = 0.9;
+
+/// Normal of a pair's triangle, on the side on which its item is.
+static void push_of(const clast_dem *dem, const clx_dem_pair *pair, double push[3])
+{
+    const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
+    double d[3];
+    v3_sub(d, clx_item_position(dem, pair->a), t->centroid);
+    v3_scale(push, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
+}
+
+/// Whether a wall pushes two items the same way: a cylinder may have a long grain's both ends.
+static bool is_same_side(const clast_dem *dem, const clx_dem_pair *p, const clx_dem_pair *q)
+{
+    const clx_wall *wall = &dem->wall[-1 - p->b];
+    double of_p[3];
+    double of_q[3];
+    (void)clx_wall_distance(wall, clx_item_position(dem, p->a), of_p);
+    (void)clx_wall_distance(wall, clx_item_position(dem, q->a), of_q);
+    return v3_dot(of_p, of_q) > SAME_WALL;
+}
 
 static bool is_same_pair(const clast_dem *dem, const clx_dem_pair *p, const clx_dem_pair *q)
 {
     if (clx_pair_is_container(dem, p) && clx_pair_is_container(dem, q)) {
         const int32_t *owner = dem->container->owner;
+        double of_p[3];
+        double of_q[3];
+        push_of(dem, p, of_p);
+        push_of(dem, q, of_q);
         return owner[-1 - p->b - dem->n_wall] == owner[-1 - q->b - dem->n_wall] &&
-               fabs(v3_dot(clx_pair_triangle(dem, p)->normal, clx_pair_triangle(dem, q)->normal)) >
-                   SAME_WALL;
+               v3_dot(of_p, of_q) > SAME_WALL;
     }
     if (p->b < 0 || q->b < 0) {
-        return p->b == q->b;
+        return p->b == q->b && is_same_side(dem, p, q);
     }
     return dem->item[p->b].grain == dem->item[q->b].grain && p->period[0] == q->period[0] &&
            p->period[1] == q->period[1];

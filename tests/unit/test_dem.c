@@ -349,6 +349,42 @@ static void jkr_neck_takes_its_work(void **state)
     }
 }
 
+/* The same two balls under margins of neighbour lists far below and above the neck: a wide neck is
+ * not cut off (0.144 of a radius here; with 0.02 it was at 0.10). */
+static void jkr_neck_is_as_long_for_any_skin(void **state)
+{
+    (void)state;
+    double left[2];
+    for (int wide = 0; wide < 2; ++wide) {
+        clast_dem_config c = scene_space();
+        clast_dem_measures m;
+        c.law = CLAST_DEM_HERTZ;
+        c.cohesion = CLAST_DEM_JKR;
+        c.surface_energy = 2.0;
+        c.restitution = 1.0;
+        c.young = 1e5;
+        c.time_step = 2e-6;
+        c.skin = wide ? 0.7 : 0.02;
+        clast_dem *dem = make(&c);
+        clast_dem_grain pair[2] = {at(-0.9999 * RADIUS, 0.0, 0.0), at(0.9999 * RADIUS, 0.0, 0.0)};
+        pair[0].velocity[0] = -0.31 * 1e-3 / RADIUS;
+        pair[1].velocity[0] = 0.31 * 1e-3 / RADIUS;
+        CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+        do {
+            CHECK_OK(clast_dem_step(dem, 1));
+            clast_dem_measure(dem, &m);
+        } while (m.n_contact > 0);
+        clast_dem_read_grain(dem, 0, &pair[0]);
+        clast_dem_read_grain(dem, 1, &pair[1]);
+        const double gap = pair[1].position[0] - pair[0].position[0] - 2.0 * RADIUS;
+        const clx_law law = clx_law_make(&c);
+        CHECK_REL(gap, -clx_jkr_tear(&law, 0.5 * RADIUS), 0.02);
+        left[wide] = pair[1].velocity[0] - pair[0].velocity[0];
+        clast_dem_destroy(dem);
+    }
+    assert_true(left[0] == left[1]);
+}
+
 /* A rolling sphere on a floor with rolling friction slows by 5/7 mu_r g' (no sliding). */
 static void rolling_friction_slows_a_rolling_sphere(void **state)
 {
@@ -610,6 +646,7 @@ int main(void)
         cmocka_unit_test(attraction_sets_the_overlap),
         cmocka_unit_test(jkr_has_its_known_forces),
         cmocka_unit_test(jkr_neck_takes_its_work),
+        cmocka_unit_test(jkr_neck_is_as_long_for_any_skin),
         cmocka_unit_test(rolling_friction_slows_a_rolling_sphere),
         cmocka_unit_test(drag_ends_at_terminal_velocity),
         cmocka_unit_test(spin_dies_out_by_stokes),

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "dem_scenes.h"
+#include "math/vec3.h"
 
 static const double DENSITY = 2650.0;
 
@@ -271,6 +272,60 @@ static void tripod_slides_beyond_the_angle_of_friction(void **state)
     clast_shape_free(&tripod);
 }
 
+/* A dumb-bell upright in a slot, 0.02 of a radius in the floor and 0.01 in the ceiling of one
+ * surface: each pushes with the whole stiffness, as two walls do (it was shared between them). And
+ * a rod as a chord of a cylinder: both ends are pushed, along their own radii. */
+static void walls_that_face_each_other_share_nothing(void **state)
+{
+    (void)state;
+    const double r = 1e-3;
+    for (int chord = 0; chord < 2; ++chord) {
+        clast_dem_config c = scene_space();
+        clast_spheres pair = {0};
+        clast_shape clump = {0};
+        clast_mesh slot = {0};
+        clast_dem *dem = NULL;
+        clast_dem_grain g = {.scale = 1.0, .density = 2650.0, .orientation = {1.0}};
+        int32_t id = 0;
+        c.restitution = 1.0;
+        c.time_step = 1e-7;
+        if (chord) {
+            c.domain = CLAST_DEM_CYLINDER;
+            c.floor = c.lid = false;
+            c.width = 4.4e-3; // walls at 2.2 r
+        }
+        CHECK_OK(clast_spheres_alloc(2, &pair));
+        for (int k = 0; k < 2; ++k) {
+            v3_set(pair.centre[k], chord ? (2 * k - 1) * r : 0.0, 0.0,
+                   chord ? 0.0 : (2 * k - 1) * r);
+            pair.radius[k] = chord ? 0.5 * r : r;
+        }
+        CHECK_OK(clast_shape_clump("bell", &pair, &clump));
+        CHECK_OK(clast_dem_create(&c, &dem));
+        CHECK_OK(clast_dem_add_shape(dem, &clump, &id));
+        double wanted = 0.0;
+        if (chord) { // centres 0.01 r beyond a distance of 1.7 r from the axis
+            g.position[1] = sqrt(1.71 * 1.71 - 1.0) * r;
+            g.position[2] = 0.5 * c.height;
+            wanted = -2.0 * 0.01 * r * g.position[1] / (1.71 * r);
+        } else {
+            CHECK_OK(clast_mesh_box(12.0 * r, 12.0 * r, 3.97 * r, &slot));
+            CHECK_OK(clast_dem_add_container(dem, &slot));
+            v3_set(g.position, 6.0 * r, 6.0 * r, 1.98 * r);
+            wanted = 0.01 * r;
+        }
+        CHECK_OK(clast_dem_add_grains(dem, 1, &g));
+        CHECK_OK(clast_dem_step(dem, 1));
+        clast_dem_read_grain(dem, 0, &g);
+        const double spring = CLAST_PI * CLAST_PI / (c.collision_time * c.collision_time);
+        CHECK_REL(g.velocity[chord ? 1 : 2], wanted * spring * c.time_step, 1e-3);
+        clast_dem_destroy(dem);
+        clast_mesh_free(&slot);
+        clast_shape_free(&clump);
+        clast_spheres_free(&pair);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -279,6 +334,7 @@ int main(void)
         cmocka_unit_test(open_bin_holds_a_ball),
         cmocka_unit_test(ball_rolls_and_slides_on_a_slope),
         cmocka_unit_test(tripod_slides_beyond_the_angle_of_friction),
+        cmocka_unit_test(walls_that_face_each_other_share_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

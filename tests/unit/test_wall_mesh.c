@@ -5,6 +5,7 @@
 #include "gravel.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
+#include <string.h>
 
 /* A floor z = 0 of 2 n^2 triangles on the square |x|, |y| <= 2. */
 static void make_floor(int n, clast_mesh *mesh)
@@ -258,12 +259,136 @@ static void lip_pushes_once_and_no_deeper(void **state)
     clast_mesh_free(&mesh);
 }
 
+/* Sharp bodies outside of a box, an edge or a corner of either just past the other, and a needle in
+ * the box's hollow edge. A body that a move of 1e-3 brings out is pushed by no more; a vertex that
+ * has passed two walls is pushed by the deeper one at least, and mostly by both. Before, faces
+ * pushed up to 4000 times too deep at outer edges, and bodies left the box through its inner ones.
+ */
+static void sharp_bodies_are_pushed_as_deep_as_they_are(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_wall_mesh *wall = NULL;
+    clx_hull_core *core[2] = {support_core(47, 0, 4, (const double[3]){1.0, 1.0, 1.0}),
+                              support_core(47, 1, 40, (const double[3]){1.0, 0.25, 0.2})};
+    const clx_convex shapes[2] = {clx_convex_hull(core[0], 1.0), clx_convex_hull(core[1], 1.0)};
+    const double depth = 1e-3;
+    int n_deep = 0;
+    int n_one = 0;
+    int n_edge = 0;
+    CHECK_OK(clast_mesh_box(2.0, 2.0, 2.0, &mesh));
+    CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+    for (uint64_t i = 0; i < 10000; ++i) {
+        clx_rng rng = clx_rng_at(45, CLX_STREAM_TEST, i);
+        double turn[9];
+        double away[3];
+        double high = 4.0;
+        double low = 4.0;
+        clx_placed body = {&shapes[i % 2], turn, {0.0, 0.0, 0.0}};
+        clx_wall_contact met[4];
+        random_turn(&rng, turn);
+        clx_rng_direction(&rng, away);
+        do { // from outside until it touches, then where it comes free
+            const double at = low == high ? high - 0.05 : 0.5 * (low + high);
+            clx_contact c;
+            bool meets = false;
+            v3_axpy(body.position, (const double[3]){1.0, 1.0, 1.0}, at, away);
+            for (int32_t k = 0; k < wall->n_tri; ++k) {
+                meets = meets ||
+                        (clx_triangle_contact(&wall->tri[k], &body, 0.0, NULL, &c) && c.gap < 0.0);
+            }
+            high = meets ? high : at;
+            low = meets || low > at ? at : low;
+        } while (high == low || high - low > 1e-12);
+        v3_axpy(body.position, (const double[3]){1.0, 1.0, 1.0}, high - depth, away);
+        const int32_t n = clx_wall_mesh_contacts(wall, &body, 0.0, 4, met);
+        assert_true(n >= 1);
+        assert_true(met[0].contact.gap > -2.0 * depth); // the deepest
+        n_deep += met[0].contact.gap < -1.001 * depth ? 1 : 0;
+    }
+    for (uint64_t i = 0; i < 20000; ++i) { // a vertex, the farthest along (1, 1, 0), in the edge
+        clx_rng rng = clx_rng_at(46, CLX_STREAM_TEST, i);
+        double turn[9];
+        double tip[3];
+        clx_placed body = {&shapes[1], turn, {0.0, 0.0, 0.0}};
+        clx_wall_contact met[4];
+        clx_contact at[2];
+        random_turn(&rng, turn);
+        for (int k = 0; k < 2; ++k) {
+            const double plane[4] = {k == 0 ? -1.0 : 0.0, k == 1 ? -1.0 : 0.0, 0.0, -2.0};
+            clx_plane_contact(&body, plane, NULL, &at[k]);
+            body.position[k] = at[k].gap + depth * (0.2 + clx_rng_uniform(&rng));
+        }
+        body.position[2] = 1.0;
+        for (int k = 0; k < 2; ++k) {
+            const double plane[4] = {k == 0 ? -1.0 : 0.0, k == 1 ? -1.0 : 0.0, 0.0, -2.0};
+            clx_plane_contact(&body, plane, NULL, &at[k]);
+        }
+        v3_sub(tip, at[0].point, at[1].point);
+        const int32_t n = clx_wall_mesh_contacts(wall, &body, 0.0, 4, met);
+        if (v3_norm(tip) > 2.0 * depth) { // two vertices
+            continue;
+        }
+        assert_true(n == 1 || n == 2);
+        CHECK_ABS(met[0].contact.gap, fmin(at[0].gap, at[1].gap), 1e-9);
+        if (n == 2) {
+            CHECK_ABS(met[1].contact.gap, fmax(at[0].gap, at[1].gap), 1e-9);
+        }
+        n_one += n == 1 ? 1 : 0;
+        ++n_edge;
+    }
+    assert_true(n_deep <= 2 && n_edge > 300 && n_one < 0.1 * n_edge);
+    clx_wall_mesh_destroy(wall);
+    clx_hull_core_destroy(core[0]);
+    clx_hull_core_destroy(core[1]);
+    clast_mesh_free(&mesh);
+}
+
+/* A ridge of two plates, blunt to sharp, under a ball: one push, away from the ridge. Sharper than
+ * 60 degrees it pushed nothing. */
+static void ridges_push_however_sharp(void **state)
+{
+    (void)state;
+    static const double unturned[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    static const int32_t tri[4][3] = {{0, 1, 3}, {0, 3, 2}, {1, 0, 4}, {1, 4, 5}};
+    for (int angle = 10; angle < 180; angle += 10) {
+        clast_mesh mesh = {0};
+        clx_wall_mesh *wall = NULL;
+        const double half = 0.5 * angle * CLAST_PI / 180.0;
+        CHECK_OK(clast_mesh_alloc(6, 4, &mesh));
+        memcpy(mesh.tri, tri, sizeof tri);
+        for (int k = 0; k < 2; ++k) {
+            v3_set(mesh.vert[k], 0.0, k == 0 ? -2.0 : 2.0, 0.0);
+            v3_set(mesh.vert[2 + k], sin(half), k == 0 ? -2.0 : 2.0, -cos(half));
+            v3_set(mesh.vert[4 + k], -sin(half), k == 0 ? -2.0 : 2.0, -cos(half));
+        }
+        CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+        for (int lean = -2; lean <= 2; ++lean) { // within the fan of normals
+            const double from = 0.2 * lean * (0.5 * CLAST_PI - half);
+            const clx_convex shapes[2] = {clx_convex_sphere(0.5),
+                                          clx_convex_ellipsoid((const double[3]){0.5, 0.5, 0.5})};
+            for (int k = 0; k < 2; ++k) {
+                const clx_placed body = {
+                    &shapes[k], unturned, {0.49 * sin(from), 0.1, 0.49 * cos(from)}};
+                clx_wall_contact met[4];
+                assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.0, 4, met), 1);
+                CHECK_ABS(met[0].contact.gap, -0.01, 1e-9);
+                CHECK_ABS(met[0].contact.normal[0], sin(from), 1e-6);
+            }
+        }
+        clx_wall_mesh_destroy(wall);
+        clast_mesh_free(&mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floor_of_triangles_is_a_plane),
         cmocka_unit_test(ball_is_a_round_ellipsoid),
         cmocka_unit_test(lip_pushes_once_and_no_deeper),
+        cmocka_unit_test(sharp_bodies_are_pushed_as_deep_as_they_are),
+        cmocka_unit_test(ridges_push_however_sharp),
         cmocka_unit_test(box_pushes_from_each_wall),
         cmocka_unit_test(triangle_remembers),
         cmocka_unit_test(walls_survive_refused_memory),
