@@ -78,8 +78,14 @@ done:
     return status;
 }
 
-static clast_status print(const cli_common *common, const clast_study_report *report)
+static clast_status print(const cli_common *common, const clast_study_config *config,
+                          const clast_study_report *report)
 {
+    if (report->n_unknown > 0) {
+        (void)fprintf(stderr, "clast study: keep: '%s'%s: no run's result has such a number\n",
+                      cli_name(config->keep.item[report->first_unknown]),
+                      report->n_unknown > 1 ? " and others" : "");
+    }
     if (report->n_failed > 0) {
         (void)fprintf(stderr,
                       "clast study: %lld of %lld runs failed; the first says why in "
@@ -137,7 +143,7 @@ static clast_status run(const cli_common *common, void *context)
                                        .context = workers};
     status = clast_study_run(config, common->output, &worker, common->comm, &monitor, &report);
     if (common->comm->rank == 0 && (status == CLAST_OK || status == CLAST_E_NO)) {
-        const clast_status printed = print(common, &report);
+        const clast_status printed = print(common, config, &report);
         status = printed != CLAST_OK ? printed : status;
     }
 done:

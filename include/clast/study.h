@@ -57,12 +57,14 @@ typedef struct clast_study_worker {
 } clast_study_worker;
 
 typedef struct clast_study_report {
-    int64_t n_run;        ///< of the whole plan
-    int64_t n_before;     ///< that were whole already when this call began
-    int64_t n_done;       ///< of this call that ended with 0
-    int64_t n_failed;     ///< of this call that ended otherwise
-    int64_t n_other;      ///< left to other shards, or done by another study beside this one
-    int64_t first_failed; ///< number of the first run that failed, or 0
+    int64_t n_run;         ///< of the whole plan
+    int64_t n_before;      ///< that were whole already when this call began
+    int64_t n_done;        ///< of this call that ended with 0
+    int64_t n_failed;      ///< of this call that ended otherwise
+    int64_t n_other;       ///< left to other shards, or done by another study beside this one
+    int64_t first_failed;  ///< number of the first run that failed, or 0
+    int32_t n_unknown;     ///< names of `keep` that no run's result has
+    int32_t first_unknown; ///< the first of them, as an index into `keep`
 } clast_study_report;
 
 /// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.

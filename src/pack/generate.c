@@ -95,20 +95,27 @@ done:
     return status;
 }
 
+/// Lengths L, I, S of a drawn form, I = 1.
+static void draw_form(const clast_pack *p, int64_t index, double lis[3])
+{
+    const clast_form_law law = law_of(&p->config);
+    double flatness = 1.0;
+    double elongation = 1.0;
+    clast_form_law_draw(&law, p->config.seed, (uint64_t)index, &flatness, &elongation);
+    v3_set(lis, 1.0 / elongation, 1.0, flatness);
+}
+
 /// The drawn shape stretched to a drawn form, as a shape of the simulation of its own; `form` is
 /// its number, or -1 before it is made.
 static clast_status stretch(clast_pack *p, int64_t index, const clast_shape *shape, int32_t *form,
                             double size_volume[2])
 {
     clast_status status = CLAST_OK;
-    const clast_form_law law = law_of(&p->config);
     clast_shape made = {0};
     clast_mesh mesh = {0};
     char name[64];
-    double flatness = 1.0;
-    double elongation = 1.0;
-    clast_form_law_draw(&law, p->config.seed, (uint64_t)index, &flatness, &elongation);
-    const double lis[3] = {1.0 / elongation, 1.0, flatness};
+    double lis[3];
+    draw_form(p, index, lis);
     (void)snprintf(name, sizeof name, "form-%lld", (long long)index);
     if (shape->kind == CLAST_SHAPE_MESH) {
         CLX_TRY(clast_reform_mesh(&shape->mesh, lis, &mesh));
@@ -149,18 +156,24 @@ static void draw_motion(const clast_pack *p, int64_t index, double size, clast_d
     }
 }
 
+static int32_t draw_shape(const clast_pack *p, int64_t index)
+{
+    clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);
+    const double u = clx_rng_uniform(&rng);
+    int32_t shape = 0;
+    while (shape < p->input.n_shape - 1 && u > p->weight[shape]) {
+        ++shape;
+    }
+    return shape;
+}
+
 clast_status clx_pack_draw(clast_pack *p, clx_pack_number *number, clast_dem_grain *g)
 {
     CLAST_ASSERT(number->index >= 0);
     clast_status status = CLAST_OK;
     const int64_t index = number->index;
-    clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);
-    const double u = clx_rng_uniform(&rng);
     const double size = clast_grading_draw(p->input.grading, p->config.seed, (uint64_t)index);
-    int32_t shape = 0;
-    while (shape < p->input.n_shape - 1 && u > p->weight[shape]) {
-        ++shape;
-    }
+    const int32_t shape = draw_shape(p, index);
     double at[2] = {p->unit_size[shape][0], p->unit_size[shape][1]};
     *g = (clast_dem_grain){.shape = shape, .density = clx_pack_density(p, index, shape, size)};
     if (p->config.form_law) {
@@ -190,28 +203,96 @@ static double reach_limit(const clast_dem_config *d)
 static const int64_t SAMPLE = 1 << 20;
 static const double MOST_GRAINS = 1e8;
 
+/// Greatest distance from the origin once the axes are stretched by these factors.
+static double stretched_reach(const clast_mesh *mesh, const double factor[3])
+{
+    double r2 = 0.0;
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const double *x = mesh->vert[mesh->tri[t][k]];
+            r2 = fmax(r2,
+                      v3_norm2((double[3]){factor[0] * x[0], factor[1] * x[1], factor[2] * x[2]}));
+        }
+    }
+    return sqrt(r2);
+}
+
+/// Grains as they are drawn, of a form law too, without making their shapes.
+typedef struct {
+    clast_mesh *principal; ///< [n_shape] in its principal frame, made when a grain needs it
+    double limit;          ///< greatest reach
+    double reach, mass; ///< of the grain at hand; the reach no less than it is, exact above limit
+} draws;
+
+/// A stretched shape has the axes of its form, and the volume follows them (see `stretch`).
+static clast_status measure_form(const clast_pack *p, draws *all, int64_t index)
+{
+    clast_status status = CLAST_OK;
+    const int32_t number = draw_shape(p, index);
+    const clast_shape *shape = &p->input.shape[number];
+    const bool is_mesh = shape->kind == CLAST_SHAPE_MESH;
+    const double size = clast_grading_draw(p->input.grading, p->config.seed, (uint64_t)index);
+    double lis[3];
+    double was[3];
+    double factor[3];
+    draw_form(p, index, lis);
+    clast_shape form = {.semi_axes = {0.5 * lis[0], 0.5 * lis[1], 0.5 * lis[2]}};
+    for (int k = 0; k < 3; ++k) {
+        factor[k] = form.semi_axes[k] / shape->semi_axes[k];
+    }
+    form.volume = is_mesh ? shape->volume * factor[0] * factor[1] * factor[2]
+                          : CLAST_PI / 6.0 * lis[0] * lis[1] * lis[2];
+    const double scale = size / clx_pack_size_of(&form, p->config.size_meaning);
+    all->mass = clx_pack_density(p, index, number, size) * form.volume * scale * scale * scale;
+    all->reach =
+        scale * (is_mesh ? fmax(factor[0], fmax(factor[1], factor[2])) * shape->bounding_radius
+                         : form.semi_axes[0]);
+    if (is_mesh && all->reach > all->limit) {
+        clast_mesh *principal = &all->principal[number];
+        if (principal->n_tri == 0) {
+            CLX_TRY(clast_reform_principal(&shape->mesh, principal, was));
+        }
+        all->reach = scale * stretched_reach(principal, factor);
+    }
+done:
+    return status;
+}
+
+static clast_status measure_draw(clast_pack *p, draws *all, int64_t index)
+{
+    clast_status status = CLAST_OK;
+    clast_dem_grain g;
+    clx_pack_number number = {index, -1};
+    double measures[2];
+    if (p->config.form_law) {
+        return measure_form(p, all, index);
+    }
+    CLX_TRY(clx_pack_draw(p, &number, &g));
+    clx_dem_shape_measures(p->dem, g.shape, measures);
+    all->reach = g.scale * measures[0];
+    all->mass = g.density * measures[1] * g.scale * g.scale * g.scale;
+done:
+    return status;
+}
+
 clast_status clx_pack_check_draws(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const clast_dem_config *d = &p->config.dem;
-    const double limit = reach_limit(d);
+    draws all = {.limit = reach_limit(d)};
     double mass = 0.0;
-    for (int64_t i = 0; mass < p->config.mass && !p->config.form_law; ++i) {
-        clast_dem_grain g;
-        clx_pack_number number = {i, -1};
-        double measures[2];
-        CLX_TRY(clx_pack_draw(p, &number, &g));
-        clx_dem_shape_measures(p->dem, g.shape, measures);
-        const double reach = g.scale * measures[0];
-        CLX_CHECK(reach <= limit, CLAST_E_GEOMETRY,
+    CLX_TRY(clx_alloc(&all.principal, p->input.n_shape, sizeof *all.principal));
+    for (int64_t i = 0; mass < p->config.mass; ++i) {
+        CLX_TRY(measure_draw(p, &all, i));
+        CLX_CHECK(all.reach <= all.limit, CLAST_E_GEOMETRY,
                   "grain %lld of this seed reaches %s across, more than %s of %s; take a wider "
                   "domain, or another seed if few grains are as large",
-                  (long long)i, clx_unit_text(2.0 * reach, "m"),
+                  (long long)i, clx_unit_text(2.0 * all.reach, "m"),
                   d->domain == CLAST_DEM_CELL       ? "half the period, less the skin,"
                   : d->domain == CLAST_DEM_PERIODIC ? "the period, less the skin,"
                                                     : "the width",
                   clx_unit_text(fmin(d->width, d->depth > 0.0 ? d->depth : d->width), "m"));
-        mass += g.density * measures[1] * g.scale * g.scale * g.scale;
+        mass += all.mass;
         CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,
                   "%s of such grains are about %.2g, at most %g are packed; take less mass or "
                   "larger grains",
@@ -219,5 +300,9 @@ clast_status clx_pack_check_draws(clast_pack *p)
                   MOST_GRAINS);
     }
 done:
+    for (int32_t i = 0; all.principal != NULL && i < p->input.n_shape; ++i) {
+        clast_mesh_free(&all.principal[i]);
+    }
+    clx_free(all.principal);
     return status;
 }

@@ -99,7 +99,7 @@ clast_status clx_pack_check_densities(const clast_pack *pack);
 clast_status clx_pack_draw(clast_pack *pack, clx_pack_number *number, clast_dem_grain *grain);
 
 /// Refuses a seed that draws a grain too large for the domain, before hours are spent on others.
-/// Forms drawn from a law are checked when they are made.
+/// Forms of a law are measured without being made.
 clast_status clx_pack_check_draws(clast_pack *pack);
 
 /// Makes one fill of grains; mass and n_made follow.

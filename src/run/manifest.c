@@ -174,6 +174,36 @@ done:
     return status;
 }
 
+/// The digest that a manifest's list of inputs has for a file, or NULL.
+static const char *digest_in(const json_t *inputs, const input_file *input)
+{
+    for (size_t i = 0; i < json_array_size(inputs); ++i) {
+        const json_t *item = json_array_get(inputs, i);
+        const char *role = json_string_value(json_object_get(item, "role"));
+        const char *path = json_string_value(json_object_get(item, "path"));
+        if (role != NULL && path != NULL && strcmp(role, input->role) == 0 &&
+            strcmp(path, input->path) == 0) {
+            return json_string_value(json_object_get(item, "sha256"));
+        }
+    }
+    return NULL;
+}
+
+clast_status clx_manifest_check_input(const clast_manifest *manifest, const json_t *earlier)
+{
+    CLAST_ASSERT(manifest->n_input > 0);
+    clast_status status = CLAST_OK;
+    const input_file *input = &manifest->input[manifest->n_input - 1];
+    const char *was = digest_in(earlier, input);
+    CLX_CHECK(was == NULL || input->sha256[0] == '\0' || strcmp(was, input->sha256) == 0,
+              CLAST_E_FORMAT,
+              "%s (%s) is not the one that the checkpoint was made with: the file has changed; put "
+              "the old one back, or begin anew",
+              input->path, input->role);
+done:
+    return status;
+}
+
 clast_status clast_manifest_note(clast_manifest *manifest, const char *key, const char *text)
 {
     CLX_ARGUMENTS(manifest, key, text);

@@ -32,7 +32,9 @@ CLX_SHARED void clx_run_state_line(const char *folder, const clx_run_state *stat
 bool clx_run_owns(const clx_run_state *state, const char *name);
 
 /// Goes on in a folder: as clast_run_folder_begin and open, for a run that left a checkpoint or a
-/// state. CLAST_E_DISK while another process is at it.
+/// state. CLAST_E_DISK while another process is at it. Its inputs
+/// (clast_run_folder_input) are refused with CLAST_E_FORMAT when they are not the files that the
+/// manifest there has the digests of.
 CLX_SHARED clast_status clx_run_folder_resume(const char *folder, const char *command,
                                               const clast_monitor *monitor, clast_run_folder **run);
 
@@ -69,6 +71,10 @@ CLX_SHARED clast_status clx_run_remove_tree(const char *folder);
 
 /// Keeps the name of a file or folder that the run wrote.
 clast_status clx_manifest_output(clast_manifest *manifest, const char *name);
+
+/// Refuses (CLAST_E_FORMAT) the last input when `earlier`, the list "inputs" of a manifest, has
+/// another digest for its role and path. What that does not list, or has no digest, passes.
+clast_status clx_manifest_check_input(const clast_manifest *manifest, const json_t *earlier);
 
 /// Keeps how much of the run is done, 0 to 1; written while it is not done.
 CLX_SHARED void clx_manifest_progress(clast_manifest *manifest, double share);

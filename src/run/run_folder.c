@@ -25,6 +25,7 @@ struct clast_run_folder {
     int lock;       ///< descriptor of the folder, or -1
     char *command;
     clast_manifest *manifest;
+    json_t *earlier;   ///< "inputs" of the manifest that a resumed run left, or NULL
     clx_folder others; ///< what lay in the folder before
 };
 
@@ -43,6 +44,7 @@ void clast_run_folder_destroy(clast_run_folder *run)
     }
     unlock(run);
     clast_manifest_destroy(run->manifest);
+    json_decref(run->earlier);
     clx_folder_free(&run->others);
     clx_free(run->folder);
     clx_free(run->path);
@@ -257,6 +259,7 @@ clast_status clast_run_folder_input(clast_run_folder *run, const char *role, con
                   "%s belongs to the run that would be replaced: take another output folder", path);
     }
     CLX_TRY(clast_manifest_input(run->manifest, role, path));
+    CLX_TRY(clx_manifest_check_input(run->manifest, run->earlier));
 done:
     clx_run_state_free(&state);
     free(file); // the system's, both
@@ -352,6 +355,7 @@ clast_status clx_run_folder_resume(const char *folder, const char *command,
               "%s is a run of clast %s, not of %s", folder, state.command, command);
     CLX_TRY(create(folder, command, monitor, &made));
     made->is_resumed = true;
+    made->earlier = json_incref(json_object_get(state.manifest, "inputs"));
     CLX_TRY(clast_manifest_note(made->manifest, "resumed", "yes"));
     clx_manifest_progress(made->manifest, isfinite(state.share) ? state.share : 0.0);
     if (state.replaces[0] != '\0' && !state.is_whole) {

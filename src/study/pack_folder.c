@@ -97,7 +97,6 @@ done:
 static clast_status draw_lines(const char *path, const clast_table *load, const char *title,
                                const char *unit, int n, const char *const (*name)[2])
 {
-    clast_status status = CLAST_OK;
     clast_series line[8];
     CLAST_ASSERT(n >= 1 && n <= 8);
     for (int k = 0; k < n; ++k) {
@@ -113,8 +112,84 @@ static clast_status draw_lines(const char *path, const clast_table *load, const 
                                .y = {.label = unit},
                                .series = line,
                                .n_series = n};
+    return clast_chart_write(&chart, path);
+}
+
+/// Energy that was put in, and where it is or went: curves that add up to the first (the book's own
+/// kinds, rolling at grains and walls as one).
+static const char *const energy_kind[][3] = {
+    {"put in", "energy_put_in_J", NULL},
+    {"kinetic", "energy_translation_J", NULL},
+    {"rotation", "energy_rotation_J", NULL},
+    {"normal springs", "energy_normal_springs_J", NULL},
+    {"tangential springs", "energy_tangential_springs_J", NULL},
+    {"attraction", "energy_attraction_J", NULL},
+    {"damping, grains", "lost_damping_grains_J", NULL},
+    {"damping, walls", "lost_damping_walls_J", NULL},
+    {"friction, grains", "lost_friction_grains_J", NULL},
+    {"friction, walls", "lost_friction_walls_J", NULL},
+    {"rolling", "lost_rolling_grains_J", "lost_rolling_walls_J"},
+    {"fluid", "lost_fluid_J", NULL},
+    {"damping of all velocities", "lost_calming_J", NULL},
+    {"left with grains", "lost_left_J", NULL},
+    {"scheme", "lost_scheme_J", NULL},
+    {"all else", "energy_rest_J", NULL}};
+enum { N_ENERGY = sizeof energy_kind / sizeof *energy_kind };
+
+/// Curves of `n` rows each in y: kinds that never reach a hundredth of the most that was put in
+/// join the last.
+static int32_t gather_energy(const clast_table *load, double *y, clast_series line[N_ENERGY])
+{
+    const int64_t n = load->n_row;
+    double *const rest = y + (N_ENERGY - 1) * n;
+    double most = 0.0;
+    int32_t n_line = 0;
+    for (int k = 0; k < N_ENERGY; ++k) {
+        double greatest = 0.0;
+        for (int c = 1; c < 3 && energy_kind[k][c] != NULL; ++c) {
+            const double *column = clast_table_numbers(load, energy_kind[k][c]);
+            for (int64_t i = 0; i < n; ++i) {
+                y[k * n + i] += column[i];
+            }
+        }
+        for (int64_t i = 0; i < n; ++i) {
+            greatest = fmax(greatest, fabs(y[k * n + i]));
+        }
+        most = k == 0 ? greatest : most;
+        if (greatest > 0.01 * most || k == 0 || k == N_ENERGY - 1) {
+            line[n_line] = (clast_series){.kind = CLAST_SERIES_LINE,
+                                          .label = energy_kind[k][0],
+                                          .x = clast_table_numbers(load, "time_s"),
+                                          .y = y + k * n,
+                                          .n = n,
+                                          .colour = n_line % 8,
+                                          .dashed = n_line >= 8};
+            ++n_line;
+        } else {
+            for (int64_t i = 0; i < n; ++i) {
+                rest[i] += y[k * n + i];
+            }
+        }
+    }
+    return n_line;
+}
+
+static clast_status draw_energy_book(const char *path, const clast_table *load)
+{
+    clast_status status = CLAST_OK;
+    double *y = NULL;
+    clast_series line[N_ENERGY];
+    CLX_TRY(clx_alloc(&y, N_ENERGY * load->n_row, sizeof *y));
+    const clast_chart chart = {.title = "Energy by kind",
+                               .x = {.label = "time (s)"},
+                               .y = {.label = "energy (J)"},
+                               .series = line,
+                               .n_series = gather_energy(load, y, line),
+                               .width = 600.0,
+                               .height = 420.0};
     CLX_TRY(clast_chart_write(&chart, path));
 done:
+    clx_free(y);
     return status;
 }
 
@@ -125,12 +200,6 @@ static clast_status write_load(const char *folder, const clast_pack *pack)
                                              {"stress_yy_Pa", "yy"},
                                              {"stress_zz_Pa", "zz"},
                                              {"stress_xz_Pa", "xz"}};
-    static const char *const energy[6][2] = {{"energy_put_in_J", "put in"},
-                                             {"energy_translation_J", "kinetic"},
-                                             {"energy_normal_springs_J", "springs"},
-                                             {"lost_damping_grains_J", "damping, grains"},
-                                             {"lost_friction_grains_J", "friction, grains"},
-                                             {"lost_scheme_J", "scheme"}};
     clast_status status = CLAST_OK;
     char path[CLX_PACK_PATH];
     const clast_table *load = clast_pack_load_table(pack);
@@ -142,9 +211,9 @@ static clast_status write_load(const char *folder, const clast_pack *pack)
         CLX_TRY(clx_pack_path(path, folder, "load.svg"));
         CLX_TRY(draw_lines(path, load, "Stress, pressure above 0", "stress (Pa)", 4, stress));
     }
-    if (load->n_row > 1 && clast_table_numbers(load, energy[0][0]) != NULL) {
+    if (load->n_row > 1 && clast_table_numbers(load, energy_kind[0][1]) != NULL) {
         CLX_TRY(clx_pack_path(path, folder, "energy_book.svg"));
-        CLX_TRY(draw_lines(path, load, "Energy by kind", "energy (J)", 6, energy));
+        CLX_TRY(draw_energy_book(path, load));
     }
 done:
     return status;
@@ -159,12 +228,17 @@ static clast_status draw_walls(const char *folder, const clast_table *walls)
     char path[CLX_PACK_PATH];
     char label[MOST][NAME];
     const char *name[MOST][2];
+    char title[2 * NAME];
     int n = 0;
-    for (int32_t c = 0; c < walls->n_column && n < MOST; ++c) {
+    int n_wall = 0;
+    for (int32_t c = 0; c < walls->n_column; ++c) {
         const char *column = walls->column[c].name;
         const size_t length = strlen(column);
         const size_t tail = sizeof ending - 1;
-        if (length > tail && strcmp(column + length - tail, ending) == 0) {
+        if (length <= tail || strcmp(column + length - tail, ending) != 0) {
+            continue;
+        }
+        if (n_wall++ < MOST) {
             (void)snprintf(label[n], NAME, "%.*s", (int)(length - tail), column);
             name[n][0] = column;
             name[n][1] = label[n];
@@ -172,9 +246,13 @@ static clast_status draw_walls(const char *folder, const clast_table *walls)
         }
     }
     if (n > 0) {
+        (void)snprintf(title, sizeof title, "Vertical force of grains on walls");
+        if (n < n_wall) {
+            (void)snprintf(title, sizeof title,
+                           "Vertical force of grains on walls (the first %d of %d)", n, n_wall);
+        }
         CLX_TRY(clx_pack_path(path, folder, "walls.svg"));
-        CLX_TRY(draw_lines(path, walls, "Vertical force of grains on walls", "force (N)", n,
-                           (const char *const(*)[2])name));
+        CLX_TRY(draw_lines(path, walls, title, "force (N)", n, (const char *const(*)[2])name));
     }
 done:
     return status;

@@ -20,12 +20,17 @@ bool clx_study_is_answer(int exit_code);
 clast_status clx_study_keep(const clast_study_config *config, const char *folder,
                             const clast_table *plan);
 
+/// Refuses to go on (CLAST_E_USAGE) when an input file of a run that is done, by its manifest, has
+/// changed since. Files that are gone pass.
+clast_status clx_study_check_inputs(const char *folder, const clast_table *plan);
+
 /// FOLDER/exit_code of a run.
 clast_status clx_study_write_exit(const char *run_folder, int exit_code);
 
-/// Writes FOLDER/results.csv and FOLDER/times.csv from the runs that are there.
+/// Writes FOLDER/results.csv and FOLDER/times.csv from the runs that are there; the report's
+/// n_unknown and first_unknown.
 clast_status clx_study_collect(const clast_study_config *config, const char *folder,
-                               const clast_table *plan);
+                               const clast_table *plan, clast_study_report *report);
 
 /// What all runs of a study share.
 typedef struct {

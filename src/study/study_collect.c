@@ -19,6 +19,9 @@ typedef struct {
     const clast_study_config *config;
     clast_table results, times;
     int64_t row;
+    int64_t n_read;  ///< runs that are whole
+    bool *has_kept;  ///< [keep.n] whether one of them has it
+    bool only_times; ///< of all numbers, where some are kept
     clast_status status;
 } gatherer;
 
@@ -87,7 +90,7 @@ static void put_all(gatherer *g, const char *prefix, json_t *object)
         }
         if (json_is_object(value)) {
             put_all(g, name, value);
-        } else if (as_number(value, &number)) {
+        } else if (as_number(value, &number) && (is_time(name) || !g->only_times)) {
             append_result(g, name, number);
         }
     }
@@ -111,9 +114,12 @@ static void put_kept(gatherer *g, json_t *root)
 {
     for (int32_t i = 0; i < g->config->keep.n; ++i) {
         double number = NAN;
-        if (!as_number(find(root, g->config->keep.item[i]), &number)) {
+        const json_t *value = find(root, g->config->keep.item[i]);
+        if (!as_number(value, &number)) {
             number = NAN;
         }
+        // null is a number that this run has not
+        g->has_kept[i] = g->has_kept[i] || isfinite(number) || json_is_null(value);
         append_result(g, g->config->keep.item[i], number);
     }
 }
@@ -144,9 +150,9 @@ static clast_status read_run(gatherer *g, const char *folder, bool whole)
                   path, error.line, error.text);
         if (g->config->keep.n > 0) {
             put_kept(g, root);
-        } else {
-            put_all(g, "", root);
         }
+        put_all(g, "", root);
+        ++g->n_read;
     }
     status = g->status;
 done:
@@ -189,10 +195,11 @@ done:
 }
 
 clast_status clx_study_collect(const clast_study_config *config, const char *folder,
-                               const clast_table *plan)
+                               const clast_table *plan, clast_study_report *report)
 {
     clast_status status = CLAST_OK;
-    gatherer g = {.config = config};
+    gatherer g = {.config = config, .only_times = config->keep.n > 0};
+    CLX_TRY(clx_alloc(&g.has_kept, config->keep.n + 1, sizeof *g.has_kept));
     CLX_TRY(copy_plan(plan, "results", &g.results));
     CLX_TRY(copy_plan(plan, "times", &g.times));
     for (g.row = 0; g.row < plan->n_row; ++g.row) {
@@ -200,7 +207,12 @@ clast_status clx_study_collect(const clast_study_config *config, const char *fol
     }
     CLX_TRY(write_in(folder, "results.csv", &g.results));
     CLX_TRY(write_in(folder, "times.csv", &g.times));
+    for (int32_t i = config->keep.n - 1; i >= 0 && g.n_read > 0; --i) {
+        report->n_unknown += !g.has_kept[i];
+        report->first_unknown = g.has_kept[i] ? report->first_unknown : i;
+    }
 done:
+    clx_free(g.has_kept);
     clast_table_free(&g.results);
     clast_table_free(&g.times);
     return status;

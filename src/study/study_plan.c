@@ -179,6 +179,37 @@ done:
     return status;
 }
 
+/// Whether two keys are one, '-' being '_'; the first ends at '=' at the latest.
+static bool is_same_key(const char *pair, const char *key)
+{
+    while (*pair != '\0' && *pair != '=' &&
+           (*pair == '-' ? '_' : *pair) == (*key == '-' ? '_' : *key)) {
+        ++pair;
+        ++key;
+    }
+    return (*pair == '\0' || *pair == '=') && *key == '\0';
+}
+
+/// Refuses what is fixed and varies: the runs would take one of the two without a word.
+static clast_status check_fixed(const clast_study_config *config, const axes *all)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < config->set.n; ++i) {
+        const char *pair = config->set.item[i];
+        CLX_CHECK(!is_same_key(pair, "seed"), CLAST_E_CONFIG,
+                  "fix: '%s': the seed names the realisation; give it as option seed", pair);
+        for (int32_t a = 0; a < all->n; ++a) {
+            const clast_table *values = &all->item[a].values;
+            for (int32_t c = 0; c < values->n_column; ++c) {
+                CLX_CHECK(!is_same_key(pair, values->column[c].name), CLAST_E_CONFIG,
+                          "fix: '%s': this key varies; take it out of one of the two", pair);
+            }
+        }
+    }
+done:
+    return status;
+}
+
 static clast_status fill_plan(const clast_study_config *config, const axes *all, clast_table *plan)
 {
     clast_status status = CLAST_OK;
@@ -223,6 +254,7 @@ clast_status clast_study_plan(const clast_study_config *config, clast_table *pla
     CLX_CHECK(config->run[0] != '\0', CLAST_E_CONFIG,
               "run is not set: name the command, such as run: aggregate");
     CLX_TRY(find_axes(config, &all));
+    CLX_TRY(check_fixed(config, &all));
     for (int32_t a = 0; a < all.n; ++a) {
         n_run *= all.item[a].values.n_row;
         CLX_CHECK(n_run <= RUN_LIMIT, CLAST_E_LIMIT, "more than %d runs", RUN_LIMIT);

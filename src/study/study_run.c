@@ -289,6 +289,7 @@ static clast_status prepare(scheduler *s, const clast_comm *comm, clast_table *p
     CLX_TRY(clast_study_plan(s->config, plan));
     if (comm->rank == 0) {
         CLX_TRY(clx_study_keep(s->config, s->folder, plan));
+        CLX_TRY(clx_study_check_inputs(s->folder, plan));
         count(s);
         tell(s);
     }
@@ -303,7 +304,7 @@ static clast_status collect(const scheduler *s, clast_status worked)
 {
     char text[1024];
     (void)snprintf(text, sizeof text, "%s", clast_error_detail());
-    const clast_status collected = clx_study_collect(s->config, s->folder, s->plan);
+    const clast_status collected = clx_study_collect(s->config, s->folder, s->plan, s->report);
     return worked == CLAST_OK ? collected : clx_fail(worked, "%s", text);
 }
 

@@ -189,9 +189,21 @@ class Pack(Case):
         self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "30.2mm",
                           "--height", "0.5m", "--quiet", says=("reaches 30 mm across", "more than the period", "seed"))
 
+    def test_a_form_too_wide_is_refused_before_the_first_step(self):
+        law = ["pack", "--curve", "4mm", "--mass", "8g", "--height", "0.2m", "--form-law", "--flatness-mean", "0.9", "--flatness-deviation", "0.05",
+               "--elongation-mean", "0.8", "--elongation-deviation", "0.2", "--shaking-time", "0", "--quiet", "-j", "1"]
+        periodic = ["--domain", "periodic", "--width", "12mm", "--trim", "0", "--seed", "6"]
+        run = self.folder / "run"
+        for shape, options, says in (("ellipsoid:1,1,1", ["--width", "11mm", "--seed", "1"], "grain 46 of this seed reaches 11.5807 mm across"),
+                                     ("ellipsoid:1,1,1", periodic, "grain 22 of this seed reaches 14.4653 mm across"),
+                                     (ROOT / "data/standin63/grain10.ply", periodic, "grain 22 of this seed reaches 16.216 mm across")):
+            self.assert_fails(3, *law, *options, "--shapes", shape, "-o", run, says=(says, "take a wider domain"))
+            self.assertFalse(run.exists())
+
     def test_bad_input_is_one_line(self):
         self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.31935 us or less", "contact_scheme exact"))
         self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
+        self.assert_fails(2, *SMALL, "--gravity=-9.81", says=("gravity",))  # grains flew out of the open top
         self.assert_fails(2, *SMALL, "--layer", "10nm", says=("1e+07 slices", "layer"))  # known before the run, not after it
         self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "5mm", "--mass", "1g", says=("more than the period",))
         self.assert_fails(2, *SMALL, "--shape-weight", "1", "--shape-weight", "2", says=("2 weights for 1 shapes",))
@@ -627,7 +639,7 @@ class Pack(Case):
         process.kill()
         process.wait()
         self.drum(height=81)
-        self.assert_fails(3, "pack", "--resume", run, says=("container is not the one",))
+        self.assert_fails(3, "pack", "--resume", run, says=("drum.off (container) is not the one",))
         self.drum()
         resumed = clast("pack", "--resume", run, "--quiet", "-j", "1", "--json")
         self.assertEqual((resumed.code, resumed.json["n_outside"]), (0, 0), resumed.err)

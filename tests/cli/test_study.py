@@ -134,7 +134,18 @@ class Study(Case):
         self.assert_fails(2, "study", plan, *out, "--run", "study", says=["no command that a study can run"])
         self.assert_fails(2, "study", plan, "--vary", "spheres=1|2", says=["-o FOLDER"])
         self.assert_fails(3, "study", plan, *out, "--table", self.folder / "absent.csv", says=["absent.csv"])
+        # the last of the two was taken without a word
+        self.assert_fails(2, "study", plan, *out, "--fix", "spheres=3", "--vary", "spheres=1|2", says=["fix: 'spheres=3'", "varies"])
+        self.assert_fails(2, "study", plan, *out, "--fix", "seed=3", says=["fix: 'seed=3'", "option seed"])
         self.assertFalse((self.folder / "out").exists())
+
+    def test_a_result_that_no_run_has_is_named(self):
+        plan = self.plan(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 5 | 9]\nkeep: [n_sphere, filled_fraction, nothing.here]\n")
+        done = clast("study", plan, "-o", self.folder / "out", "-q")
+        self.assertEqual(done.code, 0)
+        self.assertEqual(done.err.splitlines(), ["clast study: keep: 'nothing.here': no run's result has such a number"])
+        self.assertEqual(list(self.rows()[0]), ["run", "spheres", "seed", "exit_code", "n_sphere", "filled_fraction", "nothing.here"])
+        self.assertGreater(float(self.rows("times.csv")[1]["wall_s"]), 0)  # stdout names this table, which had no times
 
     def test_a_run_that_fails_is_named(self):
         plan = self.plan("run: fill\nargument: [absent.stl]\nvary: [spheres = 5 | 9]\n")
@@ -143,6 +154,24 @@ class Study(Case):
         self.assertIn("2 of 2 runs failed", done.err)
         self.assertIn("absent.stl", (self.folder / "out/runs/000001.part/messages.txt").read_text())
         self.assertEqual(self.rows()[0]["exit_code"], "3")
+
+    def test_an_input_that_changed_between_shards_is_named(self):
+        sizes = self.folder / "sizes.csv"
+        sizes.write_text("size_mm,count\n4,50\n5,50\n")
+        plan = self.plan(f'run: pack\nfix: ["curve=list:{sizes}", mass=1g, width=20mm, height=60mm, max_steps=20]\nseeds: 3\n')
+        study = ["study", plan, "-o", self.folder / "out", "-j", 1, "-q"]
+        self.assertEqual(clast(*study, "--shard", "1/3").code, 0)
+        old = sizes.read_text()
+        sizes.write_text("size_mm,count\n3,50\n5,50\n")
+        table = (self.folder / "out/results.csv").read_bytes()
+        self.assert_fails(2, *study, says=(str(sizes), "is not the file that run 1 of this study was made with", "put the old one back"))
+        self.assertEqual((self.folder / "out/results.csv").read_bytes(), table)
+        sizes.write_text(old)
+        done = clast(*study)
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual([row["exit_code"] for row in self.rows()], ["0"] * 3)
+        sizes.unlink()  # whoever only tabulates does not need it
+        self.assertEqual(clast(*study).code, 0)
 
     def test_stop_and_go_on_give_the_same_table(self):
         plan = self.plan(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 40 | 41 | 42 | 43 | 44 | 45]\n")
