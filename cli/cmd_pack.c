@@ -220,8 +220,12 @@ static void print_text(const clast_pack_result *r)
                      r->n_outside == 1 ? " has" : "s have");
     }
     if (isfinite(r->porosity)) {
-        (void)printf("%-26s %.4f between z = %s and %s\n", "bulk porosity", r->porosity,
-                     cli_quantity_as(r->z_low, "m", r->z_high), cli_quantity(r->z_high, "m"));
+        const bool are_spheres = r->flatness[0] == 1.0 && r->elongation[0] == 1.0;
+        (void)printf("%-26s %.4f between z = %s and %s%s\n", "bulk porosity", r->porosity,
+                     cli_quantity_as(r->z_low, "m", r->z_high), cli_quantity(r->z_high, "m"),
+                     are_spheres ? ""
+                                 : ", each grain as the sphere of its volume, as published; by "
+                                   "true shapes: clast porosity");
     } else {
         print_no_porosity(r);
     }

@@ -173,6 +173,7 @@ static clast_status run(const cli_common *common, void *config)
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
     }
+    CLI_GUARD(cli_check_ending(common->output, "pictures", "png"));
     clast_status status = CLAST_OK;
     CLI_TRY(load(common, &assembly));
     CLI_TRY(clast_render_assembly(&assembly, config, &monitor, &image));

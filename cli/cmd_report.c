@@ -28,6 +28,7 @@ static clast_status run(const cli_common *common, void *context)
     const clast_report_config *config = context;
     char path[PATH_SIZE];
     CLI_GUARD(find_output(common, path));
+    CLI_GUARD(cli_check_ending(path, "pages", "html"));
     CLI_GUARD(clast_report_write((const char *const *)common->argument, common->n_argument, path,
                                  config));
     if (common->json) {

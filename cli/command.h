@@ -139,5 +139,9 @@ clast_status cli_time_limit(const char *text);
 clast_status cli_check_outputs(const cli_command *command, const cli_common *common,
                                const void *config);
 
+/// Refuses a path of `what` ("pictures") that does not end in .ENDING, in upper or lower case,
+/// which is all that is written there.
+clast_status cli_check_ending(const char *path, const char *what, const char *ending);
+
 /// 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP, 0 when none came.
 int cli_signal_code(void);

@@ -58,7 +58,9 @@ static void quantity_text(double value, const char *unit, char *text, size_t siz
     } else if (strcmp(unit, "-") == 0 || value == -1.0 || !is_typed(unit)) {
         name = "";
     }
-    (void)snprintf(text, size, "%g%s", value / factor, value == 0.0 ? "" : name);
+    // "11/s" would be eleven: of a unit that begins with a digit the slash is typed alone (1/s)
+    (void)snprintf(text, size, "%g%s", value / factor,
+                   value == 0.0 ? "" : name + (strncmp(name, "1/", 2) == 0));
 }
 
 static void default_text(const clast_field *f, char *text, size_t size)
@@ -224,11 +226,12 @@ static void print_config_words(const cli_command *command)
     char key[CLI_NAME_SIZE];
     cli_configs_key(command, key);
     (void)printf(
-        "Every option above is a key of CONFIG.yaml with '_' for '-'; the command line wins. ");
+        "Every option but those of every command is a key of CONFIG.yaml with '_' for '-'; the\n"
+        "command line wins.");
     if (key[0] != '\0' && clast_fields_find(command->fields, key) == NULL) {
         const int n = (int)strlen(key);
         const char *name = command->arguments + (command->arguments[0] == '[' ? 1 : 0);
-        (void)printf("%.*s is its key %s.", n, name, key);
+        (void)printf(" %.*s is its key %s.", n, name, key);
     }
     (void)printf(
         "\nA switch is turned off by --no-NAME or --NAME=false, on by --NAME or --NAME=true. A "

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -161,6 +162,15 @@ static clast_status check_each(const outputs *o)
         }
     }
     return CLAST_OK;
+}
+
+clast_status cli_check_ending(const char *path, const char *what, const char *ending)
+{
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+    return dot != NULL && strcasecmp(dot + 1, ending) == 0
+               ? CLAST_OK
+               : cli_fail(CLAST_E_USAGE, "%s: %s are written as .%s", path, what, ending);
 }
 
 clast_status cli_check_outputs(const cli_command *command, const cli_common *common,

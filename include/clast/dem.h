@@ -135,7 +135,7 @@ typedef struct clast_dem_measures {
     double mean_height;      ///< mass-mean of z [m]
     double top;              ///< highest centre [m]
     double max_speed;        ///< [m/s]
-    double kinetic_energy;   ///< translation and rotation [J]
+    double kinetic_energy;   ///< translation, of the fluid that moves along too; rotation [J]
     double potential_energy; ///< weight less buoyancy, from z = 0 [J]
     double elastic_energy;   ///< in contacts, normal and tangential [J]
     double momentum[3];      ///< [kg m/s]

@@ -57,8 +57,8 @@ CLAST_API clast_status clast_mesh_length(const clast_mesh *mesh, double *length)
 /// Box with one corner at the origin and these edges (above 0), 12 triangles.
 CLAST_API clast_status clast_mesh_box(double x, double y, double z, clast_mesh *mesh);
 
-/// Ellipsoid of these semi-axes (above 0): an icosahedron divided `level` times (20 * 4^level triangles), on
-/// the surface.
+/// Ellipsoid of these semi-axes (above 0): an icosahedron divided `level` times (20 * 4^level
+/// triangles), on the surface.
 CLAST_API clast_status clast_mesh_ellipsoid(const double semi_axes[3], int level, clast_mesh *mesh);
 
 /// x -> scale * R(orientation) x + position for every vertex; orientation is a unit quaternion w,

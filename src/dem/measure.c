@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "dem/dem.h"
+#include "dem/pair_force.h"
 #include "dem/touch.h"
 #include <clast/assembly.h>
 #include <math.h>
@@ -60,7 +61,8 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     m->mean_height += g->mass * g->position[2];
     m->top = fmax(m->top, g->position[2]);
     m->max_speed = fmax(m->max_speed, v3_norm(g->velocity));
-    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->omega);
+    m->kinetic_energy += 0.5 * g->mass * clx_heavier(dem, motion) * v3_norm2(g->velocity) +
+                         0.5 * v3_dot(momentum, g->omega);
     m->potential_energy += dem->config.gravity *
                            (g->mass - dem->config.fluid_density * motion->volume) * g->position[2];
     if (dem->body[g->shape].shape.own.is_mixed) {

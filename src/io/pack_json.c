@@ -121,6 +121,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_number(o, "mass_wanted", r->mass_wanted);
     clx_json_set_count(o, "n_outside", r->n_outside);
     clx_json_set_number(o, "porosity_bulk", r->porosity);
+    (void)json_object_set_new(o, "porosity_method", json_string("spheres"));
     clx_json_set_number(o, "z_low", r->z_low);
     clx_json_set_number(o, "z_high", r->z_high);
     clx_json_set_number(o, "bed_top", r->top);

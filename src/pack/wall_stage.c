@@ -40,6 +40,23 @@ static bool ends_in(const char *text, const char *unit)
     return end != NULL && clast_unit_factor(end, unit, &factor) == CLAST_OK;
 }
 
+/// Number of the stage before this one that opens a wall, or -1.
+static int32_t find_opening(const clast_pack_config *c, int32_t number, const char *name)
+{
+    char word[WORD] = "";
+    for (int32_t i = 0; i < number; ++i) {
+        const char *at = c->stages.item[i];
+        bool opens = false;
+        while ((at = clx_next_word(at, word, sizeof word)) != NULL && strcmp(word, "until") != 0) {
+            if (opens && strcmp(word, name) == 0) {
+                return i;
+            }
+            opens = !opens && strcmp(word, "open") == 0;
+        }
+    }
+    return -1;
+}
+
 static clast_status read_drive(const clast_pack_config *c, int32_t number,
                                const clast_pack_input *input, const char *word, bool opens,
                                clx_wall_stage *s)
@@ -53,6 +70,11 @@ static clast_status read_drive(const clast_pack_config *c, int32_t number,
                     word);
     }
     const clast_pack_wall *wall = &input->wall[d.wall];
+    const int32_t opening = opens ? -1 : find_opening(c, number, wall->name);
+    if (opening >= 0) {
+        return clx_fail(CLAST_E_CONFIG, "stage %d, '%s': stage %d opened wall %s, which is gone",
+                        number + 1, c->stages.item[number], opening + 1, wall->name);
+    }
     if (s->n == CLX_MOST_DRIVES) {
         return fail(c, number, "it drives too many walls", "");
     }
@@ -124,7 +146,8 @@ static clast_status read_end(const clast_pack_config *c, int32_t number, const c
                 "");
 }
 
-static clast_status check(const clast_pack_config *c, int32_t number, const clx_wall_stage *s)
+static clast_status check(const clast_pack_config *c, int32_t number, const clast_pack_input *input,
+                          const clx_wall_stage *s)
 {
     bool is_pressed = false;
     bool is_moved = false;
@@ -145,6 +168,9 @@ static clast_status check(const clast_pack_config *c, int32_t number, const clx_
     }
     if (s->end == CLX_UNTIL_MASS && c->outlet.n == 0) {
         return fail(c, number, "no grain leaves: there is no outlet", "");
+    }
+    if (s->end == CLX_UNTIL_MASS && input->start == NULL && s->until > c->mass) {
+        return fail(c, number, "the mass still inside, which ends it, is less from the start", "");
     }
     return CLAST_OK;
 }
@@ -174,8 +200,29 @@ clast_status clx_wall_stage_read(const clast_pack_config *c, int32_t number,
     if (at != NULL) {
         CLX_TRY(read_end(c, number, at, &s));
     }
-    CLX_TRY(check(c, number, &s));
+    CLX_TRY(check(c, number, input, &s));
     *stage = s;
+done:
+    return status;
+}
+
+clast_status clx_wall_stages_run_all(const clast_pack_config *c, const clast_pack_input *input)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < input->n_wall && c->stages.n > 0; ++i) {
+        bool runs = !moves(&input->wall[i].motion);
+        for (int32_t k = 0; k < c->stages.n && !runs; ++k) {
+            clx_wall_stage s;
+            CLX_TRY(clx_wall_stage_read(c, k, input, &s));
+            for (int32_t d = 0; d < s.n; ++d) {
+                runs = runs || (s.drive[d].wall == i && s.drive[d].kind == CLX_WALL_RUNS);
+            }
+        }
+        CLX_CHECK(runs, CLAST_E_CONFIG,
+                  "wall %d, '%s': its motion never runs, as no stage names it (stages: %s until "
+                  "time 1s)",
+                  i + 1, c->wall.item[i], input->wall[i].name);
+    }
 done:
     return status;
 }

@@ -120,6 +120,9 @@ clast_status clx_pack_walls_check(const clast_pack *p)
         }
         CLX_TRY(check_areas(p, k, &s));
     }
+    if (c->dem.domain != CLAST_DEM_CELL) {
+        CLX_TRY(clx_wall_stages_run_all(c, &p->input));
+    }
 done:
     return status;
 }

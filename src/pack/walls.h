@@ -56,6 +56,10 @@ typedef struct clx_wall_stage {
 clast_status clx_wall_stage_read(const clast_pack_config *config, int32_t number,
                                  const clast_pack_input *input, clx_wall_stage *stage);
 
+/// Refuses a wall whose own motion no stage runs.
+clast_status clx_wall_stages_run_all(const clast_pack_config *config,
+                                     const clast_pack_input *input);
+
 /// Whether a packing has walls, outlets or stages between walls.
 bool clx_pack_has_walls(const clast_pack_config *config);
 

@@ -188,10 +188,11 @@ clast_status clast_porosity_core_measure(const clast_assembly *assembly, const c
     const double volume = core_area(bed, depth, walls.size) * (bulk->z_high - bulk->z_low);
     CLX_CHECK(n_size >= 0.5, CLAST_E_USAGE,
               "a core begins at least half a grain size from the side walls, not %g", n_size);
-    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY,
-              "nothing of the bed is farther than %g grain sizes from its side walls, which are "
-              "%.3g from its axis",
-              n_size + 0.5, walls.ratio);
+    CLX_CHECK(
+        volume > 0.0, CLAST_E_GEOMETRY,
+        "core %g: it counts in full from half a grain size farther on, %g, and the side walls "
+        "are %.3g grain sizes from the bed's axis",
+        n_size, n_size + 0.5, walls.ratio);
     CLX_TRY(clx_touch_set_init(assembly, &set));
     core_sum c = {
         .assembly = assembly,

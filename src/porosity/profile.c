@@ -11,6 +11,7 @@
 #include <clast/assembly.h>
 #include <clast/mesh.h>
 #include <clast/shape.h>
+#include <string.h>
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
 
@@ -296,7 +297,7 @@ done:
 
 /// Height where the porosity rises through the cut, searched from the top.
 static clast_status find_top(const clast_porosity_options *options, const clast_table *profile,
-                             double *top)
+                             const char *unit, double *top)
 {
     clast_status status = CLAST_OK;
     const double *low = clast_table_numbers(profile, "z_low_m");
@@ -308,11 +309,12 @@ static clast_status find_top(const clast_porosity_options *options, const clast_
     while (k >= 0 && n[k] > options->cut) {
         --k;
     }
-    CLX_CHECK(
-        k >= 0, CLAST_E_GEOMETRY,
-        "no slice is denser than the cut: the least porosity of slices %.3g high is above %g; "
-        "check the bed, or take lower slices (layer)",
-        profile->n_row > 0 ? high[0] - low[0] : 0.0, options->cut);
+    CLX_CHECK(k >= 0, CLAST_E_GEOMETRY,
+              "no slice is denser than the cut: the least porosity of slices %s high is above %g; "
+              "check the bed, or take lower slices (layer)",
+              clx_unit_text(profile->n_row > 0 ? high[0] - low[0] : 0.0,
+                            strcmp(unit, "m") == 0 ? "m" : "-"),
+              options->cut);
     *top = high[k];
     if (!options->at_slice && k + 1 < profile->n_row) {
         const double t = (options->cut - n[k]) / (n[k + 1] - n[k]);
@@ -339,7 +341,7 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
               options->trim);
     made.top = bed->ceiling;
     if (!is_endless) {
-        CLX_TRY(find_top(options, profile, &made.top));
+        CLX_TRY(find_top(options, profile, assembly->unit, &made.top));
     }
     made.z_low = bed->floor + options->trim;
     made.z_high = made.top - options->trim;

@@ -127,6 +127,7 @@ class Help(Case):
             page = output(command, "--help")
             for word in words:
                 self.assertIn(word, page)
+        self.assertIn("(default 1/s)", " ".join(output("pack", "--help-all").split()))  # "11/s" is eleven
 
     def test_examples_on_bundled_data_run(self):
         for name in ("data", "examples"):

@@ -58,6 +58,28 @@ class Load(Case):
             self.assertTrue((self.folder / "fine" / name).exists(), name)
         self.assert_fails(2, "porosity", run, "--fields", "1m", says=("repeats after",))
 
+    def test_every_kind_of_energy_is_drawn(self):
+        """Six kinds were: not the damping of all velocities, which took the most, nor what walls took. One kinetic energy in
+        summary.json and series.csv, that of grains in water with the fluid that moves along."""
+        run = self.folder / "run"
+        result = clast("pack", "--curve", "4mm", "--mass", "2g", "--width", "24mm", "--height", "40mm", "--gravity", "400m/s^2", "--shaking-time",
+                       "2ms", "--damping", "1e-20", "--max-steps", 4000, "--fluid-viscosity", "20mPa*s", "--added-mass", "0.5", "--energy", "-o", run,
+                       "--json", "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+        table = rows(run / "load.csv")
+        most = max(abs(row["energy_put_in_J"]) for row in table)
+        kinds = [["lost_rolling_grains_J", "lost_rolling_walls_J"]] + [[name] for name in table[0] if name.startswith("lost_") and "rolling" not in name]
+        kinds += [[f"energy_{name}_J"] for name in ("translation", "rotation", "normal_springs", "tangential_springs", "attraction")]
+        drawn = [kind for kind in kinds if max(abs(sum(row[name] for name in kind)) for row in table) > 0.01 * most]
+        self.assertIn(["lost_calming_J"], drawn)
+        self.assertIn(["lost_fluid_J"], drawn)
+        lines = (run / "energy_book.svg").read_text(encoding="utf-8").count("stroke-width:1.6;")
+        self.assertEqual(lines, 2 * (len(drawn) + 2))  # each in the legend too; what was put in, and all else
+        out = result.json
+        self.assertGreater(out["kinetic_energy"], 0)
+        self.assertLess(abs(out["kinetic_energy"] / out["energy"]["kinetic"] - 1), 1e-12)
+        self.assertLess(abs(rows(run / "series.csv")[-1]["kinetic_energy_J"] / out["kinetic_energy"] - 1), 1e-12)
+
     def test_shares_of_the_energy_add_up(self):
         """A third of a drum's energy was told nowhere: the damping of all velocities had it."""
         result = clast("pack", "--curve", "4mm", "--mass", "2g", "--width", "24mm", "--height", "40mm", "--gravity", "400m/s^2",

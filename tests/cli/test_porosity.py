@@ -194,6 +194,9 @@ class Porosity(Case):
         for bed, says in [("cylinder:20", "20 has no unit; write 20mm"), ("box:0,0,6mm,6", "6 has no unit; write 6mm"),
                           ("periodic:0,0,0,6mm,6mm,20", "20 has no unit; write 20mm"), ("cylinder:5mm,-3,0", "-3 has no unit; write -3mm")]:
             self.assert_fails(2, "porosity", metres, "--bed", bed, says=["bed: " + says])
+        wide = ("--bed", "cylinder:0.1m")
+        self.assert_fails(3, "porosity", metres, *wide, "--layer", "50mm", says=["slices 50 mm high"])  # was 0.05
+        self.assert_fails(3, "porosity", self.lattice(3), "--bed", "cylinder:50", "--layer", "2", says=["slices 2 high"])
         found = clast("porosity", metres, "--bed", "periodic:0,0,0,6mm,0.6cm,6mm", "--json")
         self.assertAlmostEqual(found.json["bulk"], 1 - 3.141592653589793 / 6, 12)
         self.assert_fails(2, "porosity", self.lattice(3), "--bed", "cylinder:52mm", says=["bed: ", "the run has no unit, so a bare number"])
@@ -215,7 +218,7 @@ class Porosity(Case):
         self.assertIn("wall_share", two.out)
         self.assertIn("core_depth,-,2.5", (self.folder / "two/means.csv").read_text())
         self.assert_fails(2, "porosity", path, *bed, "--core", 0.2, says=["half a grain size"])
-        self.assert_fails(3, "porosity", path, *bed, "--core", 6, says=["nothing of the bed is farther than 6.5 grain sizes"])
+        self.assert_fails(3, "porosity", path, *bed, "--core", 6, says=["core 6: it counts in full from half a grain size farther on, 6.5,"])
         endless = ["--bed", "periodic:0,0,8,8", "--layer", 0.1]
         self.assertIn("side walls          none: the bed is periodic", clast("porosity", path, *endless).out)
         self.assertNotIn("wall_ratio", clast("porosity", path, *endless, "--json").json)

@@ -76,6 +76,8 @@ class Render(Case):
         picture = self.folder / "a.png"
         menger = STL / "Menger2.stl"
         self.assert_fails(2, "render", menger, says=["-o picture.png"])
+        for other in ("a.jpg", "a"):  # were PNG files of these names
+            self.assert_fails(2, "render", menger, "-o", self.folder / other, *SMALL, says=[other, "written as .png"])
         self.assert_fails(3, "render", self.folder / "none.stl", "-o", picture, says=["none.stl"])
         self.assert_fails(3, "render", self.folder, "-o", picture, says=["state.h5"])
         self.assert_fails(2, "render", menger, self.folder, "-o", picture, says=["alone"])

@@ -202,6 +202,17 @@ class Report(Case):
     def test_two_runs_need_a_name(self):
         self.assert_fails(2, "report", self.run_path, self.run_path, says=["-o NAME.html", "2 runs"])
 
+    def test_pages_are_html(self):
+        self.assert_fails(2, "report", self.run_path, "-o", os.path.join(self.folder.name, "a.pdf"), says=["a.pdf", "written as .html"])
+
+    def test_a_level_bed_is_not_called_at_rest(self):
+        """converged was "At rest by the rule: yes", above "Still moving at the end: yes"."""
+        self.put("summary.json", json.dumps({"phase": "done", "converged": True, "still_moving": True}))
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        page = re.sub(r"\s+", " ", seen(self.page(os.path.join(self.run_path, "report.html"))))
+        self.assertIn("Ended by its rule yes", page)
+        self.assertNotIn("At rest", page)
+
     def test_title_is_the_users(self):
         out = os.path.join(self.folder.name, "a.html")
         self.assertEqual(clast("report", self.run_path, self.run_path, "-o", out, "--title", "A & B").code, 0)

@@ -208,6 +208,12 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-1mm/s", "--stages", f"plate {'x' * 70} until time 1s", says=("stage 1", "x~"))
         self.assert_fails(2, *bed, "--stages", "hold", says=("stages", "neither"))
+        # these pressed nothing, stood still or were over at once, with exit code 0
+        lid, hold = [*bed, "--lid", "--wall", "lid"], ("--stages", "hold until time 1ms")
+        self.assert_fails(2, *lid, "--stages", "open lid until time 1ms", *hold, "--stages", "lid=1kPa until rest",
+                          says=("stage 3", "stage 1 opened wall lid"))
+        self.assert_fails(2, *bed, "--lid", "--wall", "lid move 0,0,1mm/s", *hold, says=("wall 1", "no stage names it"))
+        self.assert_fails(2, *lid, "--outlet", "z<10mm", "--stages", "hold until mass 5g", says=("stage 1", "mass still inside"))
         self.assert_fails(2, *bed, "--outlet", "down", says=("outlet 1", "half-space"))
         self.assert_fails(2, *bed, "--wall", "floor axis 1,0,0 rotate 3rpm", says=("wall 1", "turns about its normal"))
         self.assert_fails(2, *bed, "--domain", "periodic", "--width", "30mm", "--wall", wall, says=("wall 1", "periodic"))
