@@ -212,7 +212,7 @@ clast_status clx_wall_stages_run_all(const clast_pack_config *c, const clast_pac
     for (int32_t i = 0; i < input->n_wall && c->stages.n > 0; ++i) {
         bool runs = !moves(&input->wall[i].motion);
         for (int32_t k = 0; k < c->stages.n && !runs; ++k) {
-            clx_wall_stage s;
+            clx_wall_stage s = {.n = 0};
             CLX_TRY(clx_wall_stage_read(c, k, input, &s));
             for (int32_t d = 0; d < s.n; ++d) {
                 runs = runs || (s.drive[d].wall == i && s.drive[d].kind == CLX_WALL_RUNS);
