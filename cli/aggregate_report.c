@@ -2,6 +2,8 @@
 #include "aggregate_report.h"
 
 #include <clast/field.h>
+#include <clast/settling.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -55,6 +57,21 @@ typedef struct {
     int32_t index;
 } line;
 
+/// The greatest Reynolds number of settling, where the drag law does not hold.
+static void print_reynolds(const clast_aggregate_report *report)
+{
+    static const double limit = 3e5; // clast_drag_coefficient
+    const clast_fluid air = clast_fluid_air();
+    double most = 0.0;
+    for (int32_t i = 0; i < report->n; ++i) {
+        const clast_aggregate_result *r = &report->result[i];
+        most = fmax(most, r->settling_velocity * r->d_agg * air.density / air.viscosity);
+    }
+    if (most >= limit) {
+        (void)printf(" (Re %.2g, beyond the drag law's %.0e)", most, limit);
+    }
+}
+
 static void print_line(const clast_aggregate_report *report, const line *l)
 {
     double *value = report->n > 0 ? calloc((size_t)report->n, sizeof *value) : NULL;
@@ -71,6 +88,9 @@ static void print_line(const clast_aggregate_report *report, const line *l)
     if (report->n > 1) {
         (void)printf(" sd %.3g, mean within %.6g .. %.6g", factor * i.deviation, factor * i.low,
                      factor * i.high);
+    }
+    if (l->read == read_settling) {
+        print_reynolds(report);
     }
     (void)putchar('\n');
     free(value);

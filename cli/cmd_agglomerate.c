@@ -33,7 +33,10 @@ static const char *const chart_end[3] = {"svg", "png", "pdf"};
 static const clast_field own[] = {
     COLUMN(monomers_column, "column of whole numbers of monomers; none: 1 each"),
     COLUMN(speed_rms_column, "column of the particles' turbulent velocities [m/s]"),
-    COLUMN(temperature_column, "column of fluid temperatures [K]; cells take the mean"),
+    COLUMN(
+        temperature_column,
+        "column of fluid temperatures [K], in degrees Celsius if its name says so (T_C, T_degC); "
+        "cells take the mean"),
     COLUMN(shear_column, "column of shear rates [1/s]; cells take the mean"),
     COLUMN(dissipation_column, "column of dissipation rates [m^2/s^3]; cells take the mean"),
     COLUMN(fixed_column, "column of cell numbers of a mesh of yours, evolved beside"),
@@ -138,6 +141,40 @@ done:
     return status;
 }
 
+/// What stands after the last "_" or in brackets of a column's name: "T_C", "T (degC)".
+static void suffix_of(const char *name, char suffix[32])
+{
+    const char *open = strpbrk(name, "([");
+    const char *bar = strrchr(name, '_');
+    const char *at = open != NULL ? open + 1 : bar != NULL ? bar + 1 : "";
+    (void)snprintf(suffix, 32, "%.*s", (int)strcspn(at, ")]"), at);
+}
+
+static bool is_one_of(const char *word, const char *const list[])
+{
+    for (; *list != NULL && strcmp(word, *list) != 0; ++list) {
+    }
+    return *list != NULL;
+}
+
+/// Kelvin from what the column's name says; a name without a unit is in kelvin.
+static clast_status to_kelvin(const char *name, double *temperature, int64_t n)
+{
+    static const char *const celsius[] = {"C", "degC", "celsius", "Celsius", "\u00b0C", NULL};
+    static const char *const unknown[] = {"F", "degF", "Fahrenheit", "\u00b0F", "R", "mK", NULL};
+    char suffix[32];
+    suffix_of(name, suffix);
+    if (is_one_of(suffix, unknown)) {
+        return cli_fail(CLAST_E_CONFIG,
+                        "--temperature-column '%s' is in %s by its name; K and C (degC) are read",
+                        name, suffix);
+    }
+    for (int64_t i = 0; i < n && is_one_of(suffix, celsius); ++i) {
+        temperature[i] += 273.15;
+    }
+    return CLAST_OK;
+}
+
 static clast_status load(const cli_common *common, const config *c, loaded *l)
 {
     l->cloud = calloc((size_t)common->n_argument, sizeof *l->cloud);
@@ -160,6 +197,9 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
         double *column = NULL;
         CLI_GUARD(clast_cloud_column(&l->first, wanted[k].name, &column));
         *wanted[k].column = column;
+        if (column != NULL && wanted[k].column == &l->input.temperature) {
+            CLI_GUARD(to_kelvin(wanted[k].name, column, l->first.n_row));
+        }
     }
     return CLAST_OK;
 }

@@ -38,6 +38,21 @@ static void print_range(const clast_range_use *use)
     }
 }
 
+/// One line where bodies fell faster than their drag law holds.
+static void warn_of_fall(const cli_common *common, const clast_evolve_config *config,
+                         const clast_evolve_result *r)
+{
+    const bool is_stokes = config->fall == CLAST_FALL_STOKES;
+    const double limit = is_stokes ? 0.1 : 3e5;
+    if (r->fall_reynolds > limit && !common->quiet) {
+        (void)fprintf(
+            stderr,
+            "clast evolve: warning: Reynolds number of the fastest fall is %.2g, beyond the "
+            "%g of the drag law%s\n",
+            r->fall_reynolds, limit, is_stokes ? " (take --fall form or sphere)" : "");
+    }
+}
+
 static void print_text(const clast_evolve_result *r)
 {
     (void)printf("%-26s %lld of %lld at the start, %lld events\n", "particles in the fluid",
@@ -83,6 +98,7 @@ static clast_status run(const cli_common *common, void *context)
     CLI_TRY(config->resume[0] != '\0'
                 ? resume(common, config, &monitor, &result)
                 : clast_evolve_run(config, common->output, &monitor, &result));
+    warn_of_fall(common, config, &result);
     if (!common->json) {
         print_text(&result);
         goto done;

@@ -190,12 +190,19 @@ static json_t *answer_json(const answer *a)
     return o;
 }
 
+/// The size in phi units; 0.000, never -0.000.
+static double phi_words(double size)
+{
+    const double phi = clast_phi_of_size(size);
+    return fabs(phi) < 5e-4 ? 0.0 : phi;
+}
+
 static void size_words(const char *what, double d10, double d50, double d90)
 {
     (void)printf("  %-18s D10 %9.4f mm (phi %6.3f)   D50 %9.4f mm (phi %6.3f)   D90 %9.4f mm (phi "
                  "%6.3f)\n",
-                 what, 1e3 * d10, clast_phi_of_size(d10), 1e3 * d50, clast_phi_of_size(d50),
-                 1e3 * d90, clast_phi_of_size(d90));
+                 what, 1e3 * d10, phi_words(d10), 1e3 * d50, phi_words(d50), 1e3 * d90,
+                 phi_words(d90));
 }
 
 static void class_words(const answer *a)
@@ -314,6 +321,9 @@ const cli_command cli_grading = {
         "(sieve_mm) and a column retained (on\nthis sieve), or passing (% or share). Numbers "
         "follow from masses by equations 8 and 9 of the paper;\nthe curve is straight over log "
         "size between sieves. Definitions: docs/theory/grading.md.\n"
+        "list:FILE has sizes and a column count, n or n_grains (none: one grain a row), "
+        "masses:FILE a "
+        "column mass,\nretained or mass_g; weight, frequency and fraction are either.\n"
         "A draw depends on the seed and the grain's number alone.",
     .fields = grading_fields,
     .config_size = sizeof(grading_config),

@@ -189,7 +189,7 @@ CLAST_API clast_status clast_curve_parse(const char *name, const void *bytes, si
 
 /// Sizes by one text, as in the option `curve`: a published case (U1 ... B70), "uniform:LOW,HIGH",
 /// "lognormal:MEAN,DEVIATION" or "lognormal:MEAN,DEVIATION,LOW,HIGH", one size ("11 mm"),
-/// "list:FILE" or "masses:FILE" (clast_sizes_read; its counts are numbers or masses), or the file
+/// "list:FILE" or "masses:FILE" (clast_sizes_read; with counts, or with masses), or the file
 /// of a sieve curve. Each size has its unit: a bare one is refused.
 ///
 /// @param curve    {0}; stays empty unless the text names a curve
@@ -201,14 +201,15 @@ CLAST_API clast_status clast_grading_load(const char *text, clast_grading_spread
 /// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
 /// blanks; '#' starts a comment; a first line that is no number names the columns).
 ///
-/// A column `count`, `n`, `number`, `weight` or `mass` counts the row's particles; columns that
-/// begin with `low` and `high` are the ends of a bin; `density` (kg/m3 unless its name ends in
-/// another unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
+/// A column `count`, `n`, `number` or `n_grains` counts the row's particles, else `weight`,
+/// `frequency` or `fraction`, else `mass` or `retained` (mass_g) weighs them; columns that begin
+/// with `low` and `high` are the ends of a bin; `density` (kg/m3 unless its name ends in another
+/// unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
 ///
 /// @param column  name of the size column; "": the first
-/// @param unit    um, mm, m, phi, ...; "": what the column's name ends in (d_eq_um)
+/// @param unit    um, mm, m, phi, ..., as the column's name ends in if it does (d_eq_um); "": that
 /// @return CLAST_E_FORMAT with the line for sizes that are not numbers, not finite or not above 0;
-///         CLAST_E_CONFIG when the unit is not known
+///         CLAST_E_CONFIG when the unit is not known, or is not the one in the column's name
 CLAST_API clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
                                         clast_sizes *sizes);
 

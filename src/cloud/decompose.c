@@ -41,7 +41,8 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
     {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
-    {FIELD(CLAST_FIELD_I32, votes), 2, 1, 5, "-", "tests that must reject", NULL},
+    {FIELD(CLAST_FIELD_I32, votes), 2, 1, 5, "-",
+     "tests that must reject; where a single one votes, 2 is 1", NULL},
     {FIELD(CLAST_FIELD_TEXT, tests), 0, 0, 0, "-", "tests that vote",
      "symmetric,centred,star,henze_zirkler,pearson"},
     {FIELD(CLAST_FIELD_CHOICE, statistic), 0, 0, 0, "-",
@@ -223,7 +224,7 @@ static bool is_uneven(const clast_uniformity *tests, const clast_decompose_confi
     for (int32_t k = 0; k < tests->n_test; ++k) {
         n_reject += tests->vote[k].p < config->tree_root_level ? 1 : 0;
     }
-    return n_reject >= config->votes;
+    return tests->n_test > 0 && n_reject >= clx_uniformity_votes(config->votes, tests->n_test);
 }
 
 static clast_decompose_stop tree_stop(const clast_uniformity *tests,
@@ -540,6 +541,7 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
     const clx_part part = clx_sample_part(sample, sample->n_test);
     clx_domain_sides(sample->domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
+    CLX_TRY(clx_uniformity_reachable(&vote, part.d));
     CLX_TRY(clx_uniformity_test(&part, side, &vote, found));
 done:
     return status;

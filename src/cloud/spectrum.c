@@ -72,6 +72,12 @@ static clast_status check_kernel(const clast_spectrum_config *config, const clas
               "fractal radii need --monomer-radius");
     CLX_CHECK((needs & CLAST_NEEDS_MASS) == 0 || c->medium.particle_density > 0.0, CLAST_E_CONFIG,
               "a box with this kernel or sink needs masses: --particle-density");
+    CLX_CHECK(
+        !(config->settling_depth > 0.0) || c->medium.particle_density > c->medium.density,
+        CLAST_E_CONFIG,
+        "settling_depth: particles of %g kg/m^3 do not settle in a fluid of %g kg/m^3; leave it "
+        "out",
+        c->medium.particle_density, c->medium.density);
     CLX_CHECK((needs & CLAST_NEEDS_SPEED_RMS) == 0 || c->medium.speed_rms > 0.0, CLAST_E_CONFIG,
               "a box with this kernel needs --speed-rms");
 done:

@@ -51,6 +51,39 @@ static bool votes(const clast_uniformity_config *config, int test)
     return (config->left_out >> test & 1U) == 0;
 }
 
+int32_t clx_uniformity_votes(int32_t asked, int32_t n_test)
+{
+    return asked == 2 && n_test == 1 ? 1 : asked;
+}
+
+/// Tests that vote on points of dimension d: Pearson's needs a pair of axes.
+static int32_t count_tests(const clast_uniformity_config *config, int32_t d)
+{
+    int32_t n = 0;
+    for (int k = 0; k < CLAST_N_TEST; ++k) {
+        n += votes(config, k) && (k != PEARSON || d > 1) ? 1 : 0;
+    }
+    return n;
+}
+
+static int32_t needed_votes(const clast_uniformity_config *config, int32_t d)
+{
+    return clx_uniformity_votes(config->votes, count_tests(config, d));
+}
+
+clast_status clx_uniformity_reachable(const clast_uniformity_config *config, int32_t d)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = count_tests(config, d);
+    CLX_CHECK(n > 0, CLAST_E_CONFIG, "tests: none of those chosen looks at one dimension");
+    CLX_CHECK(needed_votes(config, d) <= n, CLAST_E_CONFIG,
+              "votes: %d tests must reject, but %d vote%s: they never could; lower votes or choose "
+              "more tests",
+              config->votes, n, n == 1 ? "s" : "");
+done:
+    return status;
+}
+
 static void cast(clast_uniformity *r, int test, double statistic, double p,
                  const clast_uniformity_config *config)
 {
@@ -125,11 +158,12 @@ clast_status clx_uniformity_decide(const clx_part *part, const clast_uniformity_
     if (part->n_all >= 5) {
         CLX_TRY(cast_discrepancies(part, config, &made));
         CLX_TRY(cast_pearson(part, config, &made));
-        if (made.n_reject == config->votes - 1) { // only now does the last test matter
+        if (made.n_reject ==
+            needed_votes(config, part->d) - 1) { // only now does the last test matter
             CLX_TRY(cast_henze_zirkler(part, config, &made));
         }
     }
-    *reject = part->n_all >= 5 && made.n_reject >= config->votes;
+    *reject = part->n_all >= 5 && made.n_reject >= needed_votes(config, part->d);
 done:
     return status;
 }
@@ -187,7 +221,7 @@ clast_status clx_uniformity_test(const clx_part *part, const double side[3],
         CLX_TRY(cast_discrepancies(part, config, &made));
         CLX_TRY(cast_henze_zirkler(part, config, &made));
         CLX_TRY(cast_pearson(part, config, &made));
-        made.reject = made.n_reject >= config->votes;
+        made.reject = made.n_reject >= needed_votes(config, part->d);
     }
     *result = made;
 done:
@@ -203,6 +237,7 @@ clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const 
     clast_status status = CLAST_OK;
     CLX_TRY(check_config(config));
     CLX_TRY(clx_cube_check(u, n, d, 0, "a test of uniformity"));
+    CLX_TRY(clx_uniformity_reachable(config, d));
     CLX_TRY(check_sides(side, d));
     const clx_part part = clx_part_whole(u, n, d);
     CLX_TRY(clx_uniformity_test(&part, side, config, result));

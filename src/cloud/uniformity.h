@@ -16,3 +16,10 @@ clast_status clx_uniformity_test(const clx_part *part, const double side[3],
 /// when the others leave it open.
 clast_status clx_uniformity_decide(const clx_part *part, const clast_uniformity_config *config,
                                    bool *reject);
+
+/// Tests of n_test that must reject where `asked` is the configuration's: the default of 2 is 1 of
+/// a single test.
+int32_t clx_uniformity_votes(int32_t asked, int32_t n_test);
+
+/// CLAST_E_CONFIG if fewer tests vote on points of dimension d than must reject.
+clast_status clx_uniformity_reachable(const clast_uniformity_config *config, int32_t d);

@@ -5,6 +5,7 @@
 #include "cloud/contract.h"
 #include "cloud/decompose_steps.h"
 #include "cloud/reuse.h"
+#include "cloud/uniformity.h"
 #include "math/special.h"
 #include <clast/agglomerate.h>
 #include <clast/machine.h>
@@ -170,10 +171,11 @@ static double vote_margin(const clast_uniformity *tests, const clast_decompose_c
         }
         z[at] = own;
     }
-    if (tests->n_test < config->votes) {
+    const int32_t needed = clx_uniformity_votes(config->votes, tests->n_test);
+    if (tests->n_test < needed) {
         return 0.0;
     }
-    const double last = z[config->votes - 1]; // whose vote decides
+    const double last = z[needed - 1]; // whose vote decides
     return fmin(fabs(last + clx_normal_quantile(config->level)),
                 fabs(last + clx_normal_quantile(config->tree_root_level)));
 }

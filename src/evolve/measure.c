@@ -89,6 +89,20 @@ static void count(const clast_evolve *e, clast_evolve_result *r)
     r->mass_out = e->config->weight * clx_sum_of(&mass[CLX_BODY_OUT]);
 }
 
+/// The greatest Reynolds number at which a body falls, by its envelope's diameter.
+static double fall_reynolds(const clast_evolve *e)
+{
+    const clast_medium *m = &e->collide.medium;
+    double most = 0.0;
+    for (int32_t i = 0; i < e->n_start; ++i) {
+        const clx_evolve_body *b = &e->body[i];
+        if (b->state != CLX_BODY_MERGED) {
+            most = fmax(most, fabs(b->speed) * cbrt(6.0 * b->envelope / CLAST_PI));
+        }
+    }
+    return most * m->density / m->viscosity;
+}
+
 clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *result)
 {
     CLX_ARGUMENTS(e, result);
@@ -101,6 +115,7 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                              .number_balance = e->number_error,
                              .n_cut = e->n_cut,
                              .n_test = e->n_test,
+                             .fall_reynolds = fall_reynolds(e),
                              .range = e->range,
                              .hash = hash_of(e)};
     count(e, &r);

@@ -6,6 +6,7 @@
 #include "base/path.h"
 #include "io/config_files.h"
 #include "io/shape_word.h"
+#include "io/size_columns.h"
 #include <clast/fill.h>
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
@@ -178,7 +179,13 @@ static clast_status load_sizes(const clast_aggregate_config *config, clast_sizes
 {
     clast_status status = CLAST_OK;
     if (config->sizes[0] != '\0') {
-        return clast_sizes_read(config->sizes, config->size_column, config->size_unit, sizes);
+        const bool by_mass = config->params.size_by_mass;
+        const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
+                                   by_mass ? "leave size_by_mass out"
+                                           : "set size_by_mass and size_draw",
+                                   ", or give size_unit (um, mm, m or phi)"};
+        return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit,
+                                  sizes);
     }
     CLX_TRY(clast_sizes_alloc(config->params.size.n, sizes));
     for (int32_t i = 0; i < config->params.size.n; ++i) {

@@ -1,5 +1,6 @@
 // An aggregation's results as JSON.
 #include <clast/aggregate_run.h>
+#include <clast/settling.h>
 
 #include "base/alloc.h"
 #include "io/json.h"
@@ -42,6 +43,14 @@ READER(read_drag, drag_permeable)
 READER(read_porosity, porosity[k])
 READER(read_envelope, envelope[k].volume)
 
+/// Of the fall in air, by d_agg; the drag law holds up to 3e5.
+static double read_reynolds(const clast_aggregate_result *r, int32_t k)
+{
+    const clast_fluid air = clast_fluid_air();
+    (void)k;
+    return r->settling_velocity * r->d_agg * air.density / air.viscosity;
+}
+
 static const struct {
     const char *name;
     reader read;
@@ -54,6 +63,7 @@ static const struct {
     {"density", read_density},
     {"radius_of_gyration", read_gyration},
     {"settling_velocity", read_settling},
+    {"settling_reynolds", read_reynolds},
     {"settling_velocity_permeable", read_permeable},
     {"coat_porosity", read_coat_porosity},
     {"coat_grain", read_coat_grain},

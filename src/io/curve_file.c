@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
+#include "io/size_columns.h"
 #include <clast/field.h>
 #include <clast/table.h>
 #include <ctype.h>
@@ -322,7 +323,9 @@ static clast_status load_list(const char *path, bool by_mass, clast_grading **gr
 {
     clast_status status = CLAST_OK;
     clast_sizes sizes = {0};
-    CLX_TRY(clast_sizes_read(path, "", "", &sizes));
+    const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
+                               by_mass ? "take list:FILE" : "take masses:FILE", ""};
+    CLX_TRY(clx_sizes_read_for(&use, path, "", "", &sizes));
     status = clast_grading_of_sizes(&sizes, by_mass, grading);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", path);

@@ -57,6 +57,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     clx_json_set_number(o, "mass_out", r->mass_out);
     clx_json_set_number(o, "mass_balance", r->mass_balance);
     clx_json_set_count(o, "grains_most", r->grains_most);
+    clx_json_set_number(o, "fall_reynolds", r->fall_reynolds);
     clx_json_set_number(o, "fractal_dimension", r->fractal_dimension);
     clx_json_set_number(o, "fractal_error", r->fractal_error);
     (void)json_object_set_new(o, "deposit", deposit(r));

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
+#include "io/size_columns.h"
 #include <clast/field.h>
 #include <ctype.h>
 #include <math.h>
@@ -15,6 +16,7 @@ enum { COLUMN_LIMIT = 64, WORD_LIMIT = 128 };
 static const int64_t BYTE_LIMIT = (int64_t)1 << 30;
 
 typedef struct {
+    const clx_sizes_use *use;
     const char *name; ///< of the file, for messages
     int64_t line;
     int32_t n_word;
@@ -99,17 +101,6 @@ static bool begins(const char *word, const char *with)
     return true;
 }
 
-static bool is_count_name(const char *word)
-{
-    static const char *const names[] = {"count", "n", "number", "weight", "mass", NULL};
-    for (const char *const *name = names; *name != NULL; ++name) {
-        if (begins(word, *name) && strlen(word) == strlen(*name)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static int32_t find_word(const reader *r, const char *with, bool whole)
 {
     for (int32_t i = 0; i < r->n_word; ++i) {
@@ -131,7 +122,10 @@ static void unit_of(const char *column, char unit[16])
 {
     const char *bar = strrchr(column, '_');
     const char *open = strrchr(column, '(');
-    const char *start = open != NULL ? open + 1 : bar != NULL ? bar + 1 : "";
+    const char *start = open != NULL                 ? open + 1
+                        : bar != NULL                ? bar + 1
+                        : strcmp(column, "phi") == 0 ? column
+                                                     : "";
     (void)snprintf(unit, 16, "%.*s", (int)strcspn(start, ")"), start);
     if (!is_unit(unit)) {
         unit[0] = '\0';
@@ -177,14 +171,119 @@ done:
     return status;
 }
 
+/// The first column that counts so, or -1.
+static int32_t find_kind(const reader *r, clx_size_column kind)
+{
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        if (clx_size_column_of(r->word[i]) == kind) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/// The names of all columns, for messages.
+static const char *list_words(const reader *r, char words[256])
+{
+    size_t used = 0;
+    words[0] = '\0';
+    for (int32_t i = 0; i < r->n_word && used < 256; ++i) {
+        const int n = snprintf(words + used, 256 - used, "%s%s", i > 0 ? ", " : "", r->word[i]);
+        used += n > 0 ? (size_t)n : 0;
+    }
+    return words;
+}
+
+/// The column of counts or masses, as the list is wanted: -1 for one grain a row.
+static clast_status find_count(reader *r)
+{
+    clast_status status = CLAST_OK;
+    char words[256];
+    const int32_t number = find_kind(r, CLX_SIZE_COLUMN_NUMBER);
+    const int32_t either = find_kind(r, CLX_SIZE_COLUMN_EITHER);
+    const int32_t mass = find_kind(r, CLX_SIZE_COLUMN_MASS);
+    const bool by_mass = r->use->wanted == CLX_SIZE_COLUMN_MASS;
+    const int32_t wanted = by_mass ? mass : number;
+    r->count = wanted >= 0 ? wanted : either;
+    if (r->count >= 0) {
+        return CLAST_OK;
+    }
+    if (r->use->wanted == CLX_SIZE_COLUMN_OTHER) {
+        r->count = mass;
+        return CLAST_OK;
+    }
+    CLX_CHECK(mass < 0, CLAST_E_CONFIG,
+              "%s: column '%s' holds masses, not numbers of grains; %s, or leave the column out",
+              r->name, r->word[mass], r->use->instead);
+    CLX_CHECK(!by_mass || number < 0, CLAST_E_CONFIG,
+              "%s: column '%s' holds numbers of grains, not masses; %s", r->name, r->word[number],
+              r->use->instead);
+    CLX_CHECK(!by_mass, CLAST_E_CONFIG,
+              "%s: no column of masses (mass, mass_g, retained_g, weight); its columns: %s",
+              r->name, list_words(r, words));
+done:
+    return status;
+}
+
+/// A column that names the grains: "id", "grain", "sample_id".
+static bool is_label(const char *word)
+{
+    const size_t length = strlen(word);
+    if (length > 3 && begins(word + length - 3, "_id")) {
+        return true;
+    }
+    static const char *const names[] = {"id", "grain", "name", "shape", "index", "row", NULL};
+    for (const char *const *name = names; *name != NULL; ++name) {
+        if (begins(word, *name) && length == strlen(*name)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Of two columns the second is one that is understood, unless the sizes' one was asked for.
+static clast_status check_second(const reader *r, const char *asked)
+{
+    const int32_t other = r->low == 0 ? 1 : 0;
+    if (asked[0] != '\0' || r->use->wanted == CLX_SIZE_COLUMN_OTHER || r->n_word != 2 ||
+        r->low != r->high || r->count >= 0 || r->density >= 0 || is_label(r->word[other])) {
+        return CLAST_OK;
+    }
+    return clx_fail(CLAST_E_CONFIG,
+                    "%s: column '%s' is not understood: numbers of grains are count, n or number, "
+                    "masses mass_g, retained_g or weight, either of them frequency or fraction; "
+                    "rename it or leave it out",
+                    r->name, r->word[other]);
+}
+
+/// The unit of the sizes: the one given, which is that in the column's name if there is one.
+static clast_status find_unit(reader *r)
+{
+    clast_status status = CLAST_OK;
+    char own[16];
+    double factor[2] = {0.0, 0.0};
+    unit_of(r->word[r->low], own);
+    if (r->unit[0] == '\0') {
+        memcpy(r->unit, own, sizeof own);
+    }
+    if (own[0] == '\0' || strcmp(own, r->unit) == 0) {
+        return CLAST_OK;
+    }
+    const bool is_same = clast_unit_factor(own, "m", &factor[0]) == CLAST_OK &&
+                         clast_unit_factor(r->unit, "m", &factor[1]) == CLAST_OK &&
+                         factor[0] == factor[1];
+    CLX_CHECK(is_same, CLAST_E_CONFIG,
+              "%s: column '%s' is in %s by its name, the unit asked for is %s", r->name,
+              r->word[r->low], own, r->unit);
+done:
+    return status;
+}
+
 static clast_status read_header(reader *r, const char *column)
 {
     clast_status status = CLAST_OK;
-    r->count = -1;
     CLX_TRY(find_density(r));
-    for (int32_t i = 0; i < r->n_word; ++i) {
-        r->count = r->count < 0 && is_count_name(r->word[i]) ? i : r->count;
-    }
+    CLX_TRY(find_count(r));
     r->low = find_word(r, "low", false);
     r->high = find_word(r, "high", false);
     if (column[0] != '\0') {
@@ -199,9 +298,8 @@ static clast_status read_header(reader *r, const char *column)
     }
     CLX_CHECK(r->low != r->count, CLAST_E_FORMAT, "%s:%lld: column %s cannot be size and count",
               r->name, (long long)r->line, r->word[r->low]);
-    if (r->unit[0] == '\0') {
-        unit_of(r->word[r->low], r->unit);
-    }
+    CLX_TRY(check_second(r, column));
+    CLX_TRY(find_unit(r));
 done:
     return status;
 }
@@ -219,12 +317,13 @@ static clast_status begin(reader *r, const char *column, bool *is_header)
                   "%s:%lld: no names of columns; %s is not found", r->name, (long long)r->line,
                   column);
         r->count = r->n_word > 1 ? 1 : -1;
+        CLX_CHECK(r->count >= 0 || r->use->wanted != CLX_SIZE_COLUMN_MASS, CLAST_E_CONFIG,
+                  "%s: no column of masses: it has sizes alone", r->name);
     }
     CLX_CHECK(r->unit[0] != '\0', CLAST_E_CONFIG,
               "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
-              "(mm)) or give "
-              "size_unit (um, mm, m or phi)",
-              r->name);
+              "(mm), phi)%s",
+              r->name, r->use->unit_instead);
     r->is_phi = strcmp(r->unit, "phi") == 0;
     if (!r->is_phi) {
         CLX_TRY(clast_unit_factor(r->unit, "m", &r->factor));
@@ -345,17 +444,17 @@ done:
     return status;
 }
 
-clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
-                               const char *unit, clast_sizes *sizes)
+static clast_status parse(const clx_sizes_use *use, const char *name, const char *text,
+                          const char *const column_unit[2], clast_sizes *sizes)
 {
-    CLX_ARGUMENTS(name, text, column, unit, sizes);
     clast_status status = CLAST_OK;
     reader *r = NULL;
     const bool marked = strncmp(text, "\xef\xbb\xbf", 3) == 0; // byte-order mark of spreadsheets
     CLX_TRY(clx_alloc(&r, 1, sizeof *r));
+    r->use = use;
     r->name = name;
-    (void)snprintf(r->unit, sizeof r->unit, "%s", unit);
-    CLX_TRY(read_lines(r, text + (marked ? 3 : 0), column));
+    (void)snprintf(r->unit, sizeof r->unit, "%s", column_unit[1]);
+    CLX_TRY(read_lines(r, text + (marked ? 3 : 0), column_unit[0]));
     CLX_CHECK(r->sizes.n > 0, CLAST_E_FORMAT, "%s: no sizes in it", name);
     *sizes = r->sizes;
     r->sizes = (clast_sizes){0};
@@ -367,18 +466,34 @@ done:
     return status;
 }
 
-clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
-                              clast_sizes *sizes)
+/// As it is written, numbers or masses.
+static const clx_sizes_use as_written = {CLX_SIZE_COLUMN_OTHER, "", ""};
+
+clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
+                               const char *unit, clast_sizes *sizes)
 {
-    CLX_ARGUMENTS(path, column, unit, sizes);
+    CLX_ARGUMENTS(name, text, column, unit, sizes);
+    return parse(&as_written, name, text, (const char *const[2]){column, unit}, sizes);
+}
+
+clast_status clx_sizes_read_for(const clx_sizes_use *use, const char *path, const char *column,
+                                const char *unit, clast_sizes *sizes)
+{
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
     CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
     CLX_CHECK(strlen(bytes) == (size_t)n, CLAST_E_FORMAT, "%s: a zero byte at %zu; not a text",
               path, strlen(bytes));
-    CLX_TRY(clast_sizes_parse(path, bytes, column, unit, sizes));
+    CLX_TRY(parse(use, path, bytes, (const char *const[2]){column, unit}, sizes));
 done:
     clx_free(bytes);
     return status;
+}
+
+clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
+                              clast_sizes *sizes)
+{
+    CLX_ARGUMENTS(path, column, unit, sizes);
+    return clx_sizes_read_for(&as_written, path, column, unit, sizes);
 }

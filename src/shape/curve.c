@@ -189,7 +189,7 @@ double clast_curve_count(const clast_curve *curve, int32_t i, double mass, doubl
 
 double clast_phi_of_size(double size)
 {
-    return -log2(size / 1e-3);
+    return 0.0 - log2(size / 1e-3); // 1 mm: 0, not -0
 }
 
 double clast_phi_size(double phi)

@@ -304,6 +304,26 @@ class BadInput(Case):
         self.assert_fails(2, *self.sizes("20\n10\n"), says=("size_unit",))
         self.assert_fails(2, *self.sizes("d_um,count\n20,1.5\n"), says=("whole",))
 
+    def test_sizes_are_counts_or_masses_in_one_unit(self):
+        weighed = "d_um,mass_g\n10,8\n20,8\n"
+        self.assert_fails(2, *self.sizes("d_um,mass\n20,3\n"), says=("'mass' holds masses", "size_by_mass"))
+        draw = ("--size-draw", "--n-particle", "40", "--seed", "2")
+        self.assert_fails(2, *self.sizes("d_um,count\n20,3\n"), "--size-by-mass", *draw, says=("'count'", "leave size_by_mass out"))
+        run = self.folder / "run"
+        made = clast(*self.sizes(weighed), "--size-by-mass", *draw, "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        self.assert_fails(2, *self.sizes("d_mm\n0.02\n"), "--size-unit", "um", says=("'d_mm' is in mm by its name", "asked for is um"))
+        self.assertEqual(clast(*self.sizes("d_mm\n0.02\n"), "--size-unit", "mm").code, 0)
+        self.assertEqual(clast(*self.sizes("grain_id,size_mm\n7,0.02\n")).code, 0)
+        self.assert_fails(2, *self.sizes("gloss,size_mm\n7,0.02\n"), says=("'gloss' is not understood",))
+        self.assertEqual(clast(*self.sizes("gloss,size_mm\n7,0.02\n"), "--size-column", "size_mm").code, 0)
+
+    def test_a_fall_beyond_the_drag_law_is_told(self):
+        ask = ("aggregate", "--core", "sphere", "--coat", "sphere", "--core-size")
+        self.assertIn("m/s     (Re 1.3e+06, beyond the drag law's 3e+05)", clast(*ask, "20cm", "--size", "10cm").out)
+        self.assertNotIn("(Re", clast(*ask, "2mm", "--size", "1mm").out)
+        self.assertAlmostEqual(clast(*ask, "20cm", "--size", "10cm", "--json").json["settling_reynolds"], 1.344e6, delta=1e3)
+
     def test_bad_options(self):
         for options, says in ((("--rayz", "3"), "--rays"), (("--cone", "200deg"), "cone"),
                               (("--axis", "0,0,0"), "axis"), (("--envelope", "hull"), "envelope"),

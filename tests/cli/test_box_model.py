@@ -23,6 +23,12 @@ class BoxModel(Case):
             print("SKIPPED: this build has no SUNDIALS (tools/setup.sh sundials)")
             self.skipTest("no SUNDIALS")
 
+    def test_what_rises_does_not_settle(self):
+        self.need_sectional()
+        for solver in ("monte-carlo", "sectional"):
+            self.assert_fails(2, *BOX, "--solver", solver, "--constant", "0", "--monomer-radius", "50um", "--particle-density", "500",
+                              "--settling-depth", "1m", "--duration", "1s", says=("settling_depth", "500 kg/m^3", "do not settle"))
+
     def test_a_tail_that_the_drawn_particles_do_not_hold_is_told(self):
         law = ("--constant", "1", "--duration", "1us", "--initial", "lognormal", "--initial-sd")
         wide = clast(*BOX, *law, "8", "--json")

@@ -51,6 +51,24 @@ class CloudInputs(Case):
                 else:
                     self.assertEqual(x, y, key)
 
+    def test_temperatures_are_kelvin_or_celsius_by_their_name(self):
+        random_at = random.Random(4)
+        rows = [[random_at.random() for _ in range(3)] for _ in range(60)]
+        events = {}
+        for name, value in (("T_K", 293.15), ("T", 293.15), ("T_C", 20), ("T (degC)", 20), ("T_degC", 20), ("T_F", 68)):
+            path = self.folder / "warm.csv"
+            path.write_text(f"x,y,z,{name}\n" + "".join(f"{x},{y},{z},{value}\n" for x, y, z in rows))
+            ask = ("agglomerate", path, "--domain", "box:0,0,0,1,1,1", "--columns", "x,y,z", "--kernel", "brownian", "--monomer-radius",
+                   "1um", "--particle-density", "1000", "--temperature-column", name, "--duration", "1e16s", "--out-of-range", "extrapolate")
+            if name == "T_F":
+                self.assert_fails(2, *ask, says=("'T_F' is in F by its name",))
+                continue
+            got = clast(*ask, "--json")
+            self.assertEqual(got.code, 0, got.err)
+            events[name] = got.json["events"][-1]
+        self.assertEqual(len(set(events.values())), 1, events)
+        self.assertGreater(events["T_K"], 0)
+
     def test_positions_and_domain_have_units(self):
         wanted = self.answer(CSV, CUBE)
         mm = self.write("mm.csv", [[1e3 * c for c in p] for p in ROWS])

@@ -53,6 +53,18 @@ class Decompose(Case):
         self.assertEqual(result.code, 0, result.err)
         return result.json
 
+    def test_verdicts_of_a_single_test_agree(self):
+        for name in ("b3_n500", "u3_n50"):
+            ask = ("decompose", ROOT / f"data/d2sd/points_{name}.csv", "--domain", "box:0,0,0,1,1,1", "--tests", "star")
+            words, alone = clast(*ask, "--test-only"), clast(*ask, "--test-only", "--json")
+            reject = alone.json["reject"]
+            self.assertEqual(reject, name == "b3_n500")
+            self.assertEqual(reject, alone.json["tests"][0]["p"] < 0.05)
+            self.assertEqual((words.code, alone.code), (int(reject),) * 2)
+            self.assertEqual("not uniform" in words.out, reject)
+            self.assertEqual("accepted by the tests" in clast(*ask).out, not reject)
+            self.assert_fails(2, *ask, "--votes", "3", says=("votes: 3 tests must reject, but 1 votes",))
+
     def test_uniform_points_are_one_cell(self):
         r = self.decompose("u2_n50", "box:0,0,1,1", "--beta-dt", "0.004")
         self.assertFalse(r["reject"])

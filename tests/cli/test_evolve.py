@@ -31,6 +31,18 @@ class Evolve(Case):
         self.assertEqual(result.code, 0, result.err)
         return result
 
+    def test_a_fall_beyond_its_law_is_told_with_a_way_out(self):
+        big = ("evolve", "--domain", "box:0,0,0,10m,10m,10m", "--particles", "5", "--curve", "30cm", "--duration", "0.1s", "--constant", "0",
+               "--kernel", "constant", "--json")
+        found = clast(*big)
+        self.assertGreater(found.json["fall_reynolds"], 3e5)
+        self.assertEqual(found.err.count("\n"), 1)
+        self.assertIn("beyond the 300000 of the drag law", found.err)
+        small = clast(*big[:6], "0.1mm", *big[7:])
+        self.assertEqual((small.code, small.err), (0, ""))
+        self.assert_fails(2, "evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--particles", "1000", "--curve", "uniform:0.1mm,0.3mm",
+                          "--duration", "0.05s", "--kernel", "settling", "--efficiency", "1", "--fall", "stokes", says=("--fall form or sphere",))
+
     def test_books_balance_in_every_row(self):
         run = self.folder / "run"
         out = self.run_ash("-j", 2, "--json", "-o", run).json

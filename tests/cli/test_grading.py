@@ -32,6 +32,48 @@ class Grading(Case):
         other = clast("grading", "U7", "--sample", "5000", "--seed", "4", "--json").json
         self.assertNotEqual(got["achieved_d50"], other["achieved_d50"])
 
+    def grades(self, prefix, text):
+        path = self.folder / "list.csv"
+        path.write_text(text)
+        return ("grading", f"{prefix}:{path}", "--json")
+
+    def test_columns_of_masses_and_counts_are_known_by_name_and_unit(self):
+        rows = "10,10\n20,40\n40,80\n"
+        for name in ("mass", "mass_g", "Mass (kg)", "retained_g", "mass [mg]", "weight", "frequency", "wt%", "mass_fraction"):
+            got = clast(*self.grades("masses", f"size_um,{name}\n{rows}"))
+            self.assertEqual(got.code, 0, got.err)
+            self.assertAlmostEqual(got.json["drawn_by_mass"]["d10"] / 20e-6, 1, 12, name)
+            self.assertAlmostEqual(got.json["drawn_by_mass"]["d50"] / 40e-6, 1, 12, name)
+        for name in ("count", "n_grains", "Number of grains", "frequency", "n"):
+            got = clast(*self.grades("list", f"size_um,{name}\n{rows}"))
+            self.assertEqual(got.code, 0, got.err)
+            self.assertAlmostEqual(got.json["drawn_by_number"]["d50"] / 40e-6, 1, 12, name)
+        both = "size_um,count,mass_g\n10,1,8\n20,1,1\n"
+        self.assertAlmostEqual(clast(*self.grades("masses", both)).json["drawn_by_mass"]["d50"] / 10e-6, 1, 12)
+        self.assertAlmostEqual(clast(*self.grades("list", both)).json["drawn_by_number"]["d90"] / 20e-6, 1, 12)
+
+    def test_masses_are_no_counts_and_counts_no_masses(self):
+        rows = "10,10\n20,40\n"
+        for prefix, head, says in (("masses", "size_um,count", ("'count'", "not masses", "list:")), ("list", "size_um,mass_g", ("'mass_g'", "masses:")),
+                                   ("masses", "phi,n_grains", ("'n_grains'", "list:")), ("list", "size_um,retained", ("'retained'", "masses:")),
+                                   ("masses", "size_um,mass_mm", ("no column of masses", "size_um, mass_mm")),
+                                   ("list", "size_um,heaviness", ("'heaviness' is not understood",))):
+            self.assert_fails(2, *self.grades(prefix, f"{head}\n{rows}"), says=says)
+        self.assert_fails(2, *self.grades("masses", "size_um\n10\n20\n"), says=("no column of masses",))
+
+    def test_phi_is_its_own_unit_and_1_mm_is_phi_0(self):
+        path = self.folder / "phi.csv"
+        path.write_text("phi,count\n0,10\n1,40\n")
+        got = clast("grading", f"list:{path}", "--json")
+        self.assertAlmostEqual(got.json["drawn_by_number"]["d50"] / 0.5e-3, 1, 12)
+        for curve in (f"list:{path}", "1mm"):
+            words = clast("grading", curve).out
+            self.assertIn("phi  0.000", words)
+            self.assertNotIn("-0.000", words)
+        path.write_text("d,count\n4,10\n")
+        self.assert_fails(2, "grading", f"list:{path}", says=("end the column's name in it",))
+        self.assertNotIn("size_unit", clast("grading", f"list:{path}").err)
+
     def test_measured_sizes_are_set_beside_a_curve(self):
         out = self.folder / "sizes.csv"
         drawn = clast("grading", "U7", "--sample", "2000", "-o", out, "--json").json

@@ -584,22 +584,35 @@ static void one_text_names_any_distribution(void **state)
     assert_null(g);
 }
 
+static void write_list(const char *path, const char *column)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fprintf(file, "d_mm,%s\n1,3\n2,1\n", column);
+    assert_int_equal(fclose(file), 0);
+}
+
 static void lists_are_files_of_counts_or_masses(void **state)
 {
     (void)state;
     char path[512];
     char text[600];
     (void)snprintf(path, sizeof path, "%s/sizes.csv", support_scratch());
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    (void)fputs("d_mm,count\n1,3\n2,1\n", file);
-    assert_int_equal(fclose(file), 0);
     static const char *const kind[] = {"list", "masses"};
+    static const char *const column[] = {"count", "mass_g"};
     const double share[] = {0.75, 24.0 / 25.0}; // 3 : 1, and 3 : 1/8
     for (int k = 0; k < 2; ++k) {
         clast_curve curve = {0};
         clast_grading *g = NULL;
+        write_list(path, column[k]);
         (void)snprintf(text, sizeof text, "%s:%s", kind[k], path);
+        CHECK_OK(clast_grading_load(text, 0, 0, &curve, &g));
+        CHECK_REL(clast_grading_share(g, 1.5e-3), share[k], 1e-14);
+        clast_grading_destroy(g);
+        g = NULL;
+        write_list(path, column[1 - k]);
+        CHECK_REFUSED(clast_grading_load(text, 0, 0, &curve, &g), k == 0 ? "masses:" : "list:");
+        write_list(path, "frequency"); // either
         CHECK_OK(clast_grading_load(text, 0, 0, &curve, &g));
         CHECK_REL(clast_grading_share(g, 1.5e-3), share[k], 1e-14);
         clast_grading_destroy(g);
