@@ -204,9 +204,9 @@ static bool has_foot(const clx_wall_triangle *t, const clx_placed *body, const c
     return v3_distance(nearest, foot) <= ON_SIDE * t->bounding_radius - beyond * face->gap;
 }
 
-bool clx_triangle_pushes(const clx_wall_triangle *t, const clx_placed *body,
-                         const clx_contact *least, int32_t n, const clx_contact *owner,
-                         clx_contact *face)
+bool clx_triangle_face_acts(const clx_wall_triangle *t, const clx_placed *body,
+                            const clx_contact *least, int32_t n, const clx_contact *owner,
+                            clx_contact *face)
 {
     if (body->shape->kind == CLX_CONVEX_SPHERE) { // its nearest points are those of the surface
         return false;
@@ -331,7 +331,7 @@ int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body
             if (pass == 0
                     ? owns
                     : !owns && least.gap < 0.0 &&
-                          clx_triangle_pushes(t, body, &least, n_owner, owner, &one.contact)) {
+                          clx_triangle_face_acts(t, body, &least, n_owner, owner, &one.contact)) {
                 n = insert(contact, n, cap, &one);
             }
         }

@@ -60,9 +60,9 @@ void clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_plac
 ///
 /// @param body  its shape and turn    @param least  the triangle's own least move
 /// @param owner  [n] contacts of the triangles that own theirs    @param face  out
-bool clx_triangle_pushes(const clx_wall_triangle *triangle, const clx_placed *body,
-                         const clx_contact *least, int32_t n, const clx_contact *owner,
-                         clx_contact *face);
+bool clx_triangle_face_acts(const clx_wall_triangle *triangle, const clx_placed *body,
+                            const clx_contact *least, int32_t n, const clx_contact *owner,
+                            clx_contact *face);
 
 /// All contacts of a body with the wall whose gap is at most max_gap, deepest first: one for each
 /// direction of push (25 degrees), at most `cap`. Returns how many.

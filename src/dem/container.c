@@ -224,7 +224,7 @@ static void add_faces(const clast_dem *dem, int32_t i, const clx_placed *body, c
         clx_warm_start start = known != NULL ? *known : (clx_warm_start){0};
         if (clx_triangle_contact(t, body, 0.0, known != NULL ? &start : NULL, &least) &&
             least.gap < 0.0 && !clx_triangle_owns(t, body, &least) &&
-            clx_triangle_pushes(t, body, &least, n_owner, owner, &face)) {
+            clx_triangle_face_acts(t, body, &least, n_owner, owner, &face)) {
             insert(p, &face, k);
         }
     }

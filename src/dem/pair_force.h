@@ -132,9 +132,12 @@ static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pai
 /// that have none.
 static inline double clx_item_neck(const clast_dem *dem, int32_t item)
 {
+    if (!dem->law.has_neck) {
+        return 0.0;
+    }
     clx_law law = dem->law;
     law.adhesion = fmax(law.adhesion, dem->laws.adhesion);
-    return law.has_neck ? -clx_jkr_tear(&law, clx_item_curve(dem, item)) : 0.0;
+    return -clx_jkr_tear(&law, clx_item_curve(dem, item));
 }
 
 /// Factor on a grain's inertia by the fluid that moves along (added mass): 1 + C_m rho_f / rho.

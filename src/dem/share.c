@@ -9,19 +9,20 @@
 #include "dem/touch.h"
 #include "math/vec3.h"
 
-/// Triangles whose pushes are closer than this cosine are one wall.
+/// Triangles whose contact forces are closer than this cosine are one wall.
 static const double SAME_WALL = 0.9;
 
 /// Normal of a pair's triangle, on the side on which its item is.
-static void push_of(const clast_dem *dem, const clx_dem_pair *pair, double push[3])
+static void force_normal(const clast_dem *dem, const clx_dem_pair *pair, double normal[3])
 {
     const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
     double d[3];
     v3_sub(d, clx_item_position(dem, pair->a), t->centroid);
-    v3_scale(push, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
+    v3_scale(normal, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
 }
 
-/// Whether a wall pushes two items the same way: a cylinder may have a long grain's both ends.
+/// Whether a wall's forces on two items have one direction: a cylinder may have a long grain's both
+/// ends.
 static bool is_same_side(const clast_dem *dem, const clx_dem_pair *p, const clx_dem_pair *q)
 {
     const clx_wall *wall = &dem->wall[-1 - p->b];
@@ -38,8 +39,8 @@ static bool is_same_pair(const clast_dem *dem, const clx_dem_pair *p, const clx_
         const int32_t *owner = dem->container->owner;
         double of_p[3];
         double of_q[3];
-        push_of(dem, p, of_p);
-        push_of(dem, q, of_q);
+        force_normal(dem, p, of_p);
+        force_normal(dem, q, of_q);
         return owner[-1 - p->b - dem->n_wall] == owner[-1 - q->b - dem->n_wall] &&
                v3_dot(of_p, of_q) > SAME_WALL;
     }

@@ -273,8 +273,8 @@ static void tripod_slides_beyond_the_angle_of_friction(void **state)
 }
 
 /* A dumb-bell upright in a slot, 0.02 of a radius in the floor and 0.01 in the ceiling of one
- * surface: each pushes with the whole stiffness, as two walls do (it was shared between them). And
- * a rod as a chord of a cylinder: both ends are pushed, along their own radii. */
+ * surface: each contact has the whole stiffness, as two walls do (it was shared between them). And
+ * a rod as a chord of a cylinder: both ends have a contact force, along their own radii. */
 static void walls_that_face_each_other_share_nothing(void **state)
 {
     (void)state;

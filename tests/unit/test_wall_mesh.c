@@ -260,11 +260,10 @@ static void lip_pushes_once_and_no_deeper(void **state)
 }
 
 /* Sharp bodies outside of a box, an edge or a corner of either just past the other, and a needle in
- * the box's hollow edge. A body that a move of 1e-3 brings out is pushed by no more; a vertex that
- * has passed two walls is pushed by the deeper one at least, and mostly by both. Before, faces
- * pushed up to 4000 times too deep at outer edges, and bodies left the box through its inner ones.
- */
-static void sharp_bodies_are_pushed_as_deep_as_they_are(void **state)
+ * the box's hollow edge. Where a move of 1e-3 parts them no contact is deeper; a vertex past two
+ * walls has a contact with the deeper one at least, and mostly with both. Before, contacts at outer
+ * edges were up to 4000 times too deep, and bodies left the box through its inner ones. */
+static void contacts_of_sharp_bodies_are_as_deep_as_they_are(void **state)
 {
     (void)state;
     clast_mesh mesh = {0};
@@ -344,9 +343,9 @@ static void sharp_bodies_are_pushed_as_deep_as_they_are(void **state)
     clast_mesh_free(&mesh);
 }
 
-/* A ridge of two plates, blunt to sharp, under a ball: one push, away from the ridge. Sharper than
- * 60 degrees it pushed nothing. */
-static void ridges_push_however_sharp(void **state)
+/* A ridge of two plates, blunt to sharp, under a ball: one contact, whose normal leads away from
+ * the ridge. Sharper than 60 degrees there was none. */
+static void ridges_have_contacts_however_sharp(void **state)
 {
     (void)state;
     static const double unturned[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
@@ -387,8 +386,8 @@ int main(void)
         cmocka_unit_test(floor_of_triangles_is_a_plane),
         cmocka_unit_test(ball_is_a_round_ellipsoid),
         cmocka_unit_test(lip_pushes_once_and_no_deeper),
-        cmocka_unit_test(sharp_bodies_are_pushed_as_deep_as_they_are),
-        cmocka_unit_test(ridges_push_however_sharp),
+        cmocka_unit_test(contacts_of_sharp_bodies_are_as_deep_as_they_are),
+        cmocka_unit_test(ridges_have_contacts_however_sharp),
         cmocka_unit_test(box_pushes_from_each_wall),
         cmocka_unit_test(triangle_remembers),
         cmocka_unit_test(walls_survive_refused_memory),
