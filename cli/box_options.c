@@ -40,40 +40,39 @@ int cli_box_fields(clast_field *fields, int n, size_t offset)
 /// 1: of a box alone, -1: of clouds alone, 0: of both.
 static int side_of(const char *name)
 {
-    static const char *const box[] = {"initial_file", NULL};
-    static const char *const both[] = {"box_model", "charts", "force", "seed", NULL};
-    static const char *const cloud[] = {"rebuild", "change_level",    "fixed",
-                                        "depth",   "self_collisions", NULL};
-    if (cli_is_among(name, box) || clast_fields_find(clast_spectrum_fields, name) != NULL) {
+    static const clast_field both[] = {
+        {.name = "box_model"}, {.name = "charts"}, {.name = "force"}, {.name = "seed"}, {0}};
+    static const clast_field cloud[] = {{.name = "rebuild"},         {.name = "change_level"},
+                                        {.name = "fixed"},           {.name = "depth"},
+                                        {.name = "self_collisions"}, {0}};
+    if (strcmp(name, "initial_file") == 0 ||
+        clast_fields_find(clast_spectrum_fields, name) != NULL) {
         return 1;
     }
-    if (cli_is_among(name, both) ||
-        (clast_fields_find(clast_agglomerate_fields, name) != NULL && !cli_is_among(name, cloud))) {
+    if (clast_fields_find(both, name) != NULL ||
+        (clast_fields_find(clast_agglomerate_fields, name) != NULL &&
+         clast_fields_find(cloud, name) == NULL)) {
         return 0;
     }
     return -1;
 }
 
-/// Why a box does not look at an option; NULL where it does.
-static const char *idle_in(const cli_box *box, const char *name)
+/// Refuses options that a box of this kind does not look at.
+static clast_status check_idle(const clast_field *fields, const void *config, const cli_box *box)
 {
-    static const char *const draws[] = {"particles", "collisions", "leap", "block", "seed", NULL};
-    static const char *const integrates[] = {"tolerance", NULL};
-    static const char *const breaks[] = {"breakage_exponent", "fragments", "fragment_exponent",
-                                         NULL};
-    static const char *const enters[] = {"source_size", NULL};
-    static const char *const law[] = {"initial_mean", "initial_sd", NULL};
     const clast_spectrum_config *c = &box->spectrum;
-    const cli_idle rules[] = {
-        {c->solver == CLAST_SOLVER_SECTIONAL, draws, "with this --solver"},
-        {c->solver == CLAST_SOLVER_MONTE_CARLO, integrates, "with this --solver"},
-        {c->breakage_rate == 0.0, breaks, "without --breakage-rate"},
-        {c->fragments == CLAST_FRAGMENTS_HALVES, breaks + 2, "with --fragments halves"},
-        {c->source == 0.0, enters, "without --source"},
-        {c->initial == CLAST_INITIAL_TABLE, law, "with --initial table"},
-        {c->initial != CLAST_INITIAL_LOGNORMAL, law + 1, "without --initial lognormal"},
-    };
-    return cli_idle_why(rules, sizeof rules / sizeof rules[0], name);
+    const clast_idle rules[] = {
+        {c->solver == CLAST_SOLVER_SECTIONAL, "particles|collisions|leap|block|seed",
+         "with this --solver"},
+        {c->solver == CLAST_SOLVER_MONTE_CARLO, "tolerance", "with this --solver"},
+        {c->breakage_rate == 0.0, "breakage_exponent|fragments|fragment_exponent",
+         "without --breakage-rate"},
+        {c->fragments == CLAST_FRAGMENTS_HALVES, "fragment_exponent", "with --fragments halves"},
+        {c->source == 0.0, "source_size", "without --source"},
+        {c->initial == CLAST_INITIAL_TABLE, "initial_mean|initial_sd", "with --initial table"},
+        {c->initial != CLAST_INITIAL_LOGNORMAL, "initial_sd", "without --initial lognormal"},
+        {0}};
+    return cli_idle_check(fields, config, rules);
 }
 
 /// The run of which options are checked.
@@ -123,20 +122,19 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
     CLI_GUARD(clast_kernel_parse(agglomerate->kernel, &o.agglomerate.collide.kernel));
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         char option[CLI_NAME_SIZE];
-        const char *const why = box->box_model ? idle_in(box, f->name) : NULL;
-        const bool is_wrong = side_of(f->name) == (box->box_model ? -1 : 1) || why != NULL;
+        if (clast_field_is_default(f, config)) {
+            continue;
+        }
         cli_option_name(f, option);
-        if (is_wrong && !cli_field_is_default(fields, f, config)) {
-            return cli_fail(CLAST_E_USAGE, "--%s %s%s", option,
-                            !box->box_model ? "is an option of a box: it needs --box-model"
-                            : side_of(f->name) < 0
-                                ? "is an option of clouds: a box has no positions"
-                                : "does nothing ",
-                            why != NULL ? why : "");
+        if (side_of(f->name) == (box->box_model ? -1 : 1)) {
+            return cli_fail(CLAST_E_USAGE, "--%s is an option of %s", option,
+                            box->box_model ? "clouds: a box has no positions"
+                                           : "a box: it needs --box-model");
         }
-        if (!cli_field_is_default(fields, f, config)) {
-            CLI_GUARD(check_used(&o, option, f->name));
-        }
+        CLI_GUARD(check_used(&o, option, f->name));
+    }
+    if (box->box_model) {
+        CLI_GUARD(check_idle(fields, config, box));
     }
     if (box->box_model &&
         (box->spectrum.initial == CLAST_INITIAL_TABLE) != (box->initial_file[0] != '\0')) {

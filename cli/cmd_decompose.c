@@ -177,22 +177,19 @@ done:
 /// What needs a folder has one, and what was asked for is not idle.
 static clast_status check(const cli_common *common, const config *c)
 {
-    static const char *const sizes[] = {"regular", NULL};
-    static const char *const counts[] = {
-        "mesh",         "events",        "crossfit",        "beta_dt",    "pairs",
-        "pairs_radius", "estimator",     "sizes",           "lower",      "strict",
-        "max_pass",     "tree_level",    "tree_root_level", "tree_least", "tree_refine",
-        "extrapolate",  "ghost_samples", "variable_column", NULL};
     clast_status status = CLAST_OK;
     const bool is_test = c->test_only || c->decompose.variant == CLAST_VARIANT_TEST;
-    const cli_idle rules[] = {
-        {is_test, counts, c->test_only ? "with --test-only" : "with --variant test"},
-        {c->n_size == 0, sizes, "without --sizes"},
-    };
+    const clast_idle rules[] = {{is_test,
+                                 "mesh|events|crossfit|beta_dt|pairs|pairs_radius|estimator|sizes|"
+                                 "lower|strict|max_pass|tree_level|tree_root_level|tree_least|tree_"
+                                 "refine|extrapolate|ghost_samples|variable_column",
+                                 c->test_only ? "with --test-only" : "with --variant test"},
+                                {c->n_size == 0, "regular", "without --sizes"},
+                                {0}};
     CLI_CHECK(!c->test_only || c->decompose.variant == CLAST_VARIANT_FULL ||
                   c->decompose.variant == CLAST_VARIANT_TEST,
               CLAST_E_USAGE, "--test-only is --variant test: leave --variant out");
-    CLI_TRY(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
+    CLI_TRY(cli_idle_check(fields, c, rules));
     CLI_TRY(cli_idle_cells(common, fields, c, &c->points, &c->decompose));
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");

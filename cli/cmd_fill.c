@@ -130,19 +130,14 @@ static clast_status show(const cli_common *common, const char *name,
 /// Of the strategies each has options of its own.
 static clast_status check_used(const clast_fill_config *c)
 {
-    static const char *const random[] = {"candidates", "first_at_centre", "max_tries", "seed",
-                                         NULL};
-    static const char *const largest[] = {"tolerance", "min_share", NULL};
-    static const char *const tolerance[] = {"tolerance", NULL};
-    static const char *const outer[] = {"shrink", NULL};
     const bool is_largest = c->strategy == CLAST_FILL_LARGEST;
-    const cli_idle rules[] = {
-        {c->overlap, tolerance, "with --overlap"},
-        {is_largest, random, "with --strategy largest"},
-        {!is_largest, largest, "without --strategy largest"},
-        {!c->outer, outer, "without --outer"},
-    };
-    return cli_idle_check(clast_fill_fields, c, rules, sizeof rules / sizeof rules[0]);
+    const clast_idle rules[] = {
+        {c->overlap, "tolerance", "with --overlap"},
+        {is_largest, "candidates|first_at_centre|max_tries|seed", "with --strategy largest"},
+        {!is_largest, "tolerance|min_share", "without --strategy largest"},
+        {!c->outer, "shrink", "without --outer"},
+        {0}};
+    return cli_idle_check(clast_fill_fields, c, rules);
 }
 
 static clast_status run(const cli_common *common, void *context)

@@ -258,12 +258,11 @@ static void answer_words(const answer *a)
 
 static clast_status check_options(const cli_common *common, const grading_config *config)
 {
-    static const char *const weighed[] = {"density", "grain_volume", NULL};
-    static const char *const drawn[] = {"seed", NULL};
     const bool compares = config->compare[0] != '\0';
-    const cli_idle rules[] = {{config->mass == 0.0, weighed, "without --mass"},
-                              {config->sample == 0, drawn, "without --sample"}};
-    CLI_GUARD(cli_idle_check(grading_fields, config, rules, sizeof rules / sizeof rules[0]));
+    const clast_idle rules[] = {{config->mass == 0.0, "density|grain_volume", "without --mass"},
+                                {config->sample == 0, "seed", "without --sample"},
+                                {0}};
+    CLI_GUARD(cli_idle_check(grading_fields, config, rules));
     if (common->output != NULL && config->sample == 0) {
         return cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
     }

@@ -145,13 +145,12 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
         return cli_fail(CLAST_E_USAGE, "give a table of grains, or --flatness and --elongation%s",
                         has_moments ? ", not both" : "");
     }
-    static const char *const rows[] = {"each", "columns", "resamples", "seed", NULL};
-    static const char *const counted[] = {"grains", NULL};
-    static const char *const drawn[] = {"resamples", "seed", NULL};
-    const cli_idle rules[] = {{!j->has_table, rows, "without a table"},
-                              {j->has_table, counted, "with a table, whose rows are counted"},
-                              {c->each, drawn, "with --each: a form has no sampling error"}};
-    CLI_GUARD(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
+    const clast_idle rules[] = {
+        {!j->has_table, "each|columns|resamples|seed", "without a table"},
+        {j->has_table, "grains", "with a table, whose rows are counted"},
+        {c->each, "resamples|seed", "with --each: a form has no sampling error"},
+        {0}};
+    CLI_GUARD(cli_idle_check(fields, c, rules));
     if (!j->has_table) {
         return predict_moments(c, j);
     }

@@ -155,12 +155,11 @@ static clast_status report(const cli_common *common, const clast_assembly *assem
 
 static clast_status check_used(const clast_render_config *c)
 {
-    static const char *const angle[] = {"field_of_view", NULL};
-    static const char *const place[] = {"cut_position", NULL};
-    const cli_idle rules[] = {
-        {c->projection == CLAST_RENDER_ORTHOGRAPHIC, angle, "without --projection perspective"},
-        {c->cut == CLAST_RENDER_CUT_NONE, place, "without --cut"}};
-    return cli_idle_check(clast_render_fields, c, rules, sizeof rules / sizeof rules[0]);
+    const clast_idle rules[] = {{c->projection == CLAST_RENDER_ORTHOGRAPHIC, "field_of_view",
+                                 "without --projection perspective"},
+                                {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"},
+                                {0}};
+    return cli_idle_check(clast_render_fields, c, rules);
 }
 
 static clast_status run(const cli_common *common, void *config)

@@ -250,27 +250,23 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
 /// Kinds of files have options of their own. `may_be`: of which kinds there are files, as bits.
 static clast_status check_kinds(const config *c, unsigned may_be, const char *why)
 {
-    static const char *const series[] = {"degree", "level", NULL};
-    static const char *const points[] = {"spacing", NULL};
-    static const char *const volume[] = {"voxels", "threshold", "least_voxels", NULL};
-    const cli_idle rules[] = {
-        {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, series, why},
-        {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, points, why},
-        {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0, volume, why},
-    };
-    return cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]);
+    const clast_idle rules[] = {
+        {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
+        {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
+        {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0, "voxels|threshold|least_voxels", why},
+        {0}};
+    return cli_idle_check(fields, c, rules);
 }
 
 /// So have statistics; what the files are is known before they are read where --kind says it.
 static clast_status check_used(const config *c)
 {
-    static const char *const drawn[] = {"resamples", "seed", NULL};
-    static const char *const bare[] = {"voxel_type", "big_endian", "skip", NULL};
-    const cli_idle rules[] = {
-        {c->statistics[0] == '\0', drawn, "without --statistics"},
-        {c->voxels[0] == '\0', bare, "without --voxels: other volumes have a header"},
-    };
-    CLI_GUARD(cli_idle_check(fields, c, rules, sizeof rules / sizeof rules[0]));
+    const clast_idle rules[] = {
+        {c->statistics[0] == '\0', "resamples|seed", "without --statistics"},
+        {c->voxels[0] == '\0', "voxel_type|big_endian|skip",
+         "without --voxels: other volumes have a header"},
+        {0}};
+    CLI_GUARD(cli_idle_check(fields, c, rules));
     return c->kind == CLAST_GRAINS_AUTO ? CLAST_OK
                                         : check_kinds(c, 1U << c->kind, "with this --kind");
 }

@@ -92,6 +92,24 @@ CLAST_API int clast_field_format(const clast_field *field, const void *config, i
 /// Number of items: lists their length, all others 1.
 CLAST_API int32_t clast_field_count(const clast_field *field, const void *config);
 
+/// Whether the field has its default.
+CLAST_API bool clast_field_is_default(const clast_field *field, const void *config);
+
+/// Fields that a run would not look at; a list of these ends with {0}.
+typedef struct clast_idle {
+    bool is_idle;
+    const char *names; ///< "size_mean|size_low"
+    const char *why;   ///< "without size_law"
+} clast_idle;
+
+/// The first field that is idle by a rule and has another value than its default: a
+/// parameter without effect is a mistake of the person who gives it.
+///
+/// @param why  of that rule; unchanged where there is none
+/// @return NULL where there is none, or where a pointer is NULL
+CLAST_API const clast_field *clast_fields_idle(const clast_field *fields, const void *config,
+                                               const clast_idle *rules, const char **why);
+
 /// Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers
 /// are SI. Spaces between number and unit are optional. "phi" is accepted for lengths: 2^-phi mm.
 CLAST_API clast_status clast_unit_parse(const char *text, const char *si_unit, double *value);

@@ -260,6 +260,10 @@ class clast_field(Structure):
     """clast_field."""
 
 
+class clast_idle(Structure):
+    """Fields that a run would not look at; a list of these ends with {0}."""
+
+
 class clast_fill_config(Structure):
     """Settings; lengths in the unit of the mesh."""
 
@@ -1390,6 +1394,11 @@ clast_field._fields_ = [
     ('text', c_char_p),
     ('group', c_char_p),
     ('common', c_bool),
+]
+clast_idle._fields_ = [
+    ('is_idle', c_bool),
+    ('names', c_char_p),
+    ('why', c_char_p),
 ]
 clast_fill_config._fields_ = [
     ('spheres', c_int32),
@@ -2855,6 +2864,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_text_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_f64_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_field': (88, {'name': (0, 8), 'offset': (8, 8), 'type': (16, 4), 'value': (24, 8), 'low': (32, 8), 'high': (40, 8), 'unit': (48, 8), 'help': (56, 8), 'text': (64, 8), 'group': (72, 8), 'common': (80, 1)}),
+    'clast_idle': (24, {'is_idle': (0, 1), 'names': (8, 8), 'why': (16, 8)}),
     'clast_fill_config': (144, {'spheres': (0, 4), 'strategy': (4, 4), 'filled': (8, 8), 'volume_error': (16, 8), 'centroid_error': (24, 8), 'inertia_error': (32, 8), 'min_radius': (40, 8), 'min_share': (48, 8), 'tolerance': (56, 8), 'candidates': (64, 4), 'first_at_centre': (68, 1), 'vertex_subset': (69, 1), 'max_tries': (72, 8), 'outer': (80, 1), 'shrink': (88, 8), 'overlap': (96, 1), 'protrusion': (104, 8), 'allow_open': (112, 1), 'seed': (120, 8), 'name': (128, 8), 'history': (136, 8)}),
     'clast_fill_report': (160, {'n_sphere': (0, 4), 'n_placed': (4, 4), 'end': (8, 4), 'n_open_edge': (12, 4), 'open_share': (16, 8), 'solid_volume': (24, 8), 'sphere_volume': (32, 8), 'filled_fraction': (40, 8), 'volume_error': (48, 8), 'centroid_error': (56, 8), 'inertia_error': (64, 8), 'max_protrusion': (72, 8), 'n_protruding': (80, 4), 'max_overlap': (88, 8), 'deviation_mean': (96, 8), 'deviation_max': (104, 8), 'radius_min': (112, 8), 'radius_median': (120, 8), 'radius_max': (128, 8), 'bound': (136, 8), 'n_tested': (144, 8), 'wall_s': (152, 8)}),
     'clast_form_factor_entry': (64, {'name': (0, 8), 'inverse': (8, 8), 'symbol': (16, 8), 'label': (24, 8), 'formula': (32, 8), 'low': (40, 8), 'high': (48, 8), 'source': (56, 8)}),
@@ -3604,6 +3614,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_field_clear': (None, [POINTER(clast_field), c_void_p], 'Empties a list field.'),
     'clast_field_format': (c_int, [POINTER(clast_field), c_void_p, c_int32, c_size_t, c_char_p], 'Value as text, as clast_field_set_si reads it (17 digits, SI, no unit).'),
     'clast_field_count': (c_int32, [POINTER(clast_field), c_void_p], 'Number of items: lists their length, all others 1.'),
+    'clast_field_is_default': (c_bool, [POINTER(clast_field), c_void_p], 'Whether the field has its default.'),
+    'clast_fields_idle': (POINTER(clast_field), [POINTER(clast_field), c_void_p, POINTER(clast_idle), POINTER(c_char_p)], 'The first field that is idle by a rule and has another value than its default: a parameter without effect is a mistake of the person who gives it.'),
     'clast_unit_parse': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers are SI.'),
     'clast_unit_parse_asked': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'The same where a unit is asked for: a bare length or angle other than 0 is refused, with its nearest correct spelling ("270um", "50deg").'),
     'clast_unit_factor': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.'),

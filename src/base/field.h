@@ -3,6 +3,7 @@
 #include <clast/status.h>
 
 typedef struct clast_field clast_field;
+typedef struct clast_idle clast_idle;
 
 /// As clast_unit_parse_asked; the spelling it names is the one nearest to a typical value [SI], 0:
 /// none is known.
@@ -19,3 +20,8 @@ clast_status clx_field_check(const clast_field *field, const void *slot);
 /// begins there.
 clast_status clx_fields_check_part(const clast_field *fields, size_t begin, size_t end,
                                    const void *part);
+
+/// Refuses the first idle field (clast_fields_idle): "walk_step does nothing without approach
+/// diffusive".
+clast_status clx_fields_idle(const clast_field *fields, const void *config,
+                             const clast_idle *rules);

@@ -66,6 +66,28 @@ static void wrong_lines_are_named(void **state)
 }
 
 /* A hundred thousand brackets took 42 s, as many braces over a minute. */
+static void idle_fields_are_found_by_their_rule(void **state)
+{
+    (void)state;
+    const clast_field *f = clast_aggregate_fields;
+    const char *why = NULL;
+    clast_idle rules[] = {
+        {true, "cone|core|size|coat_density", "without growth"}, {false, "rays", "never"}, {0}};
+    CHECK_OK(clast_fields_default(f, &config));
+    CHECK_OK(parse("size_mean: 1mm\nrays: 2\ncoat_density: [2500]\n")); /* one is the default */
+    assert_null(clast_fields_idle(f, &config, rules, &why));
+    assert_false(clast_field_is_default(clast_fields_find(f, "size_mean"), &config));
+    assert_true(clast_field_is_default(clast_fields_find(f, "coat_density"), &config));
+    CHECK_OK(parse("coat_density: [2500, 2600]\n"));
+    assert_string_equal(clast_fields_idle(f, &config, rules, &why)->name, "coat_density");
+    assert_string_equal(why, "without growth");
+    CHECK_OK(parse("core: a.stl\n")); /* before it in the table */
+    assert_string_equal(clast_fields_idle(f, &config, rules, &why)->name, "core");
+    rules[0].is_idle = false;
+    assert_null(clast_fields_idle(f, &config, rules, &why));
+    clast_fields_free(f, &config);
+}
+
 static void deep_nesting_is_refused_before_it_is_read(void **state)
 {
     (void)state;
@@ -170,6 +192,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_carry_units_and_lists_replace),
         cmocka_unit_test(wrong_lines_are_named),
+        cmocka_unit_test(idle_fields_are_found_by_their_rule),
         cmocka_unit_test(deep_nesting_is_refused_before_it_is_read),
         cmocka_unit_test(bare_lengths_and_angles_are_refused_with_their_spelling),
         cmocka_unit_test(survives_refused_memory),
