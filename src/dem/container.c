@@ -171,10 +171,10 @@ static void insert(candidates *p, const clx_contact *c, int64_t pair)
 
 /// History of a pair that touched a step ago, for the triangle whose force has this direction now.
 static void remember(candidates *p, clx_dem_pair *pair, clx_contact_history *history,
-                     const clx_contact *c, bool is_near, int64_t k)
+                     const double normal[3], bool is_near, int64_t k)
 {
     if (pair->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
-        v3_copy(p->normal[p->n_old], c->normal);
+        v3_copy(p->normal[p->n_old], normal);
         v3_copy(p->slide[p->n_old], pair->slide);
         p->history[p->n_old] = history != NULL ? *history : (clx_contact_history){0};
         p->old[p->n_old++] = k;
@@ -251,15 +251,18 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
         const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
         const bool is_near =
             clx_triangle_contact(t, &body, near, clx_pair_warm_start(dem, pair), &c);
-        remember(&p, pair, clx_pair_history(dem, pair), &c, is_near, k);
-        pair->active_from = travel + fmax(c.gap, 0.0);
-        if (is_near && c.gap < 0.0) {
-            const bool owns = clx_triangle_owns(t, &body, &c);
-            has_orphans = has_orphans || !owns;
-            if (owns) {
-                insert(&p, &c, k);
-            }
+        const bool matters = is_near && (c.gap < 0.0 || pair->touches != 0);
+        const bool is_orphan = matters && !clx_triangle_owns(t, &body, &c);
+        clx_contact felt = c;
+        if (is_orphan && pair->touches != 0) { // its face acted
+            clx_triangle_face_contact(t, &body, &felt);
         }
+        remember(&p, pair, clx_pair_history(dem, pair), felt.normal, is_near, k);
+        pair->active_from = travel + fmax(c.gap, 0.0);
+        if (is_near && c.gap < 0.0 && !is_orphan) {
+            insert(&p, &c, k);
+        }
+        has_orphans = has_orphans || (is_orphan && c.gap < 0.0);
     }
     if (has_orphans && body.shape->kind != CLX_CONVEX_SPHERE) {
         add_faces(dem, i, &body, &p);
