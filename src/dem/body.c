@@ -3,6 +3,7 @@
 #include "base/lines.h"
 #include "base/status.h"
 #include "dem/dem.h"
+#include "geom/check.h"
 #include "shape/whole.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
@@ -32,7 +33,7 @@ static clast_status check_convex(const char *name, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
-    CLX_TRY(clast_mesh_check(mesh, &found));
+    CLX_TRY(clx_check_without_cuts(mesh, &found));
     CLX_CHECK(found.closed && found.oriented, CLAST_E_GEOMETRY,
               "shape %s is not closed: %d open edges; run clast mesh repair, or take its hull "
               "(clast mesh hull, or hull: yes)",

@@ -235,9 +235,8 @@ static clast_status check_finite(const clast_mesh *mesh)
     return CLAST_OK;
 }
 
-clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *result)
+clast_status clx_check_without_cuts(const clast_mesh *mesh, clast_mesh_check_result *result)
 {
-    CLX_ARGUMENTS(mesh, result);
     CLX_ARRAY(mesh->vert, mesh->n_vert);
     CLX_ARRAY(mesh->tri, mesh->n_tri);
     clast_status status = CLAST_OK;
@@ -250,16 +249,29 @@ clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *r
     CLX_TRY(count_fans(mesh, &topology, &made));
     CLX_TRY(count_holes(mesh, &topology, &made));
     CLX_TRY(clx_check_parts(mesh, &topology, &made));
-    CLX_TRY(count_cuts(mesh, &made));
     CLX_TRY(measure_hull(mesh, &made.hull_volume));
     clx_check_measures(mesh, &made);
     made.manifold = made.n_nonmanifold_edge == 0 && made.n_nonmanifold_vertex == 0;
     made.oriented = made.n_misoriented_edge == 0 && made.n_inside_out == 0;
-    clx_check_words(&made);
     *result = made;
     made = (clast_mesh_check_result){0};
 done:
     clx_topology_free(&topology);
+    clast_mesh_check_free(&made);
+    return status;
+}
+
+clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *result)
+{
+    CLX_ARGUMENTS(mesh, result);
+    clast_status status = CLAST_OK;
+    clast_mesh_check_result made = {0};
+    CLX_TRY(clx_check_without_cuts(mesh, &made));
+    CLX_TRY(count_cuts(mesh, &made));
+    clx_check_words(&made);
+    *result = made;
+    made = (clast_mesh_check_result){0};
+done:
     clast_mesh_check_free(&made);
     return status;
 }

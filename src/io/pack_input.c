@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
+#include "geom/check.h"
 #include "io/bed_tables.h"
 #include "io/config_files.h"
 #include "io/rigid_grain.h"
@@ -50,7 +51,7 @@ static clast_status note_hull(const char *name, const clast_mesh *mesh, const cl
     clast_mesh welded = {0};
     CLX_TRY(clast_mesh_copy(mesh, &welded));
     CLX_TRY(clast_mesh_weld_auto(&welded, NULL));
-    CLX_TRY(clast_mesh_check(&welded, &found));
+    CLX_TRY(clx_check_without_cuts(&welded, &found));
     (void)snprintf(note->shape, sizeof note->shape, "%s", name);
     note->n_triangle = hull->n_tri;
     note->volume_added = found.closed && found.oriented && found.volume != 0.0
