@@ -6,7 +6,8 @@ typedef struct clast_mesh_check_result clast_mesh_check_result;
 typedef struct clx_topology clx_topology;
 
 /// clast_mesh_check but for the triangles that cut each other (half of its time) and the words.
-clast_status clx_check_without_cuts(const clast_mesh *mesh, clast_mesh_check_result *result);
+CLX_SHARED clast_status clx_check_without_cuts(const clast_mesh *mesh,
+                                               clast_mesh_check_result *result);
 
 /// True when the three corners are on one line, exactly.
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);
