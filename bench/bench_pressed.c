@@ -83,7 +83,6 @@ static void press(bed *b, const clast_shape form[N_FORM], double n, double kilop
     c->dem.gravity = 0.0;
     c->dem.fluid_density = 0.0;
     c->load_rate = 10.0;
-    c->max_load_time = 1e6;
     (void)snprintf(stage, sizeof stage, "isotropic %gkPa until time 1000s", kilopascals);
     clast_text_list own = c->stages;
     c->stages = (clast_text_list){.n = 1, .item = stages};

@@ -1,5 +1,6 @@
 // clast export: a run's state to the files that other programs read.
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 
 #include <stdio.h>
@@ -27,6 +28,34 @@ static const clast_field fields[] = {
     {0},
 };
 #undef FIELD
+
+/// Options that no file of this name, or no table, looks at.
+static clast_status check_idle(const cli_common *common, const export_config *c)
+{
+    const clast_export_format format = clast_export_format_of_path(common->output);
+    const bool is_ply = format == CLAST_EXPORT_PLY;
+    const bool has_surfaces = is_ply || format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
+                              format == CLAST_EXPORT_3MF || format == CLAST_EXPORT_VTU;
+    const clast_idle rules[] = {
+        {c->table[0] != '\0', "level|points|colour|unit", "with --table"},
+        {!has_surfaces, "level",
+         "in a file without surfaces: .stl, .obj, .ply, .3mf and .vtu have them"},
+        {c->points, "level", "with --points: they have no surfaces"},
+        {!is_ply, "colour", "but in a .ply"},
+        {0}};
+    return cli_idle_check(fields, c, rules);
+}
+
+/// Whether the fineness shows: surfaces of files are as they are.
+static clast_status check_level(const export_config *c, const clast_assembly *assembly)
+{
+    bool is_made = false;
+    for (int32_t i = 0; i < assembly->n_shape; ++i) {
+        is_made = is_made || assembly->shape[i].mesh.n_tri == 0;
+    }
+    const clast_idle rules[] = {{!is_made, "level", "without spheres and ellipsoids"}, {0}};
+    return cli_idle_check(fields, c, rules);
+}
 
 static clast_status report_table(const cli_common *common, const clast_table *table)
 {
@@ -112,6 +141,7 @@ static clast_status export_assembly(const cli_common *common, const char *state,
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
     clast_status status = CLAST_OK;
     CLI_TRY(read_grains(state, &assembly));
+    CLI_TRY(check_level(config, &assembly));
     options.unit = unit_of(config, clast_export_format_of_path(common->output), &assembly);
     CLI_TRY(clast_assembly_write(&assembly, common->output, &options, &report));
     CLI_TRY(report_assembly(common, &assembly, &report));
@@ -134,10 +164,8 @@ static clast_status run(const cli_common *common, void *context)
                         ".json, .dump, .data, .txt, .voro, .xyzd or .conf",
                         common->output);
     }
-    const clast_status status = clast_run_folder_state(common->argument[0], state);
-    if (status != CLAST_OK) {
-        return status;
-    }
+    CLI_GUARD(check_idle(common, config));
+    CLI_GUARD(clast_run_folder_state(common->argument[0], state));
     return config->table[0] != '\0' ? export_table(common, state, config->table)
                                     : export_assembly(common, state, config);
 }

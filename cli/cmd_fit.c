@@ -1,5 +1,6 @@
 // clast fit: linear porosity models of a table of beds.
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 #include "results.h"
 #include "study_grains.h"
@@ -70,8 +71,18 @@ static bool has_forms(const config *c, const clast_table *beds)
     return has;
 }
 
+static clast_status check_idle(const config *c)
+{
+    const clast_idle rules[] = {
+        {c->fit.use[0] != '\0', "n_term|score", "with --use: features are named, none is selected"},
+        {c->grains[0] == '\0', "group", "without --grains"},
+        {0}};
+    return cli_idle_check(fields, c, rules);
+}
+
 static clast_status gather(const config *c, const char *path, job *j)
 {
+    CLI_GUARD(check_idle(c));
     CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
     int32_t what = c->features;
     if (what == AUTO) {

@@ -57,8 +57,11 @@ static void free_job(cli_prediction *j)
 }
 
 /// A fitted model of table columns: every row is a bed.
-static clast_status predict_columns(cli_prediction *j)
+static clast_status predict_columns(const config *c, cli_prediction *j)
 {
+    const clast_idle rules[] = {
+        {true, "columns|resamples|seed", "with a model of a table's own columns"}, {0}};
+    CLI_GUARD(cli_idle_check(fields, c, rules));
     CLI_GUARD(clast_porosity_predict_columns(&j->model, &j->table, &j->beds));
     if (j->beds.n_row < j->table.n_row) {
         (void)fprintf(
@@ -73,7 +76,7 @@ static clast_status predict_table(const config *c, cli_prediction *j)
     char complaint[512];
     clast_status status = cli_choose_model(c->model, c->grading, false, &j->model);
     if (status == CLAST_OK && j->model.kind == CLAST_MODEL_COLUMNS) {
-        return predict_columns(j);
+        return predict_columns(c, j);
     }
     clast_porosity_model_free(&j->model);
     status = status == CLAST_OK ? clast_form_set_of(&j->table, c->columns, &j->set) : status;
@@ -137,6 +140,13 @@ done:
     return status;
 }
 
+/// Whether the model is one by grading, not one of its own.
+static bool is_by_grading(const config *c)
+{
+    return strcmp(c->model, "auto") == 0 || strcmp(c->model, "single") == 0 ||
+           strcmp(c->model, "mixture") == 0;
+}
+
 static clast_status answer(const config *c, const cli_common *common, cli_prediction *j)
 {
     const bool has_moments = c->flatness[0] != '\0' || c->elongation[0] != '\0';
@@ -149,6 +159,7 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
         {!j->has_table, "each|columns|resamples|seed", "without a table"},
         {j->has_table, "grains", "with a table, whose rows are counted"},
         {c->each, "resamples|seed", "with --each: a form has no sampling error"},
+        {!is_by_grading(c), "grading", "with this --model, which has its own"},
         {0}};
     CLI_GUARD(cli_idle_check(fields, c, rules));
     if (!j->has_table) {
@@ -161,10 +172,8 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
 static clast_status keep_results(const cli_common *common, const config *c, const cli_prediction *j,
                                  clast_run_folder *folder)
 {
-    const bool is_file = strcmp(c->model, "auto") != 0 && strcmp(c->model, "single") != 0 &&
-                         strcmp(c->model, "mixture") != 0;
     const cli_input inputs[] = {{"table", j->has_table ? common->argument[0] : NULL},
-                                {"model", is_file ? c->model : NULL},
+                                {"model", is_by_grading(c) ? NULL : c->model},
                                 {NULL, NULL}};
     json_t *summary = cli_prediction_json(j);
     clast_status status = cli_results_open(folder, fields, c, &c->seed, inputs);

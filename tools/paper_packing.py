@@ -260,7 +260,7 @@ def pipeline_of(beds, command):
     if len(beds) < 10:
         return [f"{len(beds)} of 63", *["too few beds"] * (len(PIPELINE) - 1)]
     first = fit_of(beds, command, "--n-term", 1)
-    second = fit_of(beds, command, "--use", "inverse_equancy,inverse_elongation", "--score", "median", "--n-fold", 10)
+    second = fit_of(beds, command, "--use", "inverse_equancy,inverse_elongation", "--n-fold", 10)
     chosen = fit_of(beds, command, "--n-term", 2, "--score", "median")
     terms = {t["term"]: t for t in second["terms"]}
     a, b, c = EQ_17["U1"]
@@ -444,7 +444,7 @@ def cases(command):
         found = [clast_timed(command, "pack", "--curve", "U1", *shapes, *(["--ellipsoids"] if kind == "eqell" else []), "--mass",
                        f"{mass}kg", "--domain", "cylinder" if domain == "A" else "periodic", "--width",
                        "0.104m" if domain == "A" else "0.1m", "--height", "0.2m", "--lid", "--generator", "hcp", "--spacing",
-                       "16mm", "--first-low", .1, "--first-high", .9, "--fill-high", .95, "--no-random-turn", "--no-gyroscopic",
+                       "16mm", "--first-low", .1, "--first-high", .9, "--fill-high", .95, "--no-random-turn", *([] if kind == "sph" else ["--no-gyroscopic"]),
                        "--shaking-time", "0.17s", "--max-steps", steps, "--trim", "0mm", "--rule", "speed", "--still-speed", 0,
                        "--seed", seed, "-j", 1) for seed in (41, 42, 43)]
         least = min(1e6 * f["cpu_s"] / f["grain_steps"] for f in found)

@@ -1,8 +1,8 @@
-// What a packing's options must be to one another.
-#include "pack/pack.h"
-
-#include <clast/porosity.h>
-#include <math.h>
+// What a packing's options must be to one another, and which of them a run would not look at.
+#include "base/field.h"
+#include "base/path.h"
+#include "pack/walls.h"
+#include <clast/shape.h>
 #include <string.h>
 
 /// Several mean "as the other" by -1 alone.
@@ -13,7 +13,7 @@ static clast_status check_sentinel(const char *name, double value)
                : clx_fail(CLAST_E_CONFIG, "%s %g: it is -1, or not below 0", name, value);
 }
 
-static clast_status check_fills(const clast_pack_config *c)
+clast_status clx_pack_check(const clast_pack_config *c)
 {
     clast_status status = CLAST_OK;
     const double low = c->first_low >= 0.0 ? c->first_low : c->fill_low;
@@ -25,111 +25,223 @@ static clast_status check_fills(const clast_pack_config *c)
     CLX_CHECK(low < high, CLAST_E_CONFIG,
               "the first fill begins at %g of the height (first_low), not below %g (first_high)",
               low, high);
+    CLX_TRY(check_sentinel("wall_friction", c->dem.wall_friction));
+    CLX_TRY(check_sentinel("trim", c->trim));
 done:
     return status;
 }
 
-static bool has_usual_fills(const clast_pack_config *c, const clast_pack_config *usual)
+/// What the grains are, as far as an option asks.
+typedef struct {
+    bool has_sphere;   ///< one that stays one: no form law stretches it
+    bool has_other;    ///< than spheres
+    bool has_surface;  ///< or a part that is one
+    bool has_many;     ///< clumps and aggregates, which touch in several places
+    bool has_warm;     ///< bodies whose contacts are found from those of the step before
+    bool may_be_hull;  ///< files that a hull may be taken of
+    bool has_file;     ///< surfaces and clumps
+    bool has_own_unit; ///< files of surfaces
+} grains;
+
+static void note_shape(const clast_shape *shape, grains *g)
 {
-    return c->fill_low == usual->fill_low && c->fill_high == usual->fill_high &&
-           c->first_low == usual->first_low && c->first_high == usual->first_high;
+    const bool is_mesh = shape->kind == CLAST_SHAPE_MESH && shape->parts.n == 0;
+    g->has_sphere = g->has_sphere || shape->kind == CLAST_SHAPE_SPHERE;
+    g->has_other = g->has_other || shape->kind != CLAST_SHAPE_SPHERE;
+    g->has_surface = g->has_surface || is_mesh;
+    g->has_many = g->has_many || shape->kind == CLAST_SHAPE_CLUMP || shape->parts.n > 0;
+    g->has_warm = g->has_warm || is_mesh || shape->kind == CLAST_SHAPE_ELLIPSOID;
+    for (int32_t k = 0; shape->parts.part != NULL && k < shape->parts.n; ++k) {
+        const clast_shape_kind kind = shape->parts.part[k].kind;
+        g->has_surface = g->has_surface || kind == CLAST_SHAPE_MESH;
+        g->has_warm = g->has_warm || kind != CLAST_SHAPE_SPHERE;
+    }
 }
 
-/// Options that act in domain cell alone, or on nothing there.
-static clast_status check_cell(const clast_pack_config *c, const clast_pack_config *usual)
+static grains note_grains(const clast_pack_config *c, const clast_pack_input *input)
 {
-    clast_status status = CLAST_OK;
+    grains g = {0};
+    for (int32_t i = 0; i < input->n_shape; ++i) {
+        note_shape(&input->shape[i], &g);
+    }
+    if (c->form_law) {
+        g.has_sphere = false;
+        g.has_other = g.has_warm = true;
+    }
+    for (int32_t i = 0; i < c->shapes.n; ++i) { // those of a start that has its own are not here
+        const char *text = c->shapes.item[i];
+        if (strcmp(text, "sphere") != 0 && strncmp(text, "ellipsoid:", 10) != 0) {
+            const bool is_state = clx_path_is(text, "h5");
+            const bool is_surface = !is_state && !clx_path_is(text, "csv");
+            g.has_file = true;
+            g.has_own_unit = g.has_own_unit || is_surface;
+            g.may_be_hull = g.may_be_hull || is_surface || is_state;
+        }
+    }
+    g.may_be_hull = g.may_be_hull && (g.has_surface || c->ellipsoids);
+    return g;
+}
+
+/// What the stages ask for.
+typedef struct {
+    bool presses; ///< a pressure, force or stress
+    bool reaches; ///< an end at it
+    bool rests;   ///< an end at rest
+    bool waits;   ///< an end that may not come
+} load;
+
+/// One stage; false where it cannot be read, which is said later.
+static bool note_stage(const clast_pack_config *c, const clast_pack_input *input, int32_t number,
+                       load *l)
+{
+    bool presses = false;
+    bool rests = false;
+    bool is_level = false; // ends as soon as its own stresses are reached
+    bool is_timed = false;
+    if (c->dem.domain == CLAST_DEM_CELL) {
+        clx_stage s;
+        if (clx_stage_read(c, number, &s) != CLAST_OK) {
+            return false;
+        }
+        presses = s.shear_kind == CLX_DRIVE_STRESS || s.kind[0] == CLX_DRIVE_STRESS ||
+                  s.kind[1] == CLX_DRIVE_STRESS || s.kind[2] == CLX_DRIVE_STRESS;
+        rests = s.end == CLX_END_REST;
+        is_level = s.end == CLX_END_STRESS && s.until == 0.0;
+        is_timed = s.end == CLX_END_TIME;
+    } else {
+        clx_wall_stage s;
+        if (clx_wall_stage_read(c, number, input, &s) != CLAST_OK) {
+            return false;
+        }
+        for (int32_t k = 0; k < s.n; ++k) {
+            presses = presses || s.drive[k].kind == CLX_WALL_PRESSED;
+        }
+        rests = s.end == CLX_UNTIL_REST;
+        is_level = s.end == CLX_UNTIL_STRESS && s.until == 0.0;
+        is_timed = s.end == CLX_UNTIL_TIME;
+    }
+    l->presses = l->presses || presses;
+    l->reaches = l->reaches || (presses && (rests || is_level));
+    l->rests = l->rests || rests;
+    l->waits = l->waits || !is_timed;
+    return true;
+}
+
+static load note_load(const clast_pack_config *c, const clast_pack_input *input)
+{
+    load l = {0};
+    for (int32_t k = 0; k < c->stages.n; ++k) {
+        if (!note_stage(c, input, k, &l)) {
+            return (load){true, true, true, true};
+        }
+    }
+    return l;
+}
+
+/// Options that the domain, its container or the stages leave without effect.
+static clast_status check_domain(const clast_pack_config *c, const clast_pack_input *input)
+{
+    const bool has_container = c->container[0] != '\0';
     const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
-    CLX_CHECK(!is_cell || (c->shaking_time == usual->shaking_time &&
-                           c->shake_amplitude == usual->shake_amplitude &&
-                           c->shake_period == usual->shake_period &&
-                           c->shake_from_start == usual->shake_from_start &&
-                           c->damping == usual->damping && has_usual_fills(c, usual)),
-              CLAST_E_CONFIG,
-              "domain cell is filled whole, and loaded by its stages: leave out shaking_time, "
-              "shake_amplitude, shake_period, shake_from_start, damping, fill_low, fill_high, "
-              "first_low and first_high");
-    CLX_CHECK(
-        !is_cell || (c->rule == usual->rule && c->height_change == usual->height_change &&
-                     c->check_time == usual->check_time && c->still_speed == usual->still_speed &&
-                     c->max_damping_time == usual->max_damping_time),
-        CLAST_E_CONFIG,
-        "stages of domain cell end by their until, load_rest and max_load_time: leave out rule, "
-        "height_change, check_time, still_speed and max_damping_time");
-    CLX_CHECK(
-        !is_cell || (c->dem.wall_friction == usual->dem.wall_friction && c->layer == usual->layer &&
-                     c->cut == usual->cut && c->trim == usual->trim),
-        CLAST_E_CONFIG,
-        "domain cell has no walls, no ends and no profile: leave out wall_friction, layer, cut and "
-        "trim");
-    CLX_CHECK(is_cell || c->stages.n > 0 ||
-                  (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
-                   c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
-              CLAST_E_CONFIG,
-              "load_rate, load_tolerance, load_rest and max_load_time act with stages alone");
-done:
-    return status;
+    const bool has_stages = c->stages.n > 0;
+    const load l = note_load(c, input);
+    const clast_idle rules[] = {
+        {has_container, "domain|width|depth|height",
+         "with container, which holds the grains in their place"},
+        {!has_container, "container_unit", "without container"},
+        {c->dem.domain == CLAST_DEM_CYLINDER, "depth",
+         "in domain cylinder, which has a width alone"},
+        {is_cell, "shaking_time|shake_amplitude|shake_period|shake_from_start|damping",
+         "in domain cell, which its stages load"},
+        {is_cell, "fill_low|fill_high|first_low|first_high",
+         "in domain cell, which is filled whole"},
+        {is_cell, "rule|height_change|check_time|still_speed|max_damping_time",
+         "in domain cell, whose stages end by their until, load_rest and max_load_time"},
+        {is_cell, "wall_friction|layer|cut|trim",
+         "in domain cell, which has no walls, no ends and no profile"},
+        {!is_cell && !has_stages, "load_rate|load_tolerance|load_rest|max_load_time",
+         "without stages"},
+        {has_stages && !l.presses, "load_rate", "without a stage that presses (10kPa)"},
+        {has_stages && !l.reaches, "load_tolerance",
+         "without a stage that ends when its pressure is reached (until rest, until stress)"},
+        {has_stages && !l.rests, "load_rest", "without a stage until rest"},
+        {has_stages && !l.waits, "max_load_time", "with stages that all end by a time"},
+        {0}};
+    return clx_fields_idle(clast_pack_fields, c, rules);
 }
 
-/// Options that the law, the domain or the forms leave without effect.
-static clast_status check_unused(const clast_pack_config *c, const clast_pack_config *usual)
+/// Options that the kinds of grains leave without effect.
+static clast_status check_grains(const clast_pack_config *c, const clast_pack_input *input)
 {
-    clast_status status = CLAST_OK;
-    const clast_dem_config *d = &c->dem;
-    const clast_dem_config *u = &usual->dem;
-    const bool has_container = c->container != NULL && c->container[0] != '\0';
-    CLX_CHECK(!has_container || (d->domain == u->domain && d->width == u->width &&
-                                 d->depth == u->depth && d->height == u->height),
-              CLAST_E_CONFIG,
-              "container holds the grains in place of domain, width, depth and height: leave those "
-              "out");
-    CLX_CHECK(has_container || c->container_unit == NULL || c->container_unit[0] == '\0',
-              CLAST_E_CONFIG, "container_unit %s without a container", c->container_unit);
-    const bool has_start = c->start != NULL && c->start[0] != '\0';
-    CLX_CHECK(!has_start ||
-                  (strcmp(c->curve, usual->curve) == 0 && c->shape_weight.n == 0 &&
-                   c->mass == usual->mass && !c->form_law && !c->ellipsoids &&
-                   c->spacing == usual->spacing && c->generator == usual->generator &&
-                   c->density_of == usual->density_of && c->initial_speed == usual->initial_speed &&
-                   has_usual_fills(c, usual) && c->shake_from_start == usual->shake_from_start),
-              CLAST_E_CONFIG,
-              "start brings the grains: leave out curve, shape_weight, mass, form_law, "
-              "ellipsoids, spacing, generator, density_of, initial_speed, fill_low, fill_high, "
-              "first_low, first_high and shake_from_start");
-    CLX_CHECK(has_start || ((c->start_unit == NULL || c->start_unit[0] == '\0') &&
-                            (c->start_columns == NULL || c->start_columns[0] == '\0') &&
-                            c->start_diameter == 0.0),
-              CLAST_E_CONFIG, "start_unit, start_columns and start_diameter are of a start");
-    CLX_TRY(check_cell(c, usual));
-    CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
-              "depth %s: a cylinder has a width alone", clx_unit_text(d->depth, "m"));
-    CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,
-              "young %s acts with law hertz alone", clx_unit_text(d->young, "Pa"));
-    CLX_CHECK(d->law == CLAST_DEM_LINEAR || d->collision_time == u->collision_time, CLAST_E_CONFIG,
-              "collision_time %s acts with law linear alone",
-              clx_unit_text(d->collision_time, "s"));
-    CLX_CHECK(c->rule != CLAST_PACK_BY_SPEED || c->height_change == usual->height_change,
-              CLAST_E_CONFIG, "height_change %s acts with rule height or either",
-              clx_unit_text(c->height_change, "m"));
-    CLX_CHECK(c->form_law || (c->flatness_mean == usual->flatness_mean &&
-                              c->flatness_deviation == usual->flatness_deviation &&
-                              c->elongation_mean == usual->elongation_mean &&
-                              c->elongation_deviation == usual->elongation_deviation),
-              CLAST_E_CONFIG, "means and deviations of flatness and elongation act with form_law");
-done:
-    return status;
+    const grains g = note_grains(c, input);
+    const clast_idle rules[] = {
+        {!g.has_own_unit, "unit", "without a surface among shapes"},
+        {!g.may_be_hull, "hull|faces", "without a surface among shapes"},
+        {c->faces > 0, "hull", "with faces, which take hulls"},
+        {!g.has_file, "ellipsoids", "without a surface or clump among shapes"},
+        {!c->form_law, "flatness_mean|flatness_deviation|elongation_mean|elongation_deviation",
+         "without form_law"},
+        {input->n_shape == 1 && c->shape_weight.n == 1, "shape_weight", "with one shape"},
+        {!g.has_other, "size_meaning|gyroscopic", "with spheres, whose sizes and moments are one"},
+        {!g.has_surface, "rounding", "without surfaces, whose edges it rounds"},
+        {!g.has_many, "clump_contacts", "without clumps and aggregates"},
+        {!g.has_sphere, "sphere_drag", "without spheres"},
+        {!g.has_warm, "verify", "with spheres, whose contacts have no warm start"},
+        {0}};
+    return clx_fields_idle(clast_pack_fields, c, rules);
 }
 
-clast_status clx_pack_check(const clast_pack_config *config)
+/// Whether a density was given: of runs that make their grains, the usual one is filled in.
+static bool has_density(const clast_pack_config *c)
 {
     clast_pack_config usual = {0};
+    clx_pack_set_density(&usual);
+    return c->density.n > 1 || (c->density.n == 1 && c->density.item[0] != usual.density.item[0]);
+}
+
+/// Options that others leave without effect.
+static clast_status check_others(const clast_pack_config *c, const clast_pack_input *input)
+{
+    const bool has_start = c->start[0] != '\0';
+    const bool shakes = c->shaking_time > 0.0 || (c->shake_from_start && !has_start);
+    const clast_idle rules[] = {
+        {has_start,
+         "curve|spread|count|size_meaning|shape_weight|form_law|density_of|density_weight|mass|"
+         "seed|generator|spacing|fill_low|fill_high|first_low|first_high|initial_speed|random_turn|"
+         "shake_from_start",
+         "with start, which brings the grains"},
+        {!has_start, "start_unit|start_columns|start_diameter", "without start"},
+        {input->curve == NULL, "spread|count", "without a sieve curve"},
+        {c->density_of == CLAST_PACK_DENSITY_LIST && has_density(c), "density",
+         "with density_of list, whose column it is"},
+        {c->density_of == CLAST_PACK_DENSITY_CHANCE && c->density.n <= 1, "density_of",
+         "with one density to draw from"},
+        {c->density_of != CLAST_PACK_DENSITY_CHANCE, "density_weight", "without density_of chance"},
+        {c->contacts.n == 0, "material", "without contacts, which say how materials touch"},
+        {c->dem.law != CLAST_DEM_HERTZ, "young", "without law hertz"},
+        {c->dem.law != CLAST_DEM_LINEAR, "collision_time", "without law linear"},
+        {c->generator == CLAST_PACK_SHELF, "spacing", "with generator shelf, which has no lattice"},
+        {c->shake_amplitude == 0.0, "shake_period|shake_from_start", "with shake_amplitude 0"},
+        {!shakes && c->shake_amplitude > 0.0, "shake_amplitude|shake_period",
+         "without a time of shaking (shaking_time, shake_from_start)"},
+        {c->rule == CLAST_PACK_BY_SPEED, "height_change", "with rule speed"},
+        {0}};
+    return clx_fields_idle(clast_pack_fields, c, rules);
+}
+
+clast_status clx_pack_check_idle(const clast_pack_config *config, const clast_pack_input *input)
+{
     clast_status status = CLAST_OK;
-    CLX_TRY(clast_fields_default(clast_pack_fields, &usual));
-    CLX_TRY(check_fills(config));
-    CLX_TRY(check_sentinel("wall_friction", config->dem.wall_friction));
-    CLX_TRY(check_sentinel("trim", config->trim));
-    CLX_TRY(check_unused(config, &usual));
+    CLX_TRY(check_domain(config, input));
+    CLX_TRY(check_others(config, input));
+    CLX_TRY(check_grains(config, input));
 done:
-    clast_fields_free(clast_pack_fields, &usual);
     return status;
+}
+
+clast_status clx_pack_check_lone(const clast_pack_config *config)
+{
+    const clast_idle rules[] = {
+        {true, "frame_time|checkpoint_time", "without an output folder (-o)"}, {0}};
+    return clx_fields_idle(clast_pack_fields, config, rules);
 }

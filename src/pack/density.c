@@ -123,10 +123,7 @@ static clast_status check_chances(const clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_f64_list *d = &p->config.density;
     const clast_f64_list *w = &p->config.density_weight;
-    const bool is_drawn = p->config.density_of == CLAST_PACK_DENSITY_CHANCE;
     double sum = 0.0;
-    CLX_CHECK(w->n == 0 || is_drawn, CLAST_E_CONFIG,
-              "density_weight is for densities that are drawn: give density_of chance");
     CLX_CHECK(w->n == 0 || w->n == d->n, CLAST_E_CONFIG,
               "%d weights for %d densities (density_weight)", w->n, d->n);
     for (int32_t i = 0; i < w->n; ++i) {

@@ -274,8 +274,6 @@ clast_status clx_pack_materials_begin(clast_pack *p)
     const int32_t n_name = c->material.n > 0 ? c->material.n : 1;
     materials m = {.p = p};
     int32_t *of_shape = NULL;
-    CLX_CHECK(c->material.n == 0 || c->contacts.n > 0, CLAST_E_CONFIG,
-              "materials act by what contacts says of them (material, contacts)");
     if (c->contacts.n == 0) {
         return CLAST_OK;
     }

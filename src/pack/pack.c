@@ -107,11 +107,9 @@ done:
     return status;
 }
 
-clast_status clast_pack_create(const clast_pack_config *config, const clast_pack_input *input,
-                               clast_pack **pack)
+clast_status clx_pack_create_again(const clast_pack_config *config, const clast_pack_input *input,
+                                   clast_pack **pack)
 {
-    CLX_ARGUMENTS(config, input, pack);
-    CLX_GUARD(clast_fields_check(clast_pack_fields, config));
     clast_status status = CLAST_OK;
     clast_pack *made = NULL;
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
@@ -143,6 +141,15 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
 done:
     clast_pack_destroy(made);
     return status;
+}
+
+clast_status clast_pack_create(const clast_pack_config *config, const clast_pack_input *input,
+                               clast_pack **pack)
+{
+    CLX_ARGUMENTS(config, input, pack);
+    CLX_GUARD(clast_fields_check(clast_pack_fields, config));
+    CLX_GUARD(clx_pack_check_idle(config, input));
+    return clx_pack_create_again(config, input, pack);
 }
 
 clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm)

@@ -88,8 +88,18 @@ double clx_pack_density(const clast_pack *pack, int64_t index, int32_t shape, do
 /// Least and greatest density of the grains.
 void clx_pack_densities(const clast_pack *pack, double *low, double *high);
 
-/// Refuses options that contradict one another, or that nothing would heed.
+/// Refuses options that contradict one another.
 clast_status clx_pack_check(const clast_pack_config *config);
+
+/// Refuses options that a run of these grains would not look at.
+clast_status clx_pack_check_idle(const clast_pack_config *config, const clast_pack_input *input);
+
+/// Refuses options of files where there is no folder for them.
+CLX_SHARED clast_status clx_pack_check_lone(const clast_pack_config *config);
+
+/// As clast_pack_create, of a run that goes on: options that it began with are taken as they are.
+CLX_SHARED clast_status clx_pack_create_again(const clast_pack_config *config,
+                                              const clast_pack_input *input, clast_pack **pack);
 
 /// Refuses densities that do not match shapes, classes or list.
 clast_status clx_pack_check_densities(const clast_pack *pack);

@@ -264,13 +264,14 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
 }
 
 /// Loads all that can be wrong before anything is written.
-static clast_status prepare(run *r)
+static clast_status prepare(run *r, bool goes_on)
 {
     clast_status status = CLAST_OK;
     r->begun = clx_clock();
     CLX_TRY(clast_pack_load(r->config, &r->source));
     CLX_TRY(clast_fields_json(clast_pack_fields, r->config, &r->text));
-    CLX_TRY(clast_pack_create(r->config, &r->source.input, &r->pack));
+    CLX_TRY((goes_on ? clx_pack_create_again : clast_pack_create)(r->config, &r->source.input,
+                                                                  &r->pack));
     CLX_TRY(clx_pack_share(r->pack, r->comm));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
@@ -283,9 +284,9 @@ done:
 static clast_status begin(run *r, const char *folder, bool force)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(folder != NULL || r->config->frame_time == 0.0, CLAST_E_USAGE,
-              "frame_time %s: frames are written into a run's folder; give one (-o)",
-              clx_unit_text(r->config->frame_time, "s"));
+    if (folder == NULL) {
+        CLX_TRY(clx_pack_check_lone(r->config));
+    }
     CLX_CHECK(folder != NULL || !force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
     if (folder != NULL && is_first(r)) {
@@ -294,7 +295,7 @@ static clast_status begin(run *r, const char *folder, bool force)
         clx_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
         r->folder = clast_run_folder_path(r->own);
     }
-    CLX_TRY(prepare(r));
+    CLX_TRY(prepare(r, false));
     if (r->folder != NULL) {
         CLX_TRY(clast_run_folder_open(r->own));
     }
@@ -375,7 +376,7 @@ done:
 static clast_status begin_again(run *r, const char *folder, int64_t max_steps, const origin *from)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(prepare(r));
+    CLX_TRY(prepare(r, true));
     CLX_TRY(clx_pack_checkpoint_read(&from->found, r->pack));
     CLX_CHECK(!from->is_end || clast_pack_phase_of(r->pack) != CLAST_PACK_DONE, CLAST_E_IO,
               "%s has ended: its bed is done, and there is no checkpoint to go on from", folder);

@@ -108,8 +108,8 @@ class Fit(Case):
         self.assertEqual(fit.code, 0, fit.err)
         self.assertEqual((fit.json["n_candidate"], fit.json["n_bed"]), (2, 24))
         self.assertEqual(fit.json["terms"][1]["term"], "width")
-        for words in (("--columns", "mass,porosity_untrimmed"), ("--use", "porosity_untrimmed")):
-            fit = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", *words, "--n-term", 1, "--json")
+        for words in (("--columns", "mass,porosity_untrimmed", "--n-term", 1), ("--use", "porosity_untrimmed")):
+            fit = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", *words, "--json")
             self.assertEqual(fit.code, 0, fit.err)
             self.assertEqual(fit.json["terms"][1]["term"], "porosity_untrimmed")
         # another porosity as the target is that column and no other

@@ -571,13 +571,65 @@ class Pack(Case):
         for options, says in ((("--young", "1e6"), "law hertz"), (("--law", "hertz", "--collision-time", "1ms"), "law linear"),
                               (("--flatness-mean", "0.5"), "form_law"), (("--cohesion", "jkr"), "surface_energy"),
                               (("--cohesion", "area"), "cohesion_energy"), (("--depth", "10mm"), "cylinder"),
-                              (("--container-unit", "mm"), "without a container"), (("--frame-time", "1ms"), "-o"),
-                              (("--container", small, "--container-unit", "mm", "--domain", "box"), "in place of domain"),
+                              (("--container-unit", "mm"), "without container"), (("--frame-time", "1ms"), "-o"),
+                              (("--container", small, "--container-unit", "mm", "--domain", "box"), "domain does nothing with container"),
                               (("--wall-friction", "-0.5"), "it is -1"), (("--trim", "-0.5m"), "it is -1"),
                               (("--first-low", "0.5", "--first-high", "0.3"), "first_high"), (("--resume", ""), "empty"),
                               (("--spacing", "1m"), "smaller spacing"), (("--spacing", "1e-308m"), "tenth of the smallest"),
                               (("--spacing", "0.81mm", "--width", "1m", "--height", "1m"), "larger spacing"), (("--shapes", "ellipsoid:1,1,1e-9"), "larger grains")):
             self.assert_fails(2, "pack", "--curve", "8 mm", "--mass", "4g", "--max-steps", "10", *options, says=(says,))
+
+    def test_options_that_a_run_would_not_look_at_are_refused(self):
+        """Each was taken, and the state hash was that without it; beside what it acts on it is still taken."""
+        clump, start = self.folder / "clump.csv", self.folder / "start.csv"
+        clump.write_text("x,y,z,radius\n0,0,0,1\n0.8,0,0,0.7\n")
+        start.write_text("x,y,z,d\n0,0,4,6\n")
+        grain = ROOT / "data/standin63/grain10.ply"
+        one = ["pack", "--curve", "6 mm", "--mass", "1g", "--width", "40mm", "--height", "0.1m", "--max-steps", "5", "--first-low", "0.1", "-q"]
+        curve = [*one[:1], "--curve", "U1", *one[3:]]
+        egg, clumps, hulls = ["--shapes", "ellipsoid:1.2,1,0.8"], ["--shapes", clump], ["--shapes", grain]
+        begun = ["pack", "--start", start, "--start-unit", "mm", "--width", "40mm", "--height", "0.1m", "--max-steps", "5", "-q"]
+        cell = ["pack", "--curve", "4mm", "--mass", "1g", "--domain", "cell", "--width", "20mm", "--height", "20mm", "--floor=no", "--gravity", "0",
+                "--max-steps", "30", "-q"]
+        lid = [*one, "--lid", "--wall", "lid"]
+        spheres, no_surface = "with spheres, whose sizes and moments are one", "without a surface among shapes"
+        brought = "with start, which brings the grains"
+        for command, option, why, acts in (
+                (one, ("--rounding", "0.1mm"), "without surfaces", [*one, *hulls]), ([*one, *clumps], ("--rounding", "0.1mm"), "without surfaces", None),
+                (one, ("--clump-contacts", "each"), "without clumps and aggregates", [*one, *clumps]),
+                (one, ("--faces", "100"), no_surface, [*one, *hulls]), ([*one, *clumps], ("--faces", "100"), no_surface, None),
+                (one, ("--no-hull",), no_surface, None), ([*one, *hulls, "--faces", "50"], ("--no-hull",), "with faces, which take hulls", None),
+                (one, ("--unit", "mm"), no_surface, [*one, *hulls]), ([*one, *egg], ("--unit", "mm"), no_surface, None),
+                (one, ("--ellipsoids",), "without a surface or clump among shapes", [*one, *clumps]),
+                (one, ("--gyroscopic=no",), spheres, [*one, *egg]), (one, ("--size-meaning", "volume"), spheres, [*one, *egg]),
+                (one, ("--verify", "10"), "with spheres, whose contacts have no warm start", [*one, "--form-law"]),
+                ([*one, "--fluid-viscosity", "1e-3", *egg], ("--sphere-drag", "standard"), "without spheres", [*one, "--fluid-viscosity", "1e-3"]),
+                (one, ("--shape-weight", "2"), "with one shape", None), (one, ("--flatness-mean", "0.5"), "without form_law", [*one, "--form-law"]),
+                (one, ("--spread", "means"), "without a sieve curve", curve), (one, ("--count", "exact"), "without a sieve curve", curve),
+                ([*one, "--shake-amplitude", "0"], ("--shake-period", "1s"), "with shake_amplitude 0", one),
+                ([*one, "--shake-amplitude", "0"], ("--shake-from-start=no",), "with shake_amplitude 0", one),
+                ([*one, "--shaking-time", "0", "--no-shake-from-start"], ("--shake-amplitude", "1mm"), "without a time of shaking", one),
+                ([*one, "--generator", "shelf"], ("--spacing", "8mm"), "with generator shelf", one),
+                (one, ("--density-of", "chance"), "with one density to draw from", None), (one, ("--density-weight", "1"), "without density_of chance", None),
+                (one, ("--checkpoint-time", "1s"), "without an output folder (-o)", None), (one, ("--material", "glass"), "without contacts", None),
+                *((begun, option, brought, None) for option in (
+                    ("--spread", "means"), ("--count", "exact"), ("--size-meaning", "volume"), ("--random-turn=no",), ("--seed", "2"),
+                    ("--density-weight", "1"), ("--mass", "2g"))),
+                (begun, ("--unit", "mm"), no_surface, None), (begun, ("--hull=no",), no_surface, None),
+                ([*begun, "--shaking-time", "0"], ("--shake-amplitude", "1mm"), "without a time of shaking", begun),
+                ([*cell, "--stages", "z=1/s until strain 0.01"], ("--load-rate", "2/s"), "without a stage that presses", [*cell, "--stages", "z=1kPa"]),
+                ([*cell, "--stages", "isotropic 1kPa until time 1s"], ("--load-rest", "0.1"), "without a stage until rest", [*cell, "--stages", "z=1kPa"]),
+                ([*cell, "--stages", "isotropic 1kPa until time 1s"], ("--load-tolerance", "0.1"), "without a stage that ends when its pressure",
+                 [*cell, "--stages", "isotropic 1kPa until stress"]),
+                ([*cell, "--stages", "isotropic 1kPa until time 1s"], ("--max-load-time", "1s"), "with stages that all end by a time",
+                 [*cell, "--stages", "isotropic 1kPa until strain 1"]),
+                ([*lid, "--stages", "lid=-1mm/s until way 1mm"], ("--load-rate", "2/s"), "without a stage that presses", [*lid, "--stages", "lid=1kPa"]),
+                ([*lid, "--stages", "lid=1kPa until time 1s"], ("--load-rest", "0.1"), "without a stage until rest", [*lid, "--stages", "lid=1kPa"])):
+            name = option[0].split("=")[0].replace("--no-", "--")[2:].replace("-", "_")
+            self.assert_fails(2, *command, *option, says=(f"{name} does nothing {why}",))
+            for taken in [command] + ([[*acts, *option]] if acts else []):
+                made = clast(*taken)
+                self.assertEqual(made.code, 0, made.err)
 
     def test_killed_before_the_first_grain_it_goes_on(self):
         whole = self.run_small("--json")

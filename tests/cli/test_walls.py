@@ -147,7 +147,7 @@ class Walls(Case):
                 (["--contacts", "floor walls friction 0.1"], "walls do not touch each other"),
                 (["--contacts", "grains floor friction 0.1", "--contacts", "floor grains friction 0.2"], "an earlier one is of the same two sides"),
                 (["--contacts", "grains floor collision_time 1us"], "time_step 5 us is too long"),
-                (ice, "materials act by what contacts says of them"),
+                (ice, "material does nothing without contacts"),
                 ([*ice, "--contacts", "ice snow friction 0.1"], "that is there, not 'snow'"),
                 ([*ice, "--material", "snow", "--contacts", "ice snow friction 0.1"], "3 materials for 2 shapes")):
             bad = clast(*bed, *options, "-o", self.folder / "bad")

@@ -238,7 +238,7 @@ class Beds(Case):
 
     def test_a_cell_that_gets_too_narrow_is_said_once(self):
         cell = ("pack", "--curve", "4mm", "--domain", "cell", "--width", "22mm", "--height", "22mm", "--no-floor", "--gravity", "0",
-                "--fluid-density", "0", "--mass", "0.5g", "--load-rate", "20/s", "--stages", "isotropic 20/s until strain 1", "-q")
+                "--fluid-density", "0", "--mass", "0.5g", "--stages", "isotropic 20/s until strain 1", "-q")
         alone = clast(*cell)
         self.assertIn("narrowest side", alone.err)
         code, _, err = ranks(3, *cell)

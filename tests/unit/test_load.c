@@ -656,6 +656,7 @@ static void stages_refuse_what_they_cannot(void **state)
     CHECK_OK(clast_shape_sphere("sphere", 0.5, &sphere));
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         clast_pack_config c = packing(1, &wrong[k]);
+        c.load_rate = 1.0; // its default, as some of them press nothing
         assert_null(start(&c, grading, &sphere, CLAST_E_CONFIG));
         c.stages = (clast_text_list){0};
         clast_fields_free(clast_pack_fields, &c);
