@@ -69,8 +69,9 @@ static void join_details(void)
         details, sizeof details,
         "Cells by `clast decompose` (its options below), collisions in each cell at the rate alpha "
         "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
-        "files are snapshots of the same\nparticles, --duration apart; cells are made anew when "
-        "the cloud has changed.\n-o FOLDER writes history.csv, spectrum.csv, "
+        "files are snapshots of the same\nparticles: collisions go on for --duration in each, the "
+        "last too, so that three take three times it;\ncells are made anew when the cloud has "
+        "changed.\n-o FOLDER writes history.csv, spectrum.csv, "
         "particles.csv, summary.json, manifest.json\nand charts (number, moments, clusters, "
         "spectrum).\n"
         "With --box-model there are no POINTS: the size spectrum of a well-mixed box, by Monte "
@@ -267,8 +268,9 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     return out;
 }
 
-static void print_words(const config *c, const clast_agglomeration *r)
+static void print_words(const config *c, int32_t n_snapshot, const clast_agglomeration *r)
 {
+    char in_each[64] = "";
     const clast_table *h = &r->history;
     const double *time = clast_table_numbers(h, "time_s");
     const double *n = clast_table_numbers(h, "n_particle");
@@ -277,8 +279,12 @@ static void print_words(const config *c, const clast_agglomeration *r)
     const double *cells = clast_table_numbers(h, "n_cell");
     const double *fixed = clast_table_numbers(h, "fixed_events");
     const double *exact = clast_table_numbers(h, "exact_n_particle");
-    (void)printf("kernel %s, %s%d run%s\n\n%12s %12s %12s %12s %8s%s%s\n", c->agglomerate.kernel,
-                 c->agglomerate.repeats > 1 ? "mean of " : "", c->agglomerate.repeats,
+    if (n_snapshot > 1) {
+        (void)snprintf(in_each, sizeof in_each, "%d snapshots, %.6g s in each, ", n_snapshot,
+                       c->agglomerate.duration);
+    }
+    (void)printf("kernel %s, %s%s%d run%s\n\n%12s %12s %12s %12s %8s%s%s\n", c->agglomerate.kernel,
+                 in_each, c->agglomerate.repeats > 1 ? "mean of " : "", c->agglomerate.repeats,
                  cli_plural(c->agglomerate.repeats), "time_s", "n_particle", "M2", "events",
                  "n_cell", exact != NULL ? "      exact n" : "",
                  fixed != NULL ? " fixed events" : "");
@@ -324,11 +330,33 @@ done:
     return clast_run_folder_end(folder, status);
 }
 
+/// Refuses what these collisions and these files do not look at.
+static clast_status check_used(const cli_common *common, const config *c)
+{
+    const clast_agglomerate_config *a = &c->agglomerate;
+    const clast_cloud_columns *columns = &c->points.columns;
+    const bool has_radii = columns->radius_column[0] != '\0' || columns->diameter_column[0] != '\0';
+    const clast_idle rules[] = {
+        {a->collide.collisions == CLAST_COLLISIONS_NEXT, "leap", "without --collisions poisson"},
+        {columns->weight_column[0] == '\0', "self_collisions", "without --weight-column"},
+        {common->n_argument == 1, "rebuild|change_level", "with one snapshot"},
+        {a->rebuild != CLAST_REBUILD_CHANGED, "change_level", "with this --rebuild"},
+        {c->temperature_column[0] != '\0', "temperature", "with --temperature-column"},
+        {c->shear_column[0] != '\0', "shear", "with --shear-column"},
+        {c->dissipation_column[0] != '\0', "dissipation", "with --dissipation-column"},
+        {has_radii && a->collide.radius_law == CLAST_RADIUS_VOLUME, "monomer_radius",
+         "with a column of radii"},
+        {c->fixed_column[0] == '\0', "fixed_volume_column", "without --fixed-column"},
+        {0}};
+    CLI_GUARD(cli_box_check(common, fields, c, &c->box, a));
+    CLI_GUARD(cli_idle_check(fields, c, rules));
+    return cli_idle_cells(common, fields, c, &c->points, &a->decompose);
+}
+
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
-    CLI_GUARD(cli_box_check(common, fields, c, &c->box, &c->agglomerate));
-    CLI_GUARD(cli_idle_cells(common, fields, c, &c->points, &c->agglomerate.decompose));
+    CLI_GUARD(check_used(common, c));
     if (c->box.box_model) {
         const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
         return cli_box_run(&job, &c->force);
@@ -342,12 +370,15 @@ static clast_status run(const cli_common *common, void *values)
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain));
+    CLI_CHECK(domain.dimension < 3 || c->agglomerate.depth == 0.0, CLAST_E_USAGE,
+              "--depth is the extent of dimensions that are missing: the domain has all 3");
     CLI_TRY(load(common, c, &l));
     l.input.domain = &domain;
     cli_warn_of_units(common, &domain, &l.cloud[0]);
     status = clast_agglomerate(&l.input, &c->agglomerate, &result);
     CLI_TRY(cli_points_status(status, &c->points, &domain, &l.cloud[0]));
     out = summary(c, &result, cli_clock() - begun);
+    cli_json_count(out, "n_snapshot", common->n_argument);
     cli_range_warn(common, &result.range);
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
     (void)json_object_set_new(out, "seed", json_integer((json_int_t)c->agglomerate.decompose.seed));
@@ -357,7 +388,7 @@ static clast_status run(const cli_common *common, void *values)
     if (common->json) {
         CLI_TRY(cli_print_json(json_incref(out)));
     } else {
-        print_words(c, &result);
+        print_words(c, common->n_argument, &result);
     }
 done:
     json_decref(out);

@@ -3,9 +3,11 @@
 
 #include "aggregate_fit.h"
 #include "aggregate_report.h"
+#include "idle.h"
 #include "resume.h"
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static clast_status resume(const cli_common *common, const clast_aggregate_config *config,
                            const clast_monitor *monitor, clast_aggregate_report *report)
@@ -31,15 +33,32 @@ done:
 }
 
 /// The surfaces of a run's folder with their unit, what to print first.
-static void print_surfaces(const cli_common *common, const clast_aggregate_config *config,
-                           const char *folder)
+static void print_surfaces(const cli_common *common, const char *folder)
 {
+    char path[4096];
     if (folder == NULL || common->json) {
         return;
     }
+    (void)snprintf(path, sizeof path, "%s/printable.3mf", folder);
+    const bool is_printable = access(path, F_OK) == 0; // a resumed run's own option is not here
     (void)printf("surfaces in %s, in mm:%s aggregate.stl%s\n", folder,
-                 config->printable ? " printable.3mf, printable.stl," : "",
-                 config->printable ? "" : "; for printing, --printable adds one closed body");
+                 is_printable ? " printable.3mf, printable.stl," : "",
+                 is_printable ? "" : "; for printing, --printable adds one closed body");
+}
+
+/// Refuses what is for the folder of a run where there is none.
+static clast_status check_folder(const cli_common *common, const clast_aggregate_config *config)
+{
+    bool has_composites = config->params.contact != CLAST_CONTACT_EXACT;
+    for (int32_t i = 0; i < config->params.envelope.n; ++i) {
+        has_composites = has_composites || strstr(config->params.envelope.item[i], "sphere_");
+    }
+    const clast_idle rules[] = {
+        {common->output == NULL, "fall_speed|printable|neck|spacing", "without -o"},
+        {common->output == NULL && !has_composites, "core_spheres|coat_spheres",
+         "without -o, contact spheres or march, or an envelope of spheres"},
+        {0}};
+    return cli_idle_check(clast_aggregate_fields, config, rules);
 }
 
 static clast_status run(const cli_common *common, void *context)
@@ -47,6 +66,9 @@ static clast_status run(const cli_common *common, void *context)
     const clast_aggregate_config *config = context;
     clast_aggregate_report report = {0};
     const clast_monitor monitor = cli_monitor(common);
+    if (config->resume[0] == '\0') {
+        CLI_GUARD(check_folder(common, config));
+    }
     if (config->fit && common->comm->n_rank > 1) {
         return cli_fail(CLAST_E_USAGE, "--fit runs on one rank, not %d; start it without mpirun",
                         common->comm->n_rank);
@@ -61,7 +83,7 @@ static clast_status run(const cli_common *common, void *context)
     if (report.n > 0) { // of a run that stopped or failed too
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;
-        print_surfaces(common, config, status == CLAST_OK ? report.folder : NULL);
+        print_surfaces(common, status == CLAST_OK ? report.folder : NULL);
     }
     clast_aggregate_report_free(&report);
     return status;

@@ -1,5 +1,6 @@
 // clast evolve: a cloud of particles of true shapes, from the fluid to the floor.
 #include "command.h"
+#include "idle.h"
 #include "quantity.h"
 #include "resume.h"
 
@@ -39,11 +40,10 @@ static void print_range(const clast_range_use *use)
 }
 
 /// One line where bodies fell faster than their drag law holds.
-static void warn_of_fall(const cli_common *common, const clast_evolve_config *config,
-                         const clast_evolve_result *r)
+static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
 {
-    const bool is_stokes = config->fall == CLAST_FALL_STOKES;
-    const double limit = is_stokes ? 0.1 : 3e5;
+    const double limit = r->fall_reynolds_limit;
+    const bool is_stokes = limit < 1.0;
     if (r->fall_reynolds > limit && !common->quiet) {
         (void)fprintf(
             stderr,
@@ -95,10 +95,13 @@ static clast_status run(const cli_common *common, void *context)
     clast_evolve_result result = {0};
     const clast_monitor monitor = cli_monitor(common);
     char *text = NULL;
+    const clast_idle rules[] = {
+        {common->output == NULL && config->resume[0] == '\0', "keep", "without -o"}, {0}};
+    CLI_TRY(cli_idle_check(clast_evolve_fields, config, rules));
     CLI_TRY(config->resume[0] != '\0'
                 ? resume(common, config, &monitor, &result)
                 : clast_evolve_run(config, common->output, &monitor, &result));
-    warn_of_fall(common, config, &result);
+    warn_of_fall(common, &result);
     if (!common->json) {
         print_text(&result);
         goto done;

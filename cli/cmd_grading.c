@@ -3,6 +3,7 @@
 #include "idle.h"
 #include "json.h"
 #include "quantity.h"
+#include "table_file.h"
 
 #include <clast/grading.h>
 #include <clast/table.h>
@@ -27,7 +28,8 @@ static const clast_field grading_fields[] = {
     {FIELD(count), CLAST_FIELD_CHOICE, CLAST_COUNT_MEAN, 0, 1, "-",
      "grains per mass: each as large as its class mean (eq. 9), or so that masses come out exactly",
      "mean|exact"},
-    {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-", "sizes to draw; -o FILE.csv keeps them", NULL},
+    {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-",
+     "sizes to draw; -o FILE.csv or .json keeps them", NULL},
     {FIELD(chart), CLAST_FIELD_TEXT, 0, 0, 0, CLAST_UNIT_OUTPUT,
      "draw mass and number passing, wanted and achieved, into this .svg, .pdf or .png", ""},
     {FIELD(compare), CLAST_FIELD_TEXT, 0, 0, 0, "-",
@@ -259,10 +261,13 @@ static void answer_words(const answer *a)
 static clast_status check_options(const cli_common *common, const grading_config *config)
 {
     const bool compares = config->compare[0] != '\0';
-    const clast_idle rules[] = {{config->mass == 0.0, "density|grain_volume", "without --mass"},
-                                {config->sample == 0, "seed", "without --sample"},
-                                {0}};
+    const clast_idle rules[] = {
+        {config->mass == 0.0, "density|grain_volume", "without --mass"},
+        {config->sample == 0, "seed", "without --sample"},
+        {config->spread == CLAST_SPREAD_MEANS, "count", "with --spread means"},
+        {0}};
     CLI_GUARD(cli_idle_check(grading_fields, config, rules));
+    CLI_GUARD(cli_table_check(common->output));
     if (common->output != NULL && config->sample == 0) {
         return cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
     }
@@ -276,6 +281,14 @@ static clast_status check_options(const cli_common *common, const grading_config
     return CLAST_OK;
 }
 
+/// Laws and lists have no classes to spread sizes in.
+static clast_status check_curve(const answer *a)
+{
+    const clast_idle rules[] = {
+        {a->curve.n_class == 0, "spread|count", "with sizes that are no sieve curve"}, {0}};
+    return cli_idle_check(grading_fields, a->config, rules);
+}
+
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const grading_config *config = config_bytes;
@@ -284,6 +297,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(check_options(common, config));
     CLI_TRY(clast_grading_load(a.text, (clast_grading_spread)config->spread,
                                (clast_grading_count)config->count, &a.curve, &a.grading));
+    CLI_TRY(check_curve(&a));
     CLI_TRY(take_sizes(&a));
     CLI_CHECK(config->compare[0] == '\0' || a.curve.n_class != 0, CLAST_E_USAGE,
               "'%s' is no sieve curve to compare with", a.text);
@@ -293,7 +307,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
                     : cli_fail(CLAST_E_USAGE, "chart: '%s' is no sieve curve", a.text));
     }
     if (common->output != NULL) {
-        CLI_TRY(clast_table_write_csv(&a.sizes, common->output));
+        CLI_TRY(cli_table_write(&a.sizes, common->output));
     }
     if (common->json) {
         CLI_TRY(cli_print_json(answer_json(&a)));

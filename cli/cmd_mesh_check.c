@@ -1,5 +1,6 @@
 // clast mesh check: what is this surface, and can it be trusted?
 #include "command.h"
+#include "idle.h"
 #include "mesh_words.h"
 
 #include <clast/mesh.h>
@@ -113,10 +114,13 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const config *c = config_bytes;
+    const clast_idle rules[] = {
+        {c->weld != CLAST_WELD_WITHIN, "weld_tolerance", "without --weld within"}, {0}};
     clast_mesh mesh = {0};
     clast_mesh_check_result result = {0};
     clast_mesh_repair_report weld = {0};
     clast_status status = CLAST_OK;
+    CLI_TRY(cli_idle_check(fields, c, rules));
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(check(c, &mesh, &result, &weld));
     CLI_TRY(tell(common, c, &mesh, &result, &weld));

@@ -1,5 +1,6 @@
 // clast mesh convert: a surface from one format to another, in another unit if wanted.
 #include "command.h"
+#include "idle.h"
 #include "json.h"
 
 #include <math.h>
@@ -18,7 +19,8 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, out_unit), 0, 0, 0, "-",
      "unit of the output's coordinates; that of the input when not given", ""},
     {FIELD(CLAST_FIELD_F64, scale), 1.0, 1e-100, 1e100, "-", "factor on all lengths", NULL},
-    {FIELD(CLAST_FIELD_TEXT, name), 0, 0, 0, "-", "name of the part, told in the output", ""},
+    {FIELD(CLAST_FIELD_TEXT, name), 0, 0, 0, "-", "name of the part, told in an STL, OBJ or 3MF",
+     ""},
     {0},
 };
 #undef FIELD
@@ -48,6 +50,13 @@ static clast_status find_factor(const convert_config *config, job *j)
         return cli_fail(CLAST_E_USAGE, "3MF is in millimetres: give --unit, the unit of %s",
                         j->input);
     }
+    if (j->out_format == CLAST_MESH_3MF) {
+        if (config->out_unit[0] != '\0' && strcmp(config->out_unit, "mm") != 0) {
+            return cli_fail(CLAST_E_USAGE, "--out-unit %s: 3MF is in millimetres",
+                            config->out_unit);
+        }
+        j->out_unit = "mm";
+    }
     if (unit != NULL) {
         CLI_GUARD(clast_unit_factor(unit, "m", &in));
         CLI_GUARD(clast_unit_factor(j->out_unit, "m", &out));
@@ -56,7 +65,7 @@ static clast_status find_factor(const convert_config *config, job *j)
     return CLAST_OK;
 }
 
-static clast_status check_job(const cli_common *common, job *j)
+static clast_status check_job(const cli_common *common, const convert_config *config, job *j)
 {
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "where to? give -o NAME.stl (or .obj, .ply, .off, .3mf)");
@@ -69,7 +78,10 @@ static clast_status check_job(const cli_common *common, job *j)
                         "%s: no surface format by that name; write .stl, .obj, .ply, .off or .3mf",
                         j->output);
     }
-    return CLAST_OK;
+    const clast_idle rules[] = {{j->out_format == CLAST_MESH_PLY || j->out_format == CLAST_MESH_OFF,
+                                 "name", "with .ply and .off: STL, OBJ and 3MF name their part"},
+                                {0}};
+    return cli_idle_check(fields, config, rules);
 }
 
 static clast_status check_surface(const job *j)
@@ -172,7 +184,7 @@ static clast_status print_text(const job *j)
     }
     (void)printf("\n%s: %s", cli_name(j->output), clast_mesh_format_name(j->out_format));
     if (j->out_unit != NULL) {
-        (void)printf(" in %s", j->out_format == CLAST_MESH_3MF ? "mm" : j->out_unit);
+        (void)printf(" in %s", j->out_unit);
     }
     if (j->out_unit == NULL) {
         (void)printf(" in model units (--unit names them in the file)");
@@ -194,7 +206,7 @@ static clast_status run(const cli_common *common, void *context)
     const convert_config *config = context;
     job j = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(check_job(common, &j));
+    CLI_TRY(check_job(common, config, &j));
     CLI_TRY(find_factor(config, &j));
     CLI_TRY(clast_mesh_read(j.input, &j.mesh, &j.report));
     CLI_TRY(check_surface(&j));

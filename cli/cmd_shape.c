@@ -4,6 +4,7 @@
 #include "results.h"
 #include "shape_statistics.h"
 #include "shape_words.h"
+#include "table_file.h"
 
 #include <clast/table.h>
 
@@ -157,13 +158,13 @@ static bool all_have_unit(const clast_grains *grains, double unit_m)
     return unit_m > 0.0 || (grains->n > 0 && grains->record[0].unit_m > 0.0);
 }
 
-static clast_status write_csv(const cli_common *common, const cli_shape_result *shape)
+static clast_status write_table(const cli_common *common, const cli_shape_result *shape)
 {
     clast_table table = {0};
     clast_status status = CLAST_OK;
     if (common->output != NULL) {
         CLI_TRY(clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table));
-        CLI_TRY(clast_table_write_csv(&table, common->output));
+        CLI_TRY(cli_table_write(&table, common->output));
     }
 done:
     clast_table_free(&table);
@@ -250,11 +251,13 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
 /// Kinds of files have options of their own. `may_be`: of which kinds there are files, as bits.
 static clast_status check_kinds(const config *c, unsigned may_be, const char *why)
 {
-    const clast_idle rules[] = {
-        {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
-        {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
-        {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0, "voxels|threshold|least_voxels", why},
-        {0}};
+    const clast_idle rules[] = {{(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
+                                {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
+                                {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0,
+                                 "voxels|voxel_edge|dataset|threshold|least_voxels", why},
+                                {(may_be & 1U << CLAST_GRAINS_TABLE) == 0, "columns", why},
+                                {may_be == 1U << CLAST_GRAINS_TABLE, "hull|surfaces", why},
+                                {0}};
     return cli_idle_check(fields, c, rules);
 }
 
@@ -285,6 +288,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
 {
     config *c = config_bytes;
     CLI_GUARD(check_used(c));
+    CLI_GUARD(cli_table_check(common->output));
     clast_run_folder *folder = NULL;
     double unit_m = 0.0;
     clast_grain_statistics statistics = {0};
@@ -309,7 +313,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
         clast_grains_to_metres(&shape.grains, unit_m);
         shape.in_metres = true;
     }
-    CLI_TRY(write_csv(common, &shape));
+    CLI_TRY(write_table(common, &shape));
     CLI_TRY(add_statistics(common, c, &shape, folder, &statistics));
     CLI_TRY(print(common, &shape, &statistics));
     CLI_TRY(tell_faults(common, &shape.grains));
@@ -337,7 +341,7 @@ const cli_command cli_shape = {
         "bare "
         "values,\nXsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), clumps of spheres "
         "(x,y,z and\nradius or diameter: the union of the spheres), tables of L,I,S "
-        "or flatness,elongation.\n-o FILE.csv writes everything as a table.\n"
+        "or flatness,elongation.\n-o FILE.csv or FILE.json writes everything as a table.\n"
         "--statistics FOLDER: means, deviations, quantiles with bootstrap intervals, Shapiro-Wilk, "
         "Pearson,\nprincipal components as CSV; Zingg diagram, histograms, correlation as SVG; "
         "summary.json,\nmanifest.json (docs/theory/statistics.md).\n"

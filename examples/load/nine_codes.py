@@ -5,7 +5,7 @@ Geometry, densities, moduli, friction and restitution by pairs, and speeds are t
 its start files were not at hand, so beds are poured here. Grains are larger by --factor (their number falls with its cube) and their moduli lower by --softer:
 those published, 1, ask for steps of 1 us, which 0.1 s of an impact can have and 5 s of a silo had better not.
 
-    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 2] [--softer 50] [--time 5] [--orifice 0.06] [--grains 25000] [--lammps lmp]
+    CLAST=build/release/clast python3 examples/load/nine_codes.py silo|drum|impact FOLDER [--factor 2] [--softer 50] [--time 5] [--orifice 0.06] [--grains 25000] [--row 0.0025] [--lammps lmp]
 
 Writes FOLDER/CASE.csv. With --lammps (Debian's package lammps) the same silo empties by that program too: FOLDER/silo_lammps.csv.
 """
@@ -314,13 +314,13 @@ def impact(folder, options):
         print(f"plate at {speed:.4f} m/s: sphere at {v:.4f} m/s, {1e3 * late:.3f} ms late", flush=True)
         speed *= 5 / v
     out = []
-    for k in range(1, round(time / 0.0025) + 1):
-        steps = ["--max-steps", round((late + k * 0.0025) / step)]
+    for k in range(1, round(time / options.row) + 1):
+        steps = ["--max-steps", round((late + k * options.row) / step)]
         if k == 1:
             run = struck(folder, lying, softer, step, "impact", speed, *steps)
         else:
             clast("pack", "--resume", run, "--quiet", *steps)
-        out.append((k * 0.0025, height(run) - BEGIN))
+        out.append((k * options.row, height(run) - BEGIN))
         write_rows(os.path.join(folder, "way.csv"), ("time_s", "displacement_m"), [(0, 0), *out])
         print("%6.4f s: %8.2f mm" % (out[-1][0], 1e3 * out[-1][1]), flush=True)
     force = max((-row["floor_force_z_N"], row["time_s"] - late) for row in table(run, "walls.csv"))
@@ -338,14 +338,15 @@ def main():
     parser.add_argument("--time", type=float)
     parser.add_argument("--orifice", type=float, choices=(0.06, 0.04), help="of the silo (default 0.06 m)")
     parser.add_argument("--grains", type=int, help="of the impact's bed (default 25000)")
+    parser.add_argument("--row", type=float, help="time between rows of the impact (default 0.0025 s)")
     parser.add_argument("--lammps", help="the silo by this program too")
     options = parser.parse_args()
-    for name, case in (("orifice", "silo"), ("lammps", "silo"), ("grains", "impact")):
+    for name, case in (("orifice", "silo"), ("lammps", "silo"), ("grains", "impact"), ("row", "impact")):
         if getattr(options, name) is not None and options.case != case:
             parser.error(f"--{name} acts on the {case} alone")
     if options.case == "silo" and options.time is not None and options.time < 0.6:
         parser.error("--time: the outflow is measured from 0.5 s on, give 0.6 s or more")
-    options.orifice, options.grains = options.orifice or 0.06, options.grains or 25000
+    options.orifice, options.grains, options.row = options.orifice or 0.06, options.grains or 25000, options.row or 0.0025
     os.makedirs(options.folder, exist_ok=True)
     {"silo": silo, "drum": drum, "impact": impact}[options.case](options.folder, options)
 

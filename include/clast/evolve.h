@@ -154,6 +154,7 @@ typedef struct clast_evolve_result {
     int64_t grains_most;    ///< of one aggregate, wherever it is
     double deposit_diameter, deposit_porosity, deposit_speed, deposit_grains; ///< means by mass
     double fall_reynolds; ///< greatest of all bodies; the drag law holds up to 3e5, Stokes' to 0.1
+    double fall_reynolds_limit;              ///< that of the run's own law
     double fractal_dimension, fractal_error; ///< of aggregates that events made; NAN
     clast_range_use range;                   ///< collisions against the kernels' ranges
     uint64_t hash;                           ///< of the whole state

@@ -102,8 +102,9 @@ CLAST_API clast_status clast_porosity_grain_slabs(const clast_assembly *assembly
                                                   const double *edge, double *solid);
 
 /// Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the
-/// last grain. What lies below the floor counts in the first slice. A bed that is periodic in all
-/// directions ends at its ceiling; what sticks out above comes in below.
+/// last grain. What dips below the floor counts in the first slice while no grain reaches a slice
+/// or more below it (else what is below is of none). A bed that is periodic in all directions ends
+/// at its ceiling; what sticks out above comes in below.
 ///
 ///     n(z) = 1 - V_solid / (A h_p)                               [Rettinger et al. sec. 4.4]
 ///

@@ -20,3 +20,8 @@ typedef struct clx_aggregate_given {
 /// Ranges and combinations of parameters. CLAST_E_CONFIG with the option, its value and what to do.
 clast_status clx_aggregate_params_check(const clast_aggregate_params *params,
                                         const clx_aggregate_given *given);
+
+/// Refuses the first option that a run by the others would not look at. Of new runs alone: one that
+/// goes on has the options that it has. What a file brings for a run of another kind is noted.
+CLX_SHARED clast_status clx_aggregate_idle(const clast_aggregate_config *config,
+                                           const clast_monitor *monitor);

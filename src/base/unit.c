@@ -21,14 +21,21 @@ static const unit units[] = {
     {"cm", "m", 1e-2},
     {"mm", "m", 1e-3},
     {"um", "m", 1e-6},
-    {"\xc2\xb5m", "m", 1e-6},
-    {"\xce\xbcm", "m", 1e-6},
     {"nm", "m", 1e-9},
     {"km", "m", 1e3},
     {"in", "m", 0.0254},
     {"m^2", "m^2", 1.0},
     {"cm^2", "m^2", 1e-4},
     {"mm^2", "m^2", 1e-6},
+    {"um^2", "m^2", 1e-12},
+    {"nm^2", "m^2", 1e-18},
+    {"m^3", "m^3", 1.0},
+    {"cm^3", "m^3", 1e-6},
+    {"mm^3", "m^3", 1e-9},
+    {"um^3", "m^3", 1e-18},
+    {"nm^3", "m^3", 1e-27},
+    {"1/m", "1/m", 1.0},
+    {"1/mm", "1/m", 1e3},
     {"rad", "rad", 1.0},
     {"deg", "rad", CLAST_PI / 180.0},
     {"rad/s", "rad/s", 1.0},
@@ -37,10 +44,15 @@ static const unit units[] = {
     {"kg", "kg", 1.0},
     {"g", "kg", 1e-3},
     {"mg", "kg", 1e-6},
+    {"ug", "kg", 1e-9},
+    {"ng", "kg", 1e-12},
+    {"pg", "kg", 1e-15},
+    {"fg", "kg", 1e-18},
     {"t", "kg", 1e3},
     {"s", "s", 1.0},
     {"ms", "s", 1e-3},
     {"us", "s", 1e-6},
+    {"ns", "s", 1e-9},
     {"min", "s", 60.0},
     {"h", "s", 3600.0},
     {"kg/m^3", "kg/m^3", 1.0},
@@ -50,6 +62,8 @@ static const unit units[] = {
     {"m/s", "m/s", 1.0},
     {"cm/s", "m/s", 1e-2},
     {"mm/s", "m/s", 1e-3},
+    {"um/s", "m/s", 1e-6},
+    {"nm/s", "m/s", 1e-9},
     {"m/s^2", "m/s^2", 1.0},
     {"m/s2", "m/s^2", 1.0},
     {"Pa", "Pa", 1.0},
@@ -61,6 +75,8 @@ static const unit units[] = {
     {"Pas", "Pa s", 1.0},
     {"mPa s", "Pa s", 1e-3},
     {"mPa*s", "Pa s", 1e-3},
+    {"uPa s", "Pa s", 1e-6},
+    {"uPa*s", "Pa s", 1e-6},
     {"m^2/s", "m^2/s", 1.0},
     {"m2/s", "m^2/s", 1.0},
     {"m^2/s^3", "m^2/s^3", 1.0},
@@ -69,12 +85,21 @@ static const unit units[] = {
     {"/s", "1/s", 1.0},
     {"K", "K", 1.0},
     {"J", "J", 1.0},
+    {"mJ", "J", 1e-3},
+    {"uJ", "J", 1e-6},
+    {"nJ", "J", 1e-9},
+    {"pJ", "J", 1e-12},
+    {"fJ", "J", 1e-15},
     {"J/m^3", "J/m^3", 1.0},
     {"J/m3", "J/m^3", 1.0},
     {"J/m^2", "J/m^2", 1.0},
     {"J/m2", "J/m^2", 1.0},
     {"mJ/m^2", "J/m^2", 1e-3},
     {"N", "N", 1.0},
+    {"mN", "N", 1e-3},
+    {"uN", "N", 1e-6},
+    {"nN", "N", 1e-9},
+    {"pN", "N", 1e-12},
     {"N/m", "N/m", 1.0},
     {"1/m^3", "1/m^3", 1.0},
     {"1/m3", "1/m^3", 1.0},
@@ -104,12 +129,34 @@ static void list_known(const char *si, char known[KNOWN_SIZE])
 {
     known[0] = '\0';
     for (int i = 0; i < N_UNIT; ++i) {
-        if (strcmp(units[i].si, si) == 0 && (unsigned char)units[i].name[0] < 0x80) {
+        if (strcmp(units[i].si, si) == 0) {
             const size_t used = strlen(known);
             (void)snprintf(known + used, KNOWN_SIZE - used, "%s%s", used > 0 ? ", " : "",
                            units[i].name);
         }
     }
+}
+
+/// The name in ASCII: "\302\265g" (either micro sign) -> "ug", "m/s\302\262" -> "m/s^2".
+static void to_ascii(const char *name, char plain[KNOWN_SIZE])
+{
+    static const char *const signs[][2] = {{"\302\265", "u"},
+                                           {"\316\274", "u"},
+                                           {"\302\262", "^2"},
+                                           {"\302\263", "^3"},
+                                           {"\302\260", "deg"}};
+    enum { N_SIGN = sizeof signs / sizeof signs[0] };
+    size_t used = 0;
+    while (*name != '\0' && used + 4 < KNOWN_SIZE) {
+        int k = 0;
+        while (k < N_SIGN && strncmp(name, signs[k][0], 2) != 0) {
+            ++k;
+        }
+        used += (size_t)snprintf(plain + used, KNOWN_SIZE - used, "%.*s", k < N_SIGN ? 3 : 1,
+                                 k < N_SIGN ? signs[k][1] : name);
+        name += k < N_SIGN ? 2 : 1;
+    }
+    plain[used] = '\0';
 }
 
 static clast_status unknown(const char *name, const char *si)
@@ -124,8 +171,10 @@ static clast_status unknown(const char *name, const char *si)
 clast_status clast_unit_factor(const char *name, const char *si_unit, double *factor)
 {
     CLX_ARGUMENTS(name, si_unit, factor);
+    char plain[KNOWN_SIZE];
+    to_ascii(name, plain);
     for (int i = 0; i < N_UNIT; ++i) {
-        if (strcmp(units[i].name, name) == 0 && strcmp(units[i].si, si_unit) == 0) {
+        if (strcmp(units[i].name, plain) == 0 && strcmp(units[i].si, si_unit) == 0) {
             *factor = units[i].factor;
             return CLAST_OK;
         }
@@ -137,8 +186,8 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
     return unknown(name, si_unit);
 }
 
-/// Units that people choose among, the largest first: a number gets the first of which it has
-/// `least`, 0 that of `zero`.
+/// Units that people choose among, all of them in `units`, the largest first: a number gets the
+/// first of which it has `least`, 0 that of `zero`.
 static const struct {
     const char *si, *zero;
     double least;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "cloud/contract.h"
+#include "cloud/exact_counts.h"
 #include "cloud/kernel_range.h"
 #include "cloud/sectional.h"
 #include "cloud/size_classes.h"
@@ -17,8 +18,9 @@ const clast_field clast_agglomerate_fields[] = {
      "collision kernel, or a sum: brownian+settling; see the table above", "constant",
      .common = true, .group = "kernel and time"},
     {FIELD(CLAST_FIELD_F64, duration), 1.0, 0.0, 1e300, "s",
-     "time that passes, with several snapshots from each to the next", NULL, .common = true},
-    {FIELD(CLAST_FIELD_I32, n_step), 10, 1, 1000000, "-", "steps of a snapshot", NULL,
+     "time that passes; of several snapshots after each, the last too: three take three times it",
+     NULL, .common = true},
+    {FIELD(CLAST_FIELD_I32, n_step), 10, 1, 1000000, "-", "steps of that time", NULL,
      .common = true},
     {FIELD(CLAST_FIELD_I32, repeats), 1, 1, 1000000, "-",
      "runs with other draws, of which means are told", NULL, .common = true},
@@ -281,22 +283,6 @@ static void make_means(const clast_agglomerate_config *config, int64_t n_row, co
     }
 }
 
-/// Exact number and second moment of single particles after T = kernel N0 t: constant, additive,
-/// product (before its gel). [Smoluchowski1916; Golovin1963; McLeod1962]
-static void exact_at(uint32_t kernel, double n0, double t, double *n, double *m2)
-{
-    if (kernel == 1U) {
-        *n = n0 / (1.0 + 0.5 * t);
-        *m2 = n0 * (1.0 + t);
-    } else if (kernel == 2U) {
-        *n = n0 * exp(-t);
-        *m2 = n0 * exp(2.0 * t);
-    } else {
-        *n = t < 1.0 ? n0 * (1.0 - 0.5 * t) : (double)NAN;
-        *m2 = t < 1.0 ? n0 / (1.0 - t) : (double)NAN;
-    }
-}
-
 /// Adds the exact columns where they hold: one model kernel, one cell, single particles.
 static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
 {
@@ -305,7 +291,8 @@ static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
     const clast_medium *m = &run->collide.medium;
     const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
     double *column = NULL;
-    if ((kernel != 1U && kernel != 2U && kernel != 4U) || run->input->monomers != NULL ||
+    const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
+    if (!clx_exact_counts_known(kernel, n0) || run->input->monomers != NULL ||
         run->input->n_snapshot > 1 || run->n_cell != 1 || run->mesh.n_outside > 0) {
         return CLAST_OK;
     }
@@ -314,10 +301,9 @@ static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
     const double *time = clast_table_numbers(&r->history, "time_s");
     double *n = clast_table_numbers(&r->history, "exact_n_particle");
     double *m2 = clast_table_numbers(&r->history, "exact_M2");
-    const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
     for (int64_t row = 0; row < r->history.n_row; ++row) {
-        exact_at(kernel, n0, run->collide.alpha * rate * n0 * time[row] / run->volume[0], &n[row],
-                 &m2[row]);
+        clx_exact_counts(kernel, n0, run->collide.alpha * rate * time[row] / run->volume[0],
+                         &n[row], &m2[row]);
     }
     r->has_exact = true;
 done:

@@ -3,6 +3,8 @@
 
 #include "aggregate/config.h"
 #include "assembly/whole.h"
+#include "base/field.h"
+#include "base/path.h"
 #include "base/status.h"
 #include "cloud/contract.h"
 #include <clast/agglomerate.h>
@@ -217,21 +219,31 @@ int32_t clx_evolve_meeting(const clast_evolve_config *c, uint32_t kernel)
     return (kernel & ~slow) == 0 ? CLAST_MEETING_DIFFUSIVE : CLAST_MEETING_BALLISTIC;
 }
 
-/// Whether the motion of the bodies looks at a key of the fluid, whatever the kernel; `density` is
-/// that of the solid.
-static bool is_of_motion(const char *key)
+/// What the motion of the bodies looks at, whatever the kernel.
+typedef struct {
+    const char *key;
+    bool is_used;
+    const char *without; ///< why not
+} motion_use;
+
+static motion_use motion_of(const clast_evolve_config *c, const char *key)
 {
-    static const char *const motion[] = {"temperature", "viscosity", "density", "mean_free_path",
-                                         "gravity"};
-    for (size_t k = 0; k < sizeof motion / sizeof motion[0]; ++k) {
-        if (strcmp(key, motion[k]) == 0) {
-            return true;
+    const bool falls = c->medium.gravity > 0.0;
+    const motion_use use[] = {
+        {"temperature", c->brownian, " and without brownian"},
+        {"density", falls, " and without gravity"},
+        {"viscosity", falls || c->brownian, " and without gravity and brownian"},
+        {"mean_free_path", falls || c->brownian, " and without gravity and brownian"},
+        {"gravity", true, ""}};
+    for (size_t k = 0; k < sizeof use / sizeof use[0]; ++k) {
+        if (strcmp(use[k].key, key) == 0) {
+            return use[k];
         }
     }
-    return false;
+    return (motion_use){.without = ""};
 }
 
-/// Refuses a number of kernels or sticking that neither looks at.
+/// Refuses a number of kernels or sticking that neither looks at, nor the motion.
 static clast_status check_used(const clast_evolve_config *c, const clast_collide_config *collide)
 {
     clast_status status = CLAST_OK;
@@ -240,38 +252,55 @@ static clast_status check_used(const clast_evolve_config *c, const clast_collide
         seen.kernel |= 1U << CLAST_KERNEL_INERTIAL; // bodies take their velocities from turbulence
     }
     for (const clast_field *f = clast_evolve_fields; f->name != NULL; ++f) {
-        const char *const by = clast_collide_idle(&seen, f->name);
+        const char *const key = strcmp(f->name, "fluid_density") == 0 ? "density" : f->name;
+        const char *const by = clast_collide_idle(&seen, key);
+        const motion_use motion = motion_of(c, key);
         char word[256] = "";
-        if (f->type != CLAST_FIELD_F64 || by == NULL || is_of_motion(f->name) ||
-            *(const double *)((const char *)c + f->offset) == f->value) {
+        if (f->type != CLAST_FIELD_F64 || by == NULL || motion.is_used ||
+            clast_field_is_default(f, c)) {
             continue;
         }
         (void)clast_field_format(clast_fields_find(clast_evolve_fields, by), c, 0, sizeof word,
                                  word);
-        CLX_CHECK(false, CLAST_E_CONFIG, "%s does nothing with %s %s", f->name, by, word);
+        CLX_CHECK(false, CLAST_E_CONFIG, "%s does nothing with %s %s%s", f->name, by, word,
+                  motion.without);
     }
 done:
     return status;
 }
 
-/// Refuses what another key makes idle.
-static clast_status check_idle(const clast_evolve_config *c, const clast_evolve_input *input)
+/// Whether all shapes are earlier aggregates, whose grains have their own densities.
+static bool are_aggregates(const clast_text_list *shapes)
+{
+    bool are = shapes->n > 0;
+    for (int32_t i = 0; i < shapes->n; ++i) {
+        are = are && clx_path_is(shapes->item[i], "h5");
+    }
+    return are;
+}
+
+clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evolve_input *input)
 {
     clast_status status = CLAST_OK;
-    const clast_field *f = clast_evolve_fields;
     clast_collide_config collide;
     CLX_TRY(clx_evolve_collide(c, &collide));
+    const bool sees_radius =
+        collide.kernel != 1U << CLAST_KERNEL_CONSTANT || c->sticking.law != CLAST_STICKING_CONSTANT;
+    const clast_idle rules[] = {
+        {c->medium.gravity == 0.0 && !c->brownian, "fall", "without gravity and brownian"},
+        {!sees_radius, "collision_radius", "with kernel constant"},
+        {are_aggregates(&c->shapes), "density",
+         "with aggregates (state.h5), whose grains have their own"},
+        {c->shapes.n == 1, "shape_weight", "with one shape"},
+        {input->points != NULL && input->points->radius != NULL, "curve", "with diameter_column"},
+        {c->even == CLAST_EVEN_WHOLE, "change_level", "with even whole"},
+        {!c->structure, "meeting|walk_step|max_tries|keep", "without structure: drops merge"},
+        {clx_evolve_meeting(c, collide.kernel) != CLAST_MEETING_DIFFUSIVE, "walk_step",
+         "without meeting diffusive"},
+        {input->field == NULL, "field_columns", "without field"},
+        {0}};
     CLX_TRY(check_used(c, &collide));
-    CLX_CHECK(c->even != CLAST_EVEN_WHOLE ||
-                  c->change_level == clast_fields_find(f, "change_level")->value,
-              CLAST_E_CONFIG, "change_level does nothing with even whole");
-    CLX_CHECK((c->structure && clx_evolve_meeting(c, collide.kernel) == CLAST_MEETING_DIFFUSIVE) ||
-                  c->walk_step == clast_fields_find(f, "walk_step")->value,
-              CLAST_E_CONFIG, "walk_step does nothing without meeting diffusive%s",
-              c->structure ? "" : " of grains (structure)");
-    CLX_CHECK(input->field != NULL ||
-                  strcmp(c->field_columns, clast_fields_find(f, "field_columns")->text) == 0,
-              CLAST_E_CONFIG, "field_columns does nothing without field");
+    CLX_TRY(clx_fields_idle(clast_evolve_fields, c, rules));
 done:
     return status;
 }
@@ -362,7 +391,6 @@ clast_status clx_evolve_config_check(const clast_evolve_config *c, const clast_e
               "viscosity and fluid_density must be above 0");
     CLX_CHECK(!c->brownian || c->medium.temperature > 0.0, CLAST_E_CONFIG,
               "temperature: Brownian motion needs one above 0");
-    CLX_TRY(check_idle(c, input));
 done:
     return status;
 }

@@ -8,6 +8,15 @@
 clast_status clx_evolve_config_check(const clast_evolve_config *config,
                                      const clast_evolve_input *input);
 
+/// Refuses options that a run by the others would not look at.
+clast_status clx_evolve_idle_check(const clast_evolve_config *config,
+                                   const clast_evolve_input *input);
+
+/// As clast_evolve_create, of a run that goes on: options that it began with are taken as they are.
+CLX_SHARED clast_status clx_evolve_create_again(const clast_evolve_config *config,
+                                                const clast_evolve_input *input,
+                                                clast_evolve **evolve);
+
 /// Kernel's mask and medium in full, from the configuration's words.
 clast_status clx_evolve_collide(const clast_evolve_config *config, clast_collide_config *collide);
 

@@ -189,6 +189,46 @@ static void weigh_all(clast_evolve *e)
     }
 }
 
+/// Least width of the domain: the sphere of this diameter fits between its walls, and in a periodic
+/// box no part of it meets its own image.
+static double width_of(const clast_domain *d)
+{
+    switch (d->kind) {
+    case CLAST_DOMAIN_BOX:
+    case CLAST_DOMAIN_MESH: // its bounding box: not less than the width
+        return fmin(d->high[0] - d->low[0], fmin(d->high[1] - d->low[1], d->high[2] - d->low[2]));
+    case CLAST_DOMAIN_CYLINDER:
+        return fmin(2.0 * d->radius, d->length);
+    case CLAST_DOMAIN_HALF_PIPE:
+        return fmin(d->radius, d->length);
+    case CLAST_DOMAIN_SPHERE:
+        return 2.0 * d->radius;
+    default:
+        return INFINITY; // of a caller's map it is not known
+    }
+}
+
+/// Refuses particles that are wider than the domain. Pairs meet in the frame of the larger, images
+/// of a periodic box are not looked at: half of the width is no limit.
+static clast_status check_widths(const clast_evolve *e)
+{
+    clast_status status = CLAST_OK;
+    const double width = width_of(e->input->domain);
+    int32_t n = 0;
+    int32_t widest = 0;
+    for (int32_t i = 0; i < e->n_start; ++i) {
+        n += 2.0 * e->body[i].reach > width ? 1 : 0;
+        widest = e->body[i].reach > e->body[widest].reach ? i : widest;
+    }
+    CLX_CHECK(n == 0, CLAST_E_CONFIG,
+              "%d of %d particles are wider than the domain, whose least width is %s (particle %d: "
+              "%s, the diameter of the sphere about it); take a larger domain or smaller particles",
+              n, e->n_start, clx_unit_text(width, "m"), widest + 1,
+              clx_unit_text(2.0 * e->body[widest].reach, "m"));
+done:
+    return status;
+}
+
 /// Height of the domain.
 static double height_of(const clast_domain *d)
 {
@@ -217,10 +257,9 @@ done:
     return status;
 }
 
-clast_status clast_evolve_create(const clast_evolve_config *config, const clast_evolve_input *input,
-                                 clast_evolve **evolve)
+clast_status clx_evolve_create_again(const clast_evolve_config *config,
+                                     const clast_evolve_input *input, clast_evolve **evolve)
 {
-    CLX_ARGUMENTS(config, input, evolve);
     clast_status status = CLAST_OK;
     clast_evolve *e = NULL;
     CLX_TRY(clx_evolve_config_check(config, input));
@@ -235,6 +274,7 @@ clast_status clast_evolve_create(const clast_evolve_config *config, const clast_
     CLX_TRY(prepare_cells(e));
     CLX_TRY(place_all(e));
     weigh_all(e);
+    CLX_TRY(check_widths(e));
     CLX_TRY(check_time_step(e));
     clx_evolve_list(e);
     CLX_TRY(clast_kernel_check(e->collide.kernel, &e->collide.medium));
@@ -245,6 +285,15 @@ clast_status clast_evolve_create(const clast_evolve_config *config, const clast_
 done:
     clast_evolve_destroy(e);
     return status;
+}
+
+clast_status clast_evolve_create(const clast_evolve_config *config, const clast_evolve_input *input,
+                                 clast_evolve **evolve)
+{
+    CLX_ARGUMENTS(config, input, evolve);
+    CLX_GUARD(clx_evolve_config_check(config, input));
+    CLX_GUARD(clx_evolve_idle_check(config, input));
+    return clx_evolve_create_again(config, input, evolve);
 }
 
 /// Cell of the i-th body in the fluid; < 0: left out. Without cells all are in one.

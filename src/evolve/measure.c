@@ -116,6 +116,8 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                              .n_cut = e->n_cut,
                              .n_test = e->n_test,
                              .fall_reynolds = fall_reynolds(e),
+                             .fall_reynolds_limit =
+                                 e->config->fall == CLAST_FALL_STOKES ? 0.1 : 3e5,
                              .range = e->range,
                              .hash = hash_of(e)};
     count(e, &r);

@@ -1,6 +1,6 @@
 #pragma once
 // The steps of clast_mesh_check, one file each.
-#include <clast/status.h>
+#include "base/status.h"
 
 typedef struct clast_mesh_check_result clast_mesh_check_result;
 typedef struct clx_topology clx_topology;

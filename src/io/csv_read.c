@@ -372,26 +372,32 @@ static void unit_of(const char *name, char unit[32])
     }
 }
 
-/// Adds column k under its own name, or a free one when that is empty or taken.
+/// A name that no column has yet, from a repeated or an empty one.
+static void find_free_name(const clast_table *table, const char *wanted, int32_t k, size_t size,
+                           char *name)
+{
+    (void)snprintf(name, size, "%s%scolumn_%d", wanted, wanted[0] != '\0' ? "_" : "", k + 1);
+    for (int32_t i = 2; clast_table_find(table, name) >= 0; ++i) {
+        (void)snprintf(name, size, "column_%d_%d", k + 1, i);
+    }
+}
+
+/// Adds column k under its own name, or a free one when that is empty or taken: by *first then, or
+/// -1.
 static clast_status add_column(clast_table *table, const char *wanted, int32_t k, bool is_text,
-                               clast_csv_report *report)
+                               int32_t *first, clast_csv_report *report)
 {
     clast_status status = CLAST_OK;
     char unit[32];
     char *name = NULL;
     const size_t size = strlen(wanted) + 32;
+    *first = wanted[0] != '\0' ? clast_table_find(table, wanted) : -1;
     CLX_TRY(clx_alloc(&name, (int64_t)size, 1));
     (void)snprintf(name, size, "%s", wanted);
-    if (wanted[0] == '\0') {
-        (void)snprintf(name, size, "column_%d", k + 1);
+    if (wanted[0] == '\0' || *first >= 0) {
+        find_free_name(table, wanted, k, size, name);
+        ++report->n_renamed;
     }
-    if (clast_table_find(table, name) >= 0) {
-        (void)snprintf(name, size, "%s_column_%d", wanted, k + 1);
-    }
-    for (int32_t i = 2; clast_table_find(table, name) >= 0; ++i) {
-        (void)snprintf(name, size, "column_%d_%d", k + 1, i);
-    }
-    report->n_renamed += strcmp(name, wanted) != 0;
     unit_of(wanted, unit);
     if (is_text) {
         CLX_TRY(clast_table_add_text(table, name));
@@ -403,12 +409,31 @@ done:
     return status;
 }
 
+/// Of several columns of one name none keeps it: who asks for it is told that there is none, and is
+/// not given the first.
+static clast_status rename_first(clast_table *table, int32_t k, clast_csv_report *report)
+{
+    clast_status status = CLAST_OK;
+    char *name = NULL;
+    char **kept = &table->column[k].name;
+    const size_t size = strlen(*kept) + 32;
+    CLX_TRY(clx_alloc(&name, (int64_t)size, 1));
+    find_free_name(table, *kept, k, size, name);
+    clx_free(*kept);
+    *kept = name;
+    ++report->n_renamed;
+done:
+    return status;
+}
+
 static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
                                 clast_csv_report *report)
 {
     clast_status status = CLAST_OK;
     char *wanted = NULL;
+    bool *is_repeated = NULL;
     bool more = true;
+    CLX_TRY(clx_alloc(&is_repeated, o->n_column, sizeof *is_repeated));
     if (o->has_header) {
         (void)begin_row(c);
     }
@@ -419,11 +444,21 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
             CLX_TRY(cell_text(&x, &wanted));
         }
         const bool is_text = (o->seen[k] & SEEN_TEXT) != 0;
-        CLX_TRY(add_column(table, wanted != NULL ? wanted : "", k, is_text, report));
+        int32_t first = -1;
+        CLX_TRY(add_column(table, wanted != NULL ? wanted : "", k, is_text, &first, report));
+        if (first >= 0) {
+            is_repeated[first] = true;
+        }
         clx_free(wanted);
         wanted = NULL;
     }
+    for (int32_t k = 0; k < o->n_column; ++k) {
+        if (is_repeated[k]) {
+            CLX_TRY(rename_first(table, k, report));
+        }
+    }
 done:
+    clx_free(is_repeated);
     clx_free(wanted);
     return status;
 }

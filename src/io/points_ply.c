@@ -84,7 +84,11 @@ static clast_status add_columns(const clx_ply *ply, const clx_ply_element *e, do
         const clx_ply_property *p = &ply->property[e->first + k];
         char shown[CLX_WORD_SHOWN];
         if (!p->is_list) {
-            CLX_TRY(clx_points_add(table, clx_word_show(p->name, shown), 1, value[k]));
+            CLX_CHECK(clast_table_find(table, clx_word_show(p->name, shown)) < 0, CLAST_E_FORMAT,
+                      "%s: two properties of a vertex are both called '%s'; give each a name of "
+                      "its own",
+                      table->name, shown);
+            CLX_TRY(clx_points_add(table, shown, 1, value[k]));
         }
     }
 done:

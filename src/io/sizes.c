@@ -279,9 +279,25 @@ done:
     return status;
 }
 
+/// As in a table: which of two columns of one name is meant cannot be told.
+static clast_status check_words(const reader *r)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        for (int32_t j = 0; j < i; ++j) {
+            CLX_CHECK(r->word[i][0] == '\0' || strcmp(r->word[i], r->word[j]) != 0, CLAST_E_FORMAT,
+                      "%s: columns %d and %d are both called '%.80s'; give each a name of its own",
+                      r->name, j + 1, i + 1, r->word[i]);
+        }
+    }
+done:
+    return status;
+}
+
 static clast_status read_header(reader *r, const char *column)
 {
     clast_status status = CLAST_OK;
+    CLX_TRY(check_words(r));
     CLX_TRY(find_density(r));
     CLX_TRY(find_count(r));
     r->low = find_word(r, "low", false);

@@ -7,6 +7,7 @@
 #include "math/sort.h"
 #include "math/whole.h"
 #include "shape/whole.h"
+#include <clast/field.h>
 #include <clast/form.h>
 #include <clast/statistics.h>
 #include <math.h>
@@ -27,14 +28,31 @@ static void bounds(const double *x, int64_t n, double *low, double *high)
     }
 }
 
+/// The label with its unit in brackets: "diameter_mm" -> "diameter (mm)", "sieve size" -> "sieve
+/// size (model units)".
+static void bracket_unit(const char *label, char text[LABEL_SIZE])
+{
+    const char *line = strrchr(label, '_');
+    double metre = 0.0;
+    if (strchr(label, '(') != NULL) {
+        (void)snprintf(text, LABEL_SIZE, "%s", label);
+    } else if (line != NULL && clast_unit_factor(line + 1, "m", &metre) == CLAST_OK) {
+        (void)snprintf(text, LABEL_SIZE, "%.*s (%s)", (int)(line - label), label, line + 1);
+    } else {
+        (void)snprintf(text, LABEL_SIZE, "%s (model units)", label);
+    }
+}
+
 /// What lengths in metres are multiplied with, and their axis label then, for an axis "... (m)" up
-/// to `most`; 1 and the same label for all else.
-static double length_axis(const char *label, double most, char text[LABEL_SIZE])
+/// to `most`; 1 and the same label, with a unit, for all else.
+static double length_axis(const char *name, double most, char text[LABEL_SIZE])
 {
     static const struct {
         double metre;
         const char *name;
     } units[] = {{1.0, "m"}, {1e-3, "mm"}, {1e-6, "\302\265m"}, {1e-9, "nm"}};
+    char label[LABEL_SIZE];
+    bracket_unit(name, label);
     const size_t n = strlen(label);
     size_t k = 0;
     (void)snprintf(text, LABEL_SIZE, "%s", label);

@@ -110,8 +110,9 @@ static void log_ticks(clx_legend *legend)
 
 static void make_ticks(clx_legend *legend)
 {
-    if (!(legend->high > legend->low * (1.0 + 1e-9))) {
+    if (!(legend->high > legend->low * (1.0 + 1e-9))) { // no round number is in reach
         add_tick(legend, legend->low);
+        (void)clx_number_print(legend->text[0], CLX_LEGEND_TEXT, "%.4g", legend->low);
         return;
     }
     if (legend->log) {

@@ -19,6 +19,8 @@ static const char *plain_unit(const char *si_unit)
                                            {"J/m^3", "J/m\302\263"},
                                            {"model units^2", "model units\302\262"},
                                            {"model units^3", "model units\302\263"},
+                                           {"1/m^2", "1/m\302\262"},
+                                           {"1/m^3", "1/m\302\263"},
                                            {"m^2", "m\302\262"},
                                            {"mm^2", "mm\302\262"},
                                            {"um^2", "\302\265m\302\262"},

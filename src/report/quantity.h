@@ -18,10 +18,11 @@ typedef struct clx_quantity {
 /// The quantity of a key of summary.json or of a column ("size_m", "porosity_surface_hull",
 /// "interval.d_agg.low"); its unit is the one that the name ends in, if any.
 ///
-/// @param place  table or list that holds the key, for keys that mean something else there; the key
-///               of a quantity, whose unit its mean, deviation, low and high have; NULL; or any of
-///               these after CLX_MODEL_UNITS, where lengths are in the unit of a file that does not
-///               tell it
+/// @param place  table, list or command that holds the key, for keys that mean something else
+/// there;
+///               the key of a quantity, whose unit its mean, deviation, low and high have; NULL; or
+///               any of these after CLX_MODEL_UNITS, where lengths are in the unit of a file that
+///               does not tell it
 clx_quantity clx_quantity_of(const char *key, const char *place);
 
 /// True when the name of a column ends in its unit: "size_m".

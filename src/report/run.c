@@ -43,6 +43,22 @@ bool clx_run_is_without_unit(const clx_run *run)
     return unit != NULL && strcmp(unit, "model") == 0;
 }
 
+/// True for a box without positions, whose numbers are of a volume.
+static bool is_box_model(const clx_run *run)
+{
+    const char *unit = json_string_value(json_object_get(run->summary, "unit_n"));
+    return unit != NULL && strcmp(unit, "1/m^3") == 0;
+}
+
+void clx_run_place(const clx_run *run, const char *part, char place[CLX_QUANTITY_SIZE])
+{
+    const char *command = json_string_value(json_object_get(run->manifest, "command"));
+    const char *name = part != NULL ? part : command != NULL ? command : "";
+    (void)snprintf(place, CLX_QUANTITY_SIZE, "%s%s",
+                   clx_run_is_without_unit(run) ? CLX_MODEL_UNITS : "",
+                   is_box_model(run) ? "box model" : name);
+}
+
 const clast_table *clx_run_table(const clx_run *run, const char *name)
 {
     for (int32_t i = 0; i < run->n_table; ++i) {

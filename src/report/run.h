@@ -1,6 +1,7 @@
 #pragma once
 // A run's folder in memory, as far as a page shows it.
 #include "io/folder.h"
+#include "report/quantity.h"
 #include <clast/table.h>
 #include <jansson.h>
 
@@ -28,6 +29,11 @@ void clx_run_free(clx_run *run);
 
 /// True when the run's lengths are in the unit of a file that does not tell it.
 bool clx_run_is_without_unit(const clx_run *run);
+
+/// Where the keys of a table or a part of the summary stand, as for clx_quantity_of.
+///
+/// @param part  name of the table or the part; NULL: the top of the summary
+void clx_run_place(const clx_run *run, const char *part, char place[CLX_QUANTITY_SIZE]);
 
 /// The table of that file name without ".csv", or NULL.
 const clast_table *clx_run_table(const clx_run *run, const char *name);

@@ -346,25 +346,30 @@ static void put_items(clx_file *file, const char *place, const json_t *list, int
     (void)clx_file_print(file, "</table></div>");
 }
 
-static void put_values(clx_file *file, const char *key, const json_t *list, int32_t rows)
+static void put_values(clx_file *file, const char *key, const char *top, const json_t *list,
+                       int32_t rows)
 {
     (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table>\n");
     for (size_t i = 0; i < json_array_size(list) && i < (size_t)rows; ++i) {
         (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
-        clx_value_put_cell(file, key, NULL, json_array_get(list, i));
+        clx_value_put_cell(file, key, top, json_array_get(list, i));
         (void)clx_file_print(file, "</tr>\n");
     }
     (void)clx_file_print(file, "</table></div>");
 }
 
-static void put_list(clx_file *file, const char *key, const char *place, const json_t *list,
+static void put_list(clx_file *file, const clx_run *run, const char *key, const json_t *list,
                      int32_t rows)
 {
+    char place[CLX_QUANTITY_SIZE];
+    char top[CLX_QUANTITY_SIZE];
     const size_t n = json_array_size(list);
     item_column column[MAX_COLUMNS];
     const int n_column = list_columns(json_array_get(list, 0), column);
+    clx_run_place(run, key, place);
+    clx_run_place(run, NULL, top);
     (void)clx_file_print(file, "<details class=\"card wide\"><summary>");
-    clx_quantity_put_label(file, key, NULL);
+    clx_quantity_put_label(file, key, top);
     (void)clx_file_print(file, " <small>%zu</small></summary>", n);
     for (int k = 0; k < n_column; k += COLUMNS_ACROSS) {
         const int left = n_column - k;
@@ -372,7 +377,7 @@ static void put_list(clx_file *file, const char *key, const char *place, const j
                   left < COLUMNS_ACROSS ? left : COLUMNS_ACROSS);
     }
     if (n_column == 0) {
-        put_values(file, key, list, rows);
+        put_values(file, key, top, list, rows);
     }
     if (n > (size_t)rows) {
         (void)clx_file_print(file, "<p class=\"note\">The first %d of %zu.</p>", (int)rows, n);
@@ -428,13 +433,6 @@ static bool is_flat(const json_t *object)
     return json_object_size(object) > 0;
 }
 
-/// Where the keys of a part of the summary stand, as for clx_quantity_of; "": at its top.
-static void place_of(const clx_run *run, const char *key, char place[CLX_QUANTITY_SIZE])
-{
-    (void)snprintf(place, CLX_QUANTITY_SIZE, "%s%s",
-                   clx_run_is_without_unit(run) ? CLX_MODEL_UNITS : "", key);
-}
-
 /// True where a part with a spread has plain values too, which its table of parts leaves out: the
 /// level of its intervals is in the title.
 static bool has_plain_value(const json_t *object)
@@ -462,12 +460,12 @@ static void put_part(clx_file *file, const clx_run *run, const char *key, const 
                      int32_t rows)
 {
     char place[CLX_QUANTITY_SIZE];
-    place_of(run, key, place);
+    clx_run_place(run, key, place);
     if (is_in_table(run, key, value) || is_by_envelope(value)) {
         return;
     }
     if (json_is_array(value) && json_array_size(value) > 0) {
-        put_list(file, key, place, value, rows);
+        put_list(file, run, key, value, rows);
     } else if (is_flat(value)) {
         put_pairs_card(file, key, place, value);
     } else if (json_is_object(value) && first_row(value) != NULL) {
@@ -484,9 +482,9 @@ void clx_summary_tables(clx_file *file, const clx_run *run, int32_t rows)
     json_t *value = NULL;
     bool has_envelope = false;
     char place[CLX_QUANTITY_SIZE];
-    place_of(run, "", place);
+    clx_run_place(run, NULL, place);
     (void)clx_file_print(file, "<div class=\"cards\">\n<div class=\"card\"><h4>Results</h4>");
-    put_pairs(file, run->summary, place[0] != '\0' ? place : NULL);
+    put_pairs(file, run->summary, place);
     json_object_foreach(run->summary, key, value)
     {
         has_envelope = has_envelope || is_by_envelope(value);

@@ -16,6 +16,7 @@ typedef struct {
     const clast_column *column;
     clx_quantity quantity;
     clx_quantity_scale scale;
+    const char *place;            ///< of the table's keys
     const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
     const clast_column *of;       ///< values that errors and limits tell of, or NULL
     bool is_error;
@@ -97,15 +98,12 @@ static const clast_column *column_of_value(const clast_table *table)
     return of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
 }
 
-static shown show(const clast_table *table, int32_t c, bool is_without_unit)
+static shown show(const clast_table *table, int32_t c, const char *place)
 {
     static const char *const names[] = {"name", "feature", "term", "column", "a", "b", "quantity"};
     static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
     const clast_column *column = &table->column[c];
-    char place[CLX_QUANTITY_SIZE];
-    (void)snprintf(place, sizeof place, "%s%s", is_without_unit ? CLX_MODEL_UNITS : "",
-                   table->name);
-    shown s = {.column = column, .quantity = clx_quantity_of(column->name, place)};
+    shown s = {.column = column, .place = place, .quantity = clx_quantity_of(column->name, place)};
     s.scale = scale_of(table, c, s.quantity.unit);
     s.of = column_of_value(table);
     s.is_error = strcmp(column->name, "error") == 0 || strcmp(column->name, "deviation") == 0;
@@ -116,12 +114,12 @@ static shown show(const clast_table *table, int32_t c, bool is_without_unit)
     return s;
 }
 
-static void put_head(clx_file *file, const clast_table *table, const shown *s)
+static void put_head(clx_file *file, const shown *s)
 {
     (void)clx_file_print(file, "<th%s title=\"", s->column->number != NULL ? " class=\"n\"" : "");
     clx_page_text(file, s->column->name);
     (void)clx_file_print(file, "\">");
-    clx_quantity_put_label(file, s->column->name, table->name);
+    clx_quantity_put_label(file, s->column->name, s->place);
     if (s->scale.name[0] != '\0') {
         (void)clx_file_print(file, " <small>(");
         clx_page_text(file, s->scale.name);
@@ -171,12 +169,12 @@ typedef struct {
     int32_t n;
 } stripe;
 
-static void put_heads(clx_file *file, const clast_table *table, const stripe *s)
+static void put_heads(clx_file *file, const stripe *s)
 {
     (void)clx_file_print(file, "<tr>");
-    put_head(file, table, s->first);
+    put_head(file, s->first);
     for (int32_t k = 0; k < s->n; ++k) {
-        put_head(file, table, &s->more[k]);
+        put_head(file, &s->more[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
@@ -202,8 +200,7 @@ static void end_table(clx_file *file)
 }
 
 /// The columns in stripes one below the other, as wide as each other, each with the first column.
-static void put_stripes(clx_file *file, const clast_table *table, const shown *s, int32_t n,
-                        int64_t rows)
+static void put_stripes(clx_file *file, const shown *s, int32_t n, int64_t rows)
 {
     CLAST_ASSERT(rows >= 0);
     const int32_t n_stripe = n > ACROSS ? (n - 1 + ACROSS - 2) / (ACROSS - 1) : 1;
@@ -212,7 +209,7 @@ static void put_stripes(clx_file *file, const clast_table *table, const shown *s
         const int32_t k = 1 + j * most;
         const stripe part = {s, s + k, n - k < most ? n - k : most};
         begin_table(file, "");
-        put_heads(file, table, &part);
+        put_heads(file, &part);
         for (int64_t r = 0; r < rows; ++r) {
             put_row(file, &part, r);
         }
@@ -221,34 +218,36 @@ static void put_stripes(clx_file *file, const clast_table *table, const shown *s
 }
 
 /// A table of one row, turned: a row for each column.
-static void put_turned(clx_file *file, const clast_table *table, const shown *s, int32_t n)
+static void put_turned(clx_file *file, const shown *s, int32_t n)
 {
     for (int32_t k = 0; k < n; ++k) {
         (void)clx_file_print(file, "<tr>");
-        put_head(file, table, &s[k]);
+        put_head(file, &s[k]);
         put_cell(file, &s[k], 0);
         (void)clx_file_print(file, "</tr>\n");
     }
 }
 
-static clast_status put_table(clx_file *file, const clast_table *table, bool is_without_unit,
+static clast_status put_table(clx_file *file, const clx_run *run, const clast_table *table,
                               int32_t rows)
 {
     clast_status status = CLAST_OK;
     shown *s = NULL;
     int32_t n = 0;
+    char place[CLX_QUANTITY_SIZE];
+    clx_run_place(run, table->name, place);
     CLX_TRY(clx_alloc(&s, table->n_column, sizeof *s));
     for (int32_t c = 0; c < table->n_column; ++c) {
         if (&table->column[c] != units_of(table)) { // the values show theirs
-            s[n++] = show(table, c, is_without_unit);
+            s[n++] = show(table, c, place);
         }
     }
     if (table->n_row == 1) {
         begin_table(file, " class=\"turned\"");
-        put_turned(file, table, s, n);
+        put_turned(file, s, n);
         end_table(file);
     } else if (n > 0) {
-        put_stripes(file, table, s, n, table->n_row < rows ? table->n_row : rows);
+        put_stripes(file, s, n, table->n_row < rows ? table->n_row : rows);
     }
 done:
     clx_free(s);
@@ -281,7 +280,7 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
         clx_quantity_put_label(file, table->name, "table");
         (void)clx_file_print(file, " <small>%" PRId64 " row%s</small></summary>", table->n_row,
                              table->n_row == 1 ? "" : "s");
-        CLX_TRY(put_table(file, table, is_without_unit, rows));
+        CLX_TRY(put_table(file, run, table, rows));
         (void)clx_file_print(file, "<p class=\"note\">%s",
                              table->n_row > rows ? "The first rows of " : "All rows of ");
         put_link(file, run, table);

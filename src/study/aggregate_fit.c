@@ -1,6 +1,7 @@
 // A fit from a configuration to a folder of results.
 #include <clast/aggregate_run.h>
 
+#include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
@@ -141,6 +142,7 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
 {
     CLX_ARGUMENTS(config, fit);
     CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_GUARD(clx_aggregate_idle(config, monitor));
     clast_status status = CLAST_OK;
     clast_aggregate_source source = {0};
     clast_run_folder *run = NULL;

@@ -4,6 +4,7 @@
 // of repeats and writes all else, so that the files do not tell how many ranks there were.
 #include <clast/aggregate_run.h>
 
+#include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/queue.h"
 #include "io/config_files.h"
@@ -333,6 +334,7 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
 {
     CLX_ARGUMENTS(config, report);
     CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_GUARD(clx_aggregate_idle(config, monitor));
     clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own,
              .has_folder = folder != NULL,

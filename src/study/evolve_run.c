@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "evolve/config.h"
 #include "io/config_files.h"
 #include "io/h5.h"
 #include "run/checkpoint.h"
@@ -50,13 +51,14 @@ done:
 }
 
 /// Loads all that can be wrong before anything is written.
-static clast_status prepare(run *r)
+static clast_status prepare(run *r, bool goes_on)
 {
     clast_status status = CLAST_OK;
     r->begun = clx_clock();
     CLX_TRY(clast_evolve_load(r->config, &r->source));
     CLX_TRY(clast_fields_json(clast_evolve_fields, r->config, &r->text));
-    CLX_TRY(clast_evolve_create(r->config, &r->source.input, &r->evolve));
+    CLX_TRY((goes_on ? clx_evolve_create_again : clast_evolve_create)(r->config, &r->source.input,
+                                                                      &r->evolve));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
     }
@@ -180,7 +182,7 @@ clast_status clast_evolve_run(const clast_evolve_config *config, const char *fol
         clx_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
         r.folder = clast_run_folder_path(r.own);
     }
-    CLX_TRY(prepare(&r));
+    CLX_TRY(prepare(&r, false));
     if (folder != NULL) {
         CLX_TRY(clast_run_folder_open(r.own));
         status = frame(&r, 0);
@@ -229,7 +231,7 @@ clast_status clast_evolve_resume(const char *folder, const clast_monitor *monito
     has_config = true;
     CLX_TRY(clast_fields_parse(path, state.config, clast_evolve_fields, &config));
     CLX_TRY(clx_run_folder_resume(folder, "evolve", monitor, &r.own));
-    CLX_TRY(prepare(&r));
+    CLX_TRY(prepare(&r, true));
     CLX_TRY(tables_of(&state, r.evolve, table));
     CLX_TRY(clast_evolve_restore(table, r.evolve));
     CLX_TRY(clast_run_folder_open(r.own));

@@ -16,6 +16,51 @@ def write(path, names, rows):
     return path
 
 
+def states_of(n, rate, tau):
+    """Mean number and sum of squares of n single particles that merge at rate(i, j) tau a pair: all partitions of n, by uniformisation."""
+    states, flows = [(1,) * n], []
+    for state in states:  # grows while it is read
+        flow = {}
+        for a in range(len(state)):
+            for b in range(a):
+                merged = tuple(sorted(state[:b] + state[b + 1:a] + state[a + 1:] + (state[a] + state[b],)))
+                if merged not in states:
+                    states.append(merged)
+                flow[states.index(merged)] = flow.get(states.index(merged), 0) + rate(state[a], state[b])
+        flows.append(flow)
+    fastest = max(sum(flow.values()) for flow in flows) or 1
+    chance, found, weight = [1.0] + [0.0] * (len(states) - 1), [0.0] * len(states), math.exp(-fastest * tau)
+    for k in range(1, 200):
+        found = [f + weight * c for f, c in zip(found, chance)]
+        after = [c * (1 - sum(flow.values()) / fastest) for c, flow in zip(chance, flows)]
+        for c, flow in zip(chance, flows):
+            for to, speed in flow.items():
+                after[to] += c * speed / fastest
+        chance, weight = after, weight * fastest * tau / k
+    return sum(f * len(s) for f, s in zip(found, states)), sum(f * sum(m * m for m in s) for f, s in zip(found, states))
+
+
+class WithoutEffect(Case):
+    def test_options_without_effect_are_refused(self):
+        """Each was taken, and the numbers were those without it; --depth in 3-D was a factor on volumes that are known."""
+        points = self.folder / "p.csv"
+        points.write_text("x,y,z,r,G,T\n" + "".join(f"0.{k},0.{k},0.{k},1e-4,{k},300\n" for k in range(1, 9)))
+        cloud = ("agglomerate", points, "--domain", CUBE)
+        two = ("agglomerate", points, points, "--domain", CUBE)
+        sheared = (*cloud, "--kernel", "shear_laminar", "--radius-column", "r")
+        for words, option, value, says in (
+                (cloud, "leap", 0.1, "without --collisions poisson"), (cloud, "rebuild", "always", "with one snapshot"),
+                (cloud, "change-level", 0.2, "with one snapshot"), ((*two, "--rebuild", "never"), "change-level", 0.2, "with this --rebuild"),
+                (cloud, "fixed-volume-column", "r", "without --fixed-column"), ((*sheared, "--shear-column", "G"), "shear", "3/s", "with --shear-column"),
+                ((*cloud, "--kernel", "brownian", "--radius-column", "r", "--temperature-column", "T"), "temperature", "400K", "with --temperature-column"),
+                ((*sheared, "--shear", "3/s"), "monomer-radius", "1mm", "with a column of radii"),
+                (("agglomerate", "--box-model", "--concentration", "2"), "leap", 0.1, "without --collisions poisson")):
+            with self.subTest(option):
+                self.assert_fails(2, *words, f"--{option}", value, says=(f"--{option} does nothing {says}",))
+        self.assert_fails(2, *cloud, "--self-collisions", says=("--self-collisions does nothing without --weight-column",))
+        self.assert_fails(2, *cloud, "--depth", "2m", says=("--depth is the extent of dimensions that are missing: the domain has all 3",))
+
+
 class Agglomerate(Case):
     def test_constant_kernel_follows_the_exact_death_process(self):
         """E N of the finite cloud: dN/dt = -K/2V E[N (N - 1)]; 50 particles, solved state by state."""
@@ -34,7 +79,24 @@ class Agglomerate(Case):
         self.assertEqual(r["moments"]["M1"], [50.0] * 3)
         self.assertEqual(r["moments"]["M0"], r["n_particle"])
         self.assertAlmostEqual(r["events"][-1], n0 - r["n_particle"][-1], places=9)
-        self.assertAlmostEqual(r["exact"]["n_particle"][-1], 50 / (1 + 1.0), places=9)
+        self.assertAlmostEqual(r["exact"]["n_particle"][-1], mean, delta=1e-3 * mean)  # it was that of infinitely many, 25
+
+    def test_exact_numbers_are_those_of_so_many_particles(self):
+        """One particle stays one (it was 0.995), two are 1 + exp(-t): against the chance of every state of the cloud, solved as a Markov chain."""
+        rates = {"constant": lambda i, j: 1, "additive": lambda i, j: i + j, "product": lambda i, j: i * j}
+        for kernel, rate in rates.items():
+            for n in (1, 2, 6):
+                with self.subTest(kernel, n=n):
+                    points = self.folder / f"{n}.csv"
+                    points.write_text("x,y,z\n" + "".join(f"0.{k + 1},0.{9 - k},0.5\n" for k in range(n)))
+                    r = clast("agglomerate", points, "--domain", CUBE, "--kernel", kernel, f"--{kernel}", "0.02", "--alpha", "0.5", "--duration",
+                              "20", "--n-step", "2", "--json").json
+                    for row, time in enumerate(r["time"]):
+                        number, square = states_of(n, rate, 0.5 * 0.02 * time)
+                        self.assertAlmostEqual(r["exact"]["n_particle"][row], number, places=11)
+                        self.assertAlmostEqual(r["exact"]["M2"][row], square, places=10)
+        two = clast("agglomerate", self.folder / "2.csv", "--domain", CUBE, "--constant", "0.01", "--json").json
+        self.assertAlmostEqual(two["exact"]["n_particle"][-1], 1 + math.exp(-0.01), places=12)
 
     def test_folder_holds_tables_summary_and_charts(self):
         r = clast("agglomerate", UNIFORM, "--domain", CUBE, "--constant", "0.02", "--fixed", "2", "-o",
@@ -118,7 +180,11 @@ class Agglomerate(Case):
         far = [[0.3 * x for x in p] for p in here]
         files = [write(self.folder / f"{k}.csv", ["x", "y"], p) for k, p in enumerate((here, near, far))]
         r = clast("agglomerate", *files, "--domain", "box:0,0,1,1", "--constant", "1e-5", "--n-step", "2", "--json").json
-        self.assertEqual(len(r["time"]), 7)
+        self.assertEqual(r["time"], [0, 0.5, 1, 1.5, 2, 2.5, 3])  # the last snapshot has its time too
+        self.assertEqual(r["n_snapshot"], 3)
+        said = clast("agglomerate", *files, "--domain", "box:0,0,1,1", "--constant", "1e-5", "--n-step", "2")
+        self.assertIn("kernel constant, 3 snapshots, 1 s in each, 1 run", said.out)
+        self.assertIn("three take three times it", " ".join(clast("agglomerate", "--help-all").out.split()))
         self.assertEqual(r["n_rebuilt"], 1)
         self.assertEqual(r["n_cell"][:5], [1] * 5)
         self.assertGreater(r["n_cell"][-1], 1)

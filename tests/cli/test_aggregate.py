@@ -12,6 +12,7 @@ from clitest import CLAST, Case, clast
 # Pictures are slow under sanitizers; test_render looks at them.
 QUICK = ("--picture=false",)
 SPHERES = ("aggregate", "--core", "sphere", "--core-size", "10um", "--coat", "sphere", "--size", "5um")
+CLUSTER = ("aggregate", "--mode", "cluster", "--coat", "sphere", "--size", "1um", "--replicate", 8)
 CUBE = """OFF
 8 6 0
 0 0 0
@@ -266,6 +267,16 @@ class Repeatable(Case):
             self.assertEqual(resumed.code, 0, resumed.err)
             self.assert_same(whole, run)
 
+    def test_a_resumed_run_tells_its_own_surfaces(self):
+        """It told those of the command line's --printable, which beside --resume is the default."""
+        run = self.folder / "run"
+        self.interrupted(run, (*SPHERES, "--replicate", "60", "--cone", "90deg", "--rays", "200", "--checkpoint-every", "5", "--printable",
+                               "--spacing", "5um", *QUICK), signal.SIGKILL)
+        resumed = clast("aggregate", "--resume", run)
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertTrue((run / "printable.3mf").exists())
+        self.assertIn("in mm: printable.3mf, printable.stl, aggregate.stl\n", resumed.out)
+
     def test_a_killed_run_goes_on_from_its_checkpoint(self):
         command = (*SPHERES, "--replicate", "400", "--cone", "90deg", "--rays", "200", "--checkpoint-every", "20",
                    "--envelope-every", "100", *QUICK)
@@ -330,9 +341,64 @@ class BadInput(Case):
                               (("--class-limit", "3um"), "class_limit"), (("--n-particle", "5"), "n_particle"),
                               (("--stop-mass", "1kg"), "stop_mass"), (("--origin", "sphere"), "origin"),
                               (("--size-law", "normal"), "size_law"), (("--stop-porosity", "2"), "stop_porosity"),
-                              (("--core-size", "1e-13m"), "1e-6"), (("--mode", "cluster", "--n-final", "9"),
-                                                                    "n_final")):
+                              (("--core-size", "1e-13m"), "1e-6")):
             self.assert_fails(2, *SPHERES, *options, says=(says,))
+        self.assert_fails(2, *CLUSTER, "--n-final", "9", says=("n_final",))
+
+    def test_options_without_effect_are_refused(self):
+        """Each was taken, and the run's numbers were those without it."""
+        run = self.folder / "run"
+        self.assertEqual(clast(*SPHERES, "--replicate", 3, "-o", run, *QUICK).code, 0)
+        h5 = run / "state.h5"
+        of_run = ("aggregate", "--core", h5, "--coat", h5, "--size", "2um")
+        law = ("aggregate", "--core", "sphere", "--core-size", "10um", "--coat", "sphere", "--n-particle", 6, "--size-law")
+        flat, normal, wide = (*law, "uniform", "--size-low", "1um", "--size-high", "2um"), (*law, "normal", "--size-mean", "2um", "--size-deviation", "0.1um"), \
+            (*law, "weibull", "--size-mean", "2um", "--size-shape", 3)
+        long = ("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "10um", "--coat", "ellipsoid:3,2,1", "--size", "5um")
+        march, fit = (*long, "--contact", "march"), (*long, "--fit", "--observed-size", "12um", "--observed-size-error", "1um")
+        out = ("-o", self.folder / "never")
+        in_cluster, no_law, listed = "in mode cluster", "without a size_law", "with this size_law: it goes from size_low to size_high"
+        for words, options in (
+                (SPHERES, ((("--size-mean", "3um"), "size_mean", no_law), (("--size-deviation", "3um"), "size_deviation", no_law),
+                           (("--size-shape", 2), "size_shape", no_law), (("--size-low", "1um"), "size_low", no_law),
+                           (("--size-high", "9um"), "size_high", no_law), (("--size-column", "d"), "size_column", "without sizes"),
+                           (("--size-unit", "um"), "size_unit", "without sizes"), (("--n-final", 3), "n_final", "without mode cluster"),
+                           (("--pick", "mass"), "pick", "without mode cluster"),
+                           (("--march-fine", 0.1), "march_fine", "without contact march"), (("--walk-step", 0.5), "walk_step", "without approach diffusive"),
+                           (("--envelope-length", "1um"), "envelope_length", "without envelope wrap or alpha"),
+                           (("--envelope-rays", 50), "envelope_rays", "without envelope sphere_rays"), (("--coat-weight", 3), "coat_weight", "with one coating shape"),
+                           (("--neck", "1um", *out), "neck", "without printable"),
+                           (("--observed-velocity", 1), "observed_velocity", "without fit"), (("--fit-repeats", 9), "fit_repeats", "without fit"),
+                           (("--printable",), "--printable", "without -o"),
+                           (("--fall-speed",), "--fall-speed", "without -o"))),
+                (flat, ((("--size-mean", "1um"), "size_mean", listed), (("--size-draw",), "size_draw", "with a size_law, which draws"),
+                        (("--size-by-mass",), "size_by_mass", "with a size_law, which draws"))),
+                (normal, ((("--size-shape", 2), "size_shape", "with this size_law: its width is size_deviation"),)),
+                (wide, ((("--size-deviation", "1um"), "size_deviation", "with this size_law: its width is size_shape"),)),
+                (CLUSTER, ((("--core", "sphere"), "core", in_cluster), (("--core-size", "1um"), "core_size", in_cluster),
+                           (("--core-density", 100), "core_density", in_cluster), (("--origin", "core"), "origin", in_cluster),
+                           (("--target", "mass"), "target", in_cluster))),
+                (of_run, ((("--core-density", 9), "core_density", "with an aggregate (state.h5), whose grains have their own"),
+                          (("--coat-density", 9), "coat_density", "with aggregates (state.h5), whose grains have their own"))),
+                (long, ((("--core-spheres", "none.csv"), "--core-spheres", "without -o, contact spheres or march, or an envelope of spheres"),)),
+                (march, ((("--target", "mass"), "target", "with contact march"), (("--max-tries", 3), "max_tries", "with contact march"),
+                         (("--origin", "grain"), "origin", "with contact march"))),
+                (fit, ((("--repeats", 4), "repeats", "with fit: it grows fit_repeats"), (("--permeability", "kozeny_carman"), "permeability", "with fit"),
+                       (("--printable", *out), "printable", "with fit")))):
+            for option, name, why in options:
+                with self.subTest(name, why=why):
+                    self.assert_fails(2, *words, *option, says=(f"{name} does nothing {why}",))
+        self.assertFalse(out[1].exists())
+        for words, option, name, why in (  # what files for another engine bring is told
+                (SPHERES, ("--flavour", "figures"), "flavour", "without contact march"), (SPHERES, ("--confidence", 0.6), "confidence", "without repeats"),
+                (SPHERES, ("--fill", "random"), "fill", "without contact spheres or march, or an envelope of spheres"),
+                (of_run, ("--contact", "spheres", "--fill-spheres", 9), "fill_spheres", "where every shape comes with its spheres")):
+            done = clast(*words, *option)
+            self.assertEqual((done.code, f"{name} does nothing {why}" in done.err), (0, True), done.err)
+        file = self.folder / "walk.yaml"
+        file.write_text("core: sphere\ncore_size: 1 um\ncoat: [sphere]\nsize: [1 um]\nwalk_step: 0.2\n")
+        self.assert_fails(2, "aggregate", file, says=("walk_step does nothing without approach diffusive",))
+        self.assertEqual(clast("aggregate", file, "--walk-step", 0.1).code, 0)  # the default is no mistake
 
     def test_bad_shapes(self):
         base = ("aggregate", "--core-size", "1mm", "--size", "1um", "--coat")

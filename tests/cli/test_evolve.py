@@ -92,6 +92,36 @@ class Evolve(Case):
             for name in SAME:
                 self.assertEqual((run / name).read_bytes(), (whole / name).read_bytes(), name)
 
+    def test_a_resumed_run_is_warned_of_by_its_own_drag_law(self):
+        """It was by the command line's, which beside --resume is the default."""
+        run = self.folder / "run"
+        process = subprocess.Popen([os.environ["CLAST"], *ASH, "--fall", "stokes", "--checkpoint-time", "0s", "-o", str(run)], cwd=ROOT,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+            time.sleep(0.005)
+        process.kill()
+        process.wait()
+        self.assertNotEqual(process.returncode, 0, "it ended before it was stopped")
+        resumed = clast("evolve", "--resume", run)
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertRegex(resumed.err, r"Reynolds number of the fastest fall is [.\d]+, beyond the 0\.1 of the drag law \(take --fall form or sphere\)")
+
+    def test_particles_fit_into_the_domain(self):
+        """Bodies of 2 m went into a box of 1 x 1 x 5 mm without a word."""
+        few = ("evolve", "--particles", 3, "--duration", "1ms", "--kernel", "constant", "--constant", 0, "-q")
+        self.assert_fails(2, *few, "--domain", "box:0,0,0,1mm,1mm,5mm", "--curve", "2m", "--out-of-range", "extrapolate",
+                          says=["3 of 3 particles are wider than the domain", "least width is 1 mm", "(particle 1: 2 m,", "larger domain or smaller"])
+        for domain, width in (("box:0,0,0,1mm,2mm,5mm", 1.0), ("box:0,0,0,2mm,2mm,0.5mm", 0.5), ("cylinder:0,0,0,0,0,1,1mm,5mm", 2.0),
+                              ("half-pipe:1mm,5mm", 1.0), ("sphere:0.6mm", 1.2)):
+            with self.subTest(domain):
+                sides = () if domain.startswith("box") else ("--sides", "reflect", "--floor", "reflect")
+                self.assert_fails(2, *few, "--domain", domain, *sides, "--curve", f"{1.001 * width}mm", says=["wider than the domain"])
+                fits = clast(*few, "--domain", domain, *sides, "--curve", f"{0.999 * width}mm")
+                self.assertEqual(fits.code, 0, fits.err)
+        long = ("--domain", "box:0,0,0,1mm,1mm,5mm", "--curve", "0.6mm")
+        self.assertEqual(clast(*few, *long).code, 0)
+        self.assert_fails(2, *few, *long, "--shapes", "ellipsoid:4,1,1", says=["3 of 3 particles", "(particle 1: 1.5"])
+
     def test_a_bed_of_these_very_aggregates(self):
         run, bed = self.folder / "run", self.folder / "bed"
         self.run_ash("--keep", 3, "-o", run)
@@ -155,6 +185,33 @@ class Evolve(Case):
             self.assertLess(out["mass_balance"], 1e-12)
             self.assertGreater(out["deposit"]["mass"], 0.95 * out["mass_start"])  # it ends on the floor
             self.assertGreater(out["grains_most"], 50)
+
+    def test_options_without_effect_are_refused(self):
+        """Each was taken, and the state was that without it."""
+        box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s", "--particles", 5]
+        grown, points = self.folder / "grown", self.folder / "points.csv"
+        made = clast("aggregate", "--core", "sphere", "--core-size", "10um", "--coat", "sphere", "--size", "5um", "--no-picture", "-q", "-o", grown)
+        self.assertEqual(made.code, 0, made.err)
+        points.write_text("x,y,z,d\n0.5,0.5,0.5,1e-5\n")
+        sized = [*box[:5], "--points", points, "--diameter-column", "d"]
+        still, drops = [*box, "--no-brownian", "--gravity", 0, "--floor", "reflect", "--kernel", "constant"], [*box, "--no-structure"]
+        and_still = "with kernel constant and without gravity"
+        for words, option, value, why in (
+                ([*box, "--shapes", grown / "state.h5"], "density", 500, "with aggregates (state.h5), whose grains have their own"),
+                (box, "shape-weight", 3, "with one shape"), (box, "keep", 3, "without -o"),
+                (box, "walk-step", 0.3, "without meeting diffusive"), (box, "field-columns", "a,b,c", "without field"),
+                ([*box, "--even", "whole"], "change-level", 0.1, "with even whole"), (sized, "curve", "55um", "with diameter_column"),
+                (drops, "meeting", "central", "without structure"), (drops, "max-tries", 3, "without structure"),
+                (drops, "walk-step", 0.3, "without structure"), ([*drops, "-o", self.folder / "never"], "keep", 3, "without structure"),
+                ([*box, "--no-brownian", "--kernel", "shear_laminar", "--shear", "1/s"], "temperature", "500K",
+                 "with kernel shear_laminar and without brownian"),
+                (still, "viscosity", 1e-4, and_still), (still, "fluid-density", 2, and_still), (still, "mean-free-path", "1um", and_still),
+                (still, "fall", "sphere", "without gravity and brownian"), (still, "collision-radius", "volume", "with kernel constant"),
+                ([*box, "--kernel", "constant"], "dissipation", 1, "with kernel constant")):
+            with self.subTest(option):
+                refused = self.assert_fails(2, *words, f"--{option}", value, says=(f" does nothing {why}",))
+                self.assertIn(option, refused.err.replace("_", "-"))
+        self.assertEqual(clast(*box, "--no-brownian", "--temperature", "500K", "--quiet").code, 0)  # the kernel looks at it
 
     def test_bad_input_is_one_line(self):
         box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s"]

@@ -1,5 +1,6 @@
 """CLI: clast grading tells numbers from masses, sizes at shares, and draws that follow them."""
 import csv
+import json
 import math
 import unittest
 
@@ -102,6 +103,26 @@ class Grading(Case):
         cube = 8e-3**3 * math.exp(3 * math.log(1 + 1 / 16))
         self.assertAlmostEqual(got["mean_cube"] / cube, 1, places=12)
         self.assertAlmostEqual(got["n_expected"] * 2650 * math.pi / 6 * cube, 1, places=12)
+
+    def test_options_without_effect_are_refused(self):
+        """Each was taken, and the numbers were those without it."""
+        lists = {name: self.folder / f"{name}.csv" for name in ("count", "mass")}
+        for name, path in lists.items():
+            path.write_text(f"size_mm,{name}\n1,3\n2,4\n")
+        for law in ("lognormal:5mm,1mm", "uniform:1mm,2mm", "11 mm", f"list:{lists['count']}", f"masses:{lists['mass']}"):
+            for option, value in (("--spread", "linear"), ("--count", "exact")):
+                self.assert_fails(2, "grading", law, option, value, says=(f"{option} does nothing with sizes that are no sieve curve",))
+        self.assert_fails(2, "grading", "U3", "--spread", "means", "--count", "exact", says=("--count does nothing with --spread means",))
+
+    def test_drawn_sizes_are_in_the_format_that_the_ending_names(self):
+        """It was CSV under any name."""
+        drawn = self.folder / "drawn.json"
+        self.assertEqual(clast("grading", "U3", "--sample", 5, "-o", drawn).code, 0)
+        (column,) = json.loads(drawn.read_text())["columns"]
+        self.assertEqual((column["name"], len(column["values"])), ("diameter_m", 5))
+        for name in ("drawn.txt", "drawn"):
+            self.assert_fails(2, "grading", "U3", "--sample", 5, "-o", self.folder / name, says=("a table is written as .csv or .json",))
+            self.assertFalse((self.folder / name).exists())
 
     def test_bad_input_is_one_line(self):
         file = self.folder / "bad.csv"

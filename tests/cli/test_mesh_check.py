@@ -69,6 +69,12 @@ class MeshCheck(Case):
         result = clast("mesh", "check", DATA / "broken-meshes/trimesh/empty.stl", "--json")
         self.assertEqual((result.code, result.json["closed"], result.json["n_triangle"]), (1, False, 0))
 
+    def test_an_option_without_effect_is_refused(self):
+        """The weld's tolerance was taken, and looked at by one weld alone."""
+        for weld in ((), ("--weld", "off")):
+            self.assert_fails(2, "mesh", "check", DATA / "standin63/grain00.ply", *weld, "--weld-tolerance", 0.05,
+                              says=("--weld-tolerance does nothing without --weld within",))
+
     def test_unreadable_is_code_3(self):
         self.assert_fails(3, "mesh", "check", self.folder / "absent.stl", says=["absent.stl"])
         self.assert_fails(3, "mesh", "check", DATA / "broken-meshes/draco/inf_nan.obj", says=["inf_nan.obj"])

@@ -67,6 +67,13 @@ class Convert(Case):
         unit, facets, name = read_3mf(out)
         self.assertEqual((unit, len(facets), name), ("millimeter", 12, 'a<b&"c"'))
         self.assertAlmostEqual(volume(facets) / 1e-9, 1.0, delta=1e-12)
+        # the scale was told beside --out-unit alone
+        self.assertIn("cube.3mf: 3mf in mm, lengths times 0.001\n", done.out)
+        told = clast("mesh", "convert", BROKEN / "trimesh/unit_cube.STL", "-o", out, "--unit", "um", "--json").json
+        self.assertAlmostEqual(told["factor"], 1e-3, delta=1e-18)
+        same = clast("mesh", "convert", BROKEN / "trimesh/unit_cube.STL", "-o", out, "--unit", "mm", "--out-unit", "mm")
+        self.assertTrue(same.out.endswith("3mf in mm\n"), same.out)
+        self.assert_fails(2, "mesh", "convert", BROKEN / "trimesh/unit_cube.STL", "-o", out, "--unit", "um", "--out-unit", "um", says=["millimetres"])
 
     def test_units_and_scale_multiply_lengths(self):
         out = self.folder / "cube.obj"
@@ -101,6 +108,15 @@ class Convert(Case):
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         got = clast("mesh", "convert", name, "-o", self.folder / "a.ply", "--json").json
         self.assertTrue(got["file"].endswith(r"/\xff.obj"), got["file"])
+
+    def test_a_name_is_refused_where_the_format_has_none(self):
+        """It was taken: the PLY and the OFF had the bytes of those without it."""
+        cube = BROKEN / "trimesh/unit_cube.STL"
+        for ending in ("ply", "off"):
+            self.assert_fails(2, "mesh", "convert", cube, "--name", "die", "-o", self.folder / f"a.{ending}",
+                              says=("--name does nothing with .ply and .off",))
+        for ending in ("stl", "obj", "3mf"):
+            self.assertEqual(clast("mesh", "convert", cube, "--unit", "mm", "--name", "die", "-o", self.folder / f"a.{ending}").code, 0)
 
     def test_bad_use_and_bad_input_are_one_line(self):
         cube = BROKEN / "trimesh/unit_cube.STL"

@@ -42,6 +42,13 @@ class MeshRepair(Case):
             self.assertAlmostEqual(result.json["volume"], 61.023745, places=6)
             self.assertEqual(result.json["changes"]["n_turned"], 12)
 
+    def test_options_of_steps_left_out_are_refused(self):
+        """Each was taken, and the surface was that without it."""
+        for options, says in ((("--weld-tolerance", 0.05), "--weld-tolerance does nothing without --weld within"),
+                              (("--no-split", "--split-tolerance", 0.01), "--split-tolerance does nothing with --no-split"),
+                              (("--no-fill", "--fill-size", 0.1), "--fill-size does nothing with --no-fill")):
+            self.assert_fails(2, "mesh", "repair", DATA / "standin63/grain00.ply", "-o", self.folder / "o.ply", *options, says=(says,))
+
     def test_wrong_use_and_hopeless_input(self):
         self.assert_fails(2, "mesh", "repair", DATA / "scarlet/stl/ellipse.stl", says=["-o NAME.stl"])
         self.assert_fails(3, "mesh", "repair", DATA / "broken-meshes/trimesh/soup.stl", "-o", self.folder / "o.stl",

@@ -48,6 +48,9 @@ class MeshSynthesize(Case):
 
     def test_refusals_are_one_line(self):
         out = self.folder / "g.ply"
+        for options, says in ((("--tolerance", 0.1), "--tolerance does nothing with --measure amplitude"),
+                              (("--rough", 0, "--decay", 1), "--decay does nothing with --rough 0")):
+            self.assert_fails(2, "mesh", "synthesize", "--measure", "amplitude", *options, "-o", out, says=(says,))
         self.assert_fails(2, "mesh", "synthesize", says=["-o OUT"])
         self.assert_fails(5, "mesh", "synthesize", "--measure", "normal_roundness", "--rough", "0.99", "-o", out,
                           says=["smoother than its ellipsoid"])

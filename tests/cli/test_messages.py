@@ -28,6 +28,12 @@ class Messages(Case):
         shape, fill, grading = ("shape", grain), ("fill", grain, "--spheres", "2"), ("grading", "U1")
         picture = ("render", grain, "-o", self.folder / "p.png", "--width", "64", "--height", "64", "--samples", "1")
         table, means = ("predict", self.folder / "grains.csv"), ("predict", "--flatness", "0.6", "--elongation", "0.7")
+        beds, model = self.folder / "beds.csv", self.folder / "model"
+        beds.write_text("width,porosity\n" + "".join(f"{k},{0.3 + 0.01 * k + 0.001 * (k * k % 7)}\n" for k in range(1, 13)))
+        fit = ("fit", beds)
+        self.assertEqual(clast(*fit, "-o", model).code, 0)
+        by_columns = ("predict", beds, "--model", model / "model.json")
+        stl, flat, points = (("export", ROOT / "data/state/schema1.h5", "-o", self.folder / name) for name in ("g.stl", "g.csv", "g.vtu"))
         pack = ("pack", "--curve", "U1", "--shapes", grain, "--mass", "1g", "--width", "40mm", "--height", "80mm", "--max-steps", "5", "-q")
         for command, option, why in (
                 (shape, ("--resamples", "9"), "without --statistics"), (shape, ("--seed", "9"), "without --statistics"),
@@ -43,10 +49,17 @@ class Messages(Case):
                 (picture, ("--cut-position", "0.2"), "without --cut"),
                 (means, ("--resamples", "9"), "without a table"), (means, ("--columns", "L,I,S"), "without a table"),
                 (means, ("--each",), "without a table"), (table, ("--grains", "9"), "with a table, whose rows are counted"),
-                ((*table, "--each"), ("--seed", "9"), "with --each")):
+                ((*table, "--each"), ("--seed", "9"), "with --each"),
+                ((*means, "--model", "single_form_U1"), ("--grading", "U7"), "with this --model, which has its own"),
+                (by_columns, ("--grading", "U7"), "with this --model"), (by_columns, ("--resamples", "9"), "with a model of a table's own columns"),
+                ((*fit, "--use", "width"), ("--n-term", "5"), "with --use"), ((*fit, "--use", "width"), ("--score", "median"), "with --use"),
+                (fit, ("--group", "name"), "without --grains"),
+                (stl, ("--colour", "size"), "but in a .ply"), (flat, ("--level", "2"), "in a file without surfaces"),
+                ((*points, "--points"), ("--level", "2"), "with --points"),
+                *(((*flat, "--table", "history"), option, "with --table") for option in (("--level", "2"), ("--colour", "size"), ("--unit", "mm")))):
             self.assert_fails(2, *command, *option, says=[f"{option[0]} does nothing {why}"])
             self.assertEqual(clast(*command).code, 0)
-        self.assert_fails(2, *pack, "--rule", "speed", "--height-change", "1mm", says=["height_change 1 mm acts with rule height or either"])
+        self.assert_fails(2, *pack, "--rule", "speed", "--height-change", "1mm", says=["height_change does nothing with rule speed"])
 
     def test_a_refusal_names_the_file(self):
         bad = {"nan.csv": "x,y,z\n0.1,0.2,0.3\n0.4,nan,0.5\n", "outside.csv": "x,y,z\n0.1,0.2,0.3\n0.4,9,0.5\n", "one.csv": "x,y\n1\n",

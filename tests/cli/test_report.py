@@ -88,6 +88,11 @@ class Report(Case):
                 text = seen(page)
                 self.assertNotRegex(text, r"\d\s+(?:[mnc\u00b5]?m)(?:\u00b2|\u00b3)?(?!\w)|\((?:1/)?[mnc\u00b5]?m(?:\u00b2|\u00b3)?\)|SI units")
                 self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+                if words[0] == "shape":  # grains were points, the least and greatest of the data limits
+                    self.assertRegex(text, r"Results\s+Grains\s+4\b")
+                    card = text[text.index("Quantities"):text.index("Principal components")]
+                    self.assertRegex(card, r"Quantity\s+Grains\s+Mean, Value")
+                    self.assertRegex(card, r"Excess kurtosis\s+Least\s")
                 for name in os.listdir(out):
                     if name.endswith(".csv"):
                         head = self.page(os.path.join(out, name)).splitlines()[0]
@@ -123,7 +128,8 @@ class Report(Case):
              "--load-rate", "4/s", "--seed", "3", "--stages", "isotropic 20kPa until rest", "--max-steps", "600", "--energy"],
             ["porosity", packed, "--trim", "1mm", "--local", "--pores", "20"],
             ["decompose", os.path.join(DATA, "d2sd/points_b3_n500.csv"), *cube, "--beta-dt", "1e-6", "--sizes", "2"],
-            ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1"],
+            ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1", "--pairs"],
+            ["agglomerate", "--box-model", "--concentration", "1e12", "--constant", "1e-12", "--duration", "2s", "--n-step", "2", "--particles", "100"],
             ["agglomerate", os.path.join(DATA, "d2sd/points_u3_n50.csv"), *cube, "--constant", "0.02", "--duration", "2", "--n-step", "2"],
             ["evolve", "--domain", "box:0,0,0,1mm,1mm,5mm", "--particles", "300", "--curve", "lognormal:20um,8um,9um,50um", "--kernel", "settling",
              "--weight", "9", "--duration", "0.5s", "--rows", "5", "--keep", "2", "--out-of-range", "extrapolate"],
@@ -144,6 +150,13 @@ class Report(Case):
                 if "--load-rate" in words:
                     self.assertRegex(text, r"Stress, with that of motion\s+Fabric\s+xx\s+[-.\d]+\s+[kM]?Pa")
                     self.assertRegex(text, r"Cell along x\s+[.\d]+\s+mm")
+                if "--box-model" in words:  # they were "Particles placed" and bare numbers
+                    self.assertRegex(text, r"Number density\s+3\s+1\s+1\.000\s\u00d7\s10\u00b9\u00b2\s+1/m\u00b3")
+                    self.assertRegex(text, r"Collisions since the start that stuck\s+3\s+1\s+0\s+1/m\u00b3")
+                    self.assertRegex(text, r"M0: particles\s+\(1/m\u00b3\)")
+                    self.assertNotIn("Particles placed", text)
+                if words[0] == "evolve":  # were "Points tested"
+                    self.assertRegex(text, r"Times that cells were tested for being even\s+\d")
 
     def test_frames_are_the_views_moments(self):
         run = os.path.join(self.folder.name, "framed")

@@ -13,7 +13,7 @@ POINTS = ROOT / "data/d2sd/points_u3_n50.csv"
 CUBE = ("--domain", "box:0,0,0,1,1,1")
 PACK = ("pack", "--curve", "6 mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s", "--quiet", "-j", "1")
 GROW = ("aggregate", "--core", "sphere", "--core-size", "200um", "--coat", "sphere", "--size", "100um", "--quiet", "--no-picture")
-SIZED = ("--fit", "--fit-packing", "1deg:1:1", "--fit-packing", "90deg:2:2", "--fit-repeats", "2", "--fit-replicate-max", "2",
+SIZED = (*GROW[:-1], "--fit", "--fit-packing", "1deg:1:1", "--fit-packing", "90deg:2:2", "--fit-repeats", "2", "--fit-replicate-max", "2",
          "--observed-size", "300um", "--observed-size-error", "200um")
 
 
@@ -45,7 +45,7 @@ class RunFolder(Case):
                 ("shape", ("shape", self.forms, "--resamples", "20"), "--statistics", ("shape", self.bad)),
                 ("porosity", ("porosity", self.spheres, *bed), "-o", ("porosity", self.bad, *bed)),
                 ("aggregate", (*GROW, "--replicate", "2"), "-o", (*GROW, "--core", self.bad)),
-                ("aggregate --fit", (*GROW, *SIZED), "-o", (*GROW, *SIZED, "--core", self.bad)),
+                ("aggregate --fit", SIZED, "-o", (*SIZED, "--core", self.bad)),
                 ("pack", (*PACK, "--max-steps", "200"), "-o", (*PACK, "--shapes", self.bad))]
 
     def test_a_run_is_refused_replaced_and_named(self):

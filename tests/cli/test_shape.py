@@ -1,5 +1,6 @@
 """CLI: clast shape measures whatever holds grains, and says one line about what it cannot."""
 import csv
+import json
 import math
 import unittest
 
@@ -180,6 +181,25 @@ class Shape(Case):
             self.assertAlmostEqual(grain[key], value, delta=1e-6)
         self.assertAlmostEqual(grain["area"], 6.04025, delta=1e-5)
         self.assertAlmostEqual(grain["sphericity"], 0.7251, delta=1e-4)
+
+
+class Output(Case):
+    def test_the_table_is_in_the_format_that_the_ending_names(self):
+        """It was CSV under any name."""
+        grain, out = ROOT / "data/standin63/grain00.ply", self.folder / "grains.json"
+        self.assertEqual(clast("shape", grain, "-o", out).code, 0)
+        columns = {column["name"]: column["values"] for column in json.loads(out.read_text())["columns"]}
+        self.assertEqual(columns["L"], [clast("shape", grain, "--json").json["grains"][0]["L"]])
+        self.assert_fails(2, "shape", grain, "-o", self.folder / "grains.txt", says=("grains.txt: a table is written as .csv or .json",))
+        self.assertFalse((self.folder / "grains.txt").exists())
+
+    def test_options_of_other_kinds_of_files_are_refused(self):
+        """Each was taken, and the numbers were those without it; no surface of a table was written."""
+        table = self.folder / "t.csv"
+        table.write_text("L,I,S\n3,2,1\n4,3,2\n")
+        for file, option in ((ROOT / "data/standin63/grain00.ply", ("--columns", "L,I,S")), (ROOT / "data/standin63/grain00.ply", ("--voxel-edge", 2)),
+                             (table, ("--hull",)), (table, ("--surfaces", self.folder / "none"))):
+            self.assert_fails(2, "shape", file, *option, says=(f"{option[0]} does nothing with files of these kinds",))
 
 
 class InsideOut(Case):

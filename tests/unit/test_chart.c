@@ -243,6 +243,31 @@ static void heat_maps_have_a_colour_bar(void **state)
     CHECK_OK(write_heat(path));
 }
 
+/* The axis of sizes without a unit said "sieve size", that of a column "diameter_mm" had its unit
+ * in the name and a density without one. */
+static void histograms_tell_a_unit(void **state)
+{
+    (void)state;
+    static const char *const same[][2] = {{"sieve size", "sieve size (model units)"},
+                                          {"diameter_mm", "diameter (mm)"},
+                                          {"d_m", "d (m)"},
+                                          {"flatness S/I (-)", "flatness S/I (-)"}};
+    static char bytes[2][1 << 17];
+    double x[N], y[N], low[N], high[N];
+    fill(x, y, low, high);
+    for (size_t k = 0; k < sizeof same / sizeof same[0]; ++k) {
+        size_t n[2];
+        for (int i = 0; i < 2; ++i) {
+            char path[512];
+            snprintf(path, sizeof path, "%s/unit-%d.svg", support_scratch(), i);
+            CHECK_OK(clast_chart_histogram(y, N, same[k][i], path));
+            n[i] = read_file(path, bytes[i], sizeof bytes[i]);
+        }
+        assert_int_equal(n[0], n[1]);
+        assert_memory_equal(bytes[0], bytes[1], n[0]);
+    }
+}
+
 static void empty_axis_and_unknown_format_are_refused(void **state)
 {
     (void)state;
@@ -264,6 +289,7 @@ int main(void)
         cmocka_unit_test(points_on_the_frame_are_whole),
         cmocka_unit_test(axes_have_the_prefix_that_a_person_writes),
         cmocka_unit_test(heat_maps_have_a_colour_bar),
+        cmocka_unit_test(histograms_tell_a_unit),
         cmocka_unit_test(empty_axis_and_unknown_format_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

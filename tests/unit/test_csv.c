@@ -49,7 +49,9 @@ static const example examples[] = {
     {"maximum length\n5\n", 1, 1, "maximum length", 0, 5.0, NULL},
     {"a,b\n1e3,-2.5E-3\n", 2, 1, "b", 0, -2.5e-3, NULL},
     {"a,b\ninf,2\n", 2, 1, "a", 0, INFINITY, NULL},
-    {"a,a,\n1,2,3\n", 3, 1, "a_column_2", 0, 2.0, NULL}, /* repeated and empty names */
+    {"a,a,\n1,2,3\n", 3, 1, "a_column_1", 0, 1.0, NULL}, /* repeated and empty names */
+    {"a,a,\n1,2,3\n", 3, 1, "a_column_2", 0, 2.0, NULL},
+    {"a,a,a\n1,2,3\n", 3, 1, "a_column_3", 0, 3.0, NULL},
     {"a,a,\n1,2,3\n", 3, 1, "column_3", 0, 3.0, NULL},
     {"a,b\n1,x\n2,3\n", 2, 2, "b", 1, 0.0, "3"}, /* one word makes a text column */
     {"a,b\n", 2, 0, NULL, 0, 0.0, NULL},

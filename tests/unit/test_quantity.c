@@ -18,6 +18,13 @@ static void names_are_found_with_their_units(void **state)
         {"size_m", "history", "Grain size", "m"},
         {"n", "history", "Particles placed", ""},
         {"n", NULL, "Points", ""},
+        {"n", "shape", "Grains", ""},
+        {"low", "columns", "Least", ""},
+        {"n_test", NULL, "Points tested", ""},
+        {"n_test", "evolve", "Times that cells were tested for being even", ""},
+        {"n_particle", "box model", "Number density", "1/m^3"},
+        {"n_8_sd", "box model", "Particles of 8 monomers, s.d. of the runs", "1/m^3"},
+        {"gel_fraction", "box model", "Share of the mass in the gel, above the largest size", ""},
         {"words", NULL, "Conclusion", ""},
         {"n_run", NULL, "Runs", ""},
         {"density_kg/m^3", NULL, "Bulk density", "kg/m^3"},
@@ -138,6 +145,32 @@ static void a_refusal_reads_the_same_units(void **state)
     assert_string_equal(text[7], "8 m");
 }
 
+/* clast printed 12 ug, and --stop-mass 1ug was an unknown unit. */
+static void what_is_printed_can_be_read(void **state)
+{
+    (void)state;
+    static const char *const si[] = {"m",     "m^2",   "m^3",   "kg",     "s",     "m/s",
+                                     "J",     "N",     "Pa s",  "Pa",     "rad",   "1/m",
+                                     "m/s^2", "J/m^2", "J/m^3", "kg/m^3", "1/m^3", "K"};
+    for (size_t k = 0; k < sizeof si / sizeof *si; ++k) {
+        for (int power = -30; power <= 12; ++power) {
+            double factor = 0.0;
+            double read = 0.0;
+            const char *name = clast_unit_for(pow(10.0, power), si[k], &factor);
+            CHECK_OK(clast_unit_factor(name, si[k], &read));
+            CHECK_REL(read * factor, 1.0, 1e-15);
+            const clx_quantity_scale page = clx_quantity_scale_for(pow(10.0, power), si[k]);
+            CHECK_OK(clast_unit_factor(page.name, si[k], &read));
+            CHECK_REL(read * page.factor, 1.0, 1e-15);
+        }
+    }
+    double value = 0.0;
+    CHECK_OK(clast_unit_parse("1 \316\274g", "kg", &value));
+    CHECK_REL(value, 1e-9, 1e-15);
+    CHECK_STATUS(clast_unit_parse("1 oz", "kg", &value), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "known here: kg, g, mg, ug, ng, pg, fg, t"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -145,6 +178,7 @@ int main(void)
         cmocka_unit_test(a_number_reads_in_the_unit_of_its_size),
         cmocka_unit_test(the_terminal_reads_the_same_units),
         cmocka_unit_test(a_refusal_reads_the_same_units),
+        cmocka_unit_test(what_is_printed_can_be_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Unit: pictures whose pixels can be counted. */
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include "render/legend.h"
 #include "support.h"
 #include <clast/machine.h>
 #include <clast/render.h>
@@ -445,6 +446,26 @@ static void rendering_survives_refused_memory(void **state)
     clast_assembly_free(&a);
 }
 
+/* The tick of one grain was 1.057100275. */
+static void one_size_has_few_digits(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_render_config config = {0};
+    clx_legend legend = {0};
+    clast_shape ball = {0};
+    small_config(&config);
+    config.colour = CLAST_RENDER_COLOUR_SIZE;
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &ball));
+    add(&a, &ball, 0.0, 0.0, 0.0, 0.52855013757e-3);
+    CHECK_OK(clx_legend_make(&a, &config, 1.0, NULL, &legend));
+    assert_int_equal(legend.n, 1);
+    assert_string_equal(legend.text[0], "1.057");
+    clast_shape_free(&ball);
+    clast_fields_free(clast_render_fields, &config);
+    clast_assembly_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -455,6 +476,7 @@ int main(void)
         cmocka_unit_test(cut_shows_a_section),
         cmocka_unit_test(balls_throw_shadows),
         cmocka_unit_test(labels_are_drawn),
+        cmocka_unit_test(one_size_has_few_digits),
         cmocka_unit_test(wrong_settings_are_refused),
         cmocka_unit_test(monitor_can_stop),
         cmocka_unit_test(rendering_survives_refused_memory),
