@@ -30,8 +30,9 @@ typedef enum { CLAST_AXES_LIST(CLAST_AXES_ENUM) CLAST_N_AXES } clast_axes_kind;
 #undef CLAST_AXES_ENUM
 
 enum {
-    CLAST_ROUNDNESS_FACES = 1000, ///< surfaces of fewer triangles have too coarse an outline
-    CLAST_ROUNDNESS_EDGES = 60    ///< so have outlines of fewer edges     [docs/theory/form.md]
+    CLAST_ROUNDNESS_FACES = 1000,   ///< surfaces of fewer triangles have too coarse an outline
+    CLAST_ROUNDNESS_EDGES = 60,     ///< so have outlines of fewer edges     [docs/theory/form.md]
+    CLAST_ROUNDNESS_VOXELS = 300000 ///< roundness of smoothed labels of fewer (80 across) is low
 };
 
 /// L, I, S by one definition and their unit directions ([0] belongs to L).
@@ -51,16 +52,19 @@ typedef struct clast_grain {
     double longest, shortest; ///< greatest and least caliper (Feret diameter)
     double sphericity;        ///< Wadell's: (36 pi V^2)^(1/3) / A           [Wadell1932]
     double convexity;         ///< V / V of the convex hull
-    double roundness;  ///< Wadell's: mean radius of the corners of the outline of the greatest
-                       ///< shadow by that of the greatest circle inside; NaN where the outline
-                       ///< is too coarse                  [Wadell1932; ZhengHryciw2015]
-    int32_t n_outline; ///< edges of that outline; 0: not looked at (below 1000 triangles)
+    double roundness; ///< Wadell's: mean radius of the corners of the outline of the greatest
+                      ///< shadow by that of the greatest circle inside; NaN where the outline
+                      ///< is too coarse                  [Wadell1932; ZhengHryciw2015]
+    double roundness_deviation; ///< standard deviation over the starts of the search for corners,
+                                ///< whose mean `roundness` is
+    int32_t n_outline;          ///< edges of that outline; 0: not looked at (below 1000 triangles)
     double normal_roundness; ///< mean over the surface of cos(normal, ray from the centroid), 1 for
                              ///< a sphere                               [BullardGarboczi2013]
-    double angularity;      ///< mean over all rays from the centroid of |r - r_e| / r_e, r_e of the
-                            ///< mass-equivalent ellipsoid: the radius method in 3-D  [Masad2001]
-    double projected_mean;  ///< shadow of the hull, mean of all directions: hull_area / 4 (Cauchy)
-    double projected_least; ///< local optimum, at least as good as all face normals
+    double angularity;     ///< mean over all rays from the centroid of |r - r_e| / r_e, r_e of the
+                           ///< mass-equivalent ellipsoid: the radius method in 3-D  [Masad2001]
+    double projected_mean; ///< shadow of the hull, mean of all directions: hull_area / 4 (Cauchy)
+    double
+        projected_least; ///< over all directions, to 1e-4; hulls of many hundred faces: nearly so
     double projected_greatest;
     double hull_volume_added; ///< V of the hull / V - 1
 } clast_grain;
@@ -133,6 +137,8 @@ typedef struct clast_grain_record {
     bool has_surface;  ///< false for rows of tables: only L, I, S (ellipsoid) and what follows
     bool has_size;     ///< false for rows of ratios alone: L, I, S are then those of D = 1
     int64_t n_voxel;   ///< of a label, else 0
+    bool is_smoothed;  ///< of voxels without grey levels beside the surface (labels, or a mask
+                       ///< that a threshold cut): steps between voxels are smoothed, not known
     double unit_m;     ///< metres in one unit where the file itself says so, else 0
     int32_t degree;    ///< series: greatest degree used
     double power_last; ///< series: share of the form's power in the last two degrees used

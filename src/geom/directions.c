@@ -64,6 +64,34 @@ void clx_shadow_areas(const clx_hull_body *body, const double direction[CLX_DIRE
     }
 }
 
+CLX_INLINE void add_turned(const double n[3], double area, const clx_lanes d[3], clx_lanes sum[3])
+{
+    const clx_lanes side = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+    const clx_lanes turned = lanes_pick(side < 0.0, lanes_all(-area), lanes_all(area));
+    for (int k = 0; k < 3; ++k) {
+        sum[k] += turned * n[k];
+    }
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_shadow_sums(const clx_hull_body *body, const double direction[CLX_DIRECTIONS][3],
+                     double sum[CLX_DIRECTIONS][3])
+{
+    clx_lanes d[2][3];
+    clx_lanes made[2][3] = {{{0}}};
+    load(direction, d[0]);
+    load(direction + CLX_LANES, d[1]);
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        add_turned(body->normal[f], body->area[f], d[0], made[0]);
+        add_turned(body->normal[f], body->area[f], d[1], made[1]);
+    }
+    for (int i = 0; i < CLX_DIRECTIONS; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            sum[i][k] = 0.5 * made[i / CLX_LANES][k][i % CLX_LANES];
+        }
+    }
+}
+
 typedef float singles __attribute__((vector_size(32)));
 typedef float singles_at __attribute__((vector_size(32), aligned(4), may_alias));
 typedef int32_t single_bits __attribute__((vector_size(32)));

@@ -102,7 +102,7 @@ static int32_t next_opposite(const clx_hull_body *body, int32_t v, const double 
         double d[3];
         v3_sub(d, body->vert[body->neighbour[i]], body->vert[v]);
         const double along = v3_dot(d, m);
-        if (along < 0.0) { // progress is strict, so the walk ends
+        if (along < 0.0) { // progress is strict
             const double at = greater_of(v3_dot(d, n), 0.0) / -along;
             if (at < *tangent) {
                 *tangent = at;
@@ -131,7 +131,9 @@ static void walk_edge(feret_walk *w, const clx_hull_body_edge *edge, int32_t opp
     }
     int32_t from = opposite;
     int32_t to = next_opposite(body, from, n, m, end, &tangent);
-    while (to >= 0) {
+    // but for rounding: around vertices of one plane, which an arc between its triangles has across
+    // from it, every step may seem to be one
+    for (int32_t step = 0; to >= 0 && step < body->n_vert; ++step) {
         double about[3];
         v3_axpy(about, n, tangent, m);
         try_edges(w, about, edge->vert[0], edge->vert[1], from, to);
