@@ -225,7 +225,7 @@ static clast_status write_files(const clast_spectrum *r, const char *folder, con
             cli_draw_columns(&r->history, chart[k].name, chart[k].label, chart[k].axis, path));
     }
     (void)snprintf(path, sizeof path, "%s/spectrum.%s", folder, picture);
-    return cli_draw_spectra(&r->spectrum, "particles (1/m\xc2\xb3 a monomer)", path);
+    return cli_draw_spectra(&r->spectrum, "particles per unit of size (1/m\xc2\xb3/monomer)", path);
 }
 
 static clast_status write_results(const cli_box_job *job, const clast_spectrum *r,

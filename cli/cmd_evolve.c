@@ -25,9 +25,11 @@ static void print_deposit(const clast_evolve_result *r)
     (void)printf("%-26s %lld bodies, %s (%.4g %% of the mass)\n", "deposit",
                  (long long)r->n_deposit, cli_quantity(r->mass_deposit, "kg"),
                  100.0 * r->mass_deposit / r->mass_start);
-    (void)printf("%-26s diameter %s, porosity %.3f, fall %s, %.4g grains\n", "  means by mass",
-                 cli_quantity(r->deposit_diameter, "m"), r->deposit_porosity,
-                 cli_quantity(r->deposit_speed, "m/s"), r->deposit_grains);
+    (void)printf("%-26s diameter %s and porosity %.3f (of the ellipsoid of equal moments), fall "
+                 "%s, %.4g particle%s of the start\n",
+                 "  means by mass", cli_quantity(r->deposit_diameter, "m"), r->deposit_porosity,
+                 cli_quantity(r->deposit_speed, "m/s"), r->deposit_grains,
+                 r->deposit_grains == 1.0 ? "" : "s");
 }
 
 static void print_range(const clast_range_use *use)
@@ -53,6 +55,22 @@ static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
     }
 }
 
+/// deposit.h5, in which a body that stands for others comes once.
+static void print_bed(const clast_evolve_result *r)
+{
+    if (!(r->bed_width > 0.0)) {
+        return;
+    }
+    (void)printf("%-26s %s/deposit.h5, for clast pack --start: %s wide, %s high", "bed",
+                 cli_name(r->folder), cli_quantity(r->bed_width, "m"),
+                 cli_quantity(r->bed_height, "m"));
+    if (r->mass_deposit > 1.5 * r->bed_mass) { // of real particles: a weight of 2 or more
+        (void)printf("; each body once, %s, of the %.15g that it stands for",
+                     cli_quantity(r->bed_mass, "kg"), round(r->mass_deposit / r->bed_mass));
+    }
+    (void)puts("");
+}
+
 static void print_text(const clast_evolve_result *r)
 {
     (void)printf("%-26s %lld of %lld at the start, %lld events\n", "particles in the fluid",
@@ -62,7 +80,8 @@ static void print_text(const clast_evolve_result *r)
         (void)printf("%-26s %lld bodies, %s by the top\n", "gone", (long long)r->n_out,
                      cli_quantity(r->mass_out, "kg"));
     }
-    (void)printf("%-26s %lld grains\n", "largest aggregate", (long long)r->grains_most);
+    (void)printf("%-26s %lld particle%s of the start\n", "largest aggregate",
+                 (long long)r->grains_most, r->grains_most == 1 ? "" : "s");
     if (isfinite(r->fractal_dimension)) {
         (void)printf("%-26s %.3f +- %.3f (radius of gyration over grains, 10 or more)\n",
                      "fractal dimension", r->fractal_dimension, r->fractal_error);
@@ -79,11 +98,7 @@ static void print_text(const clast_evolve_result *r)
         (void)printf("%-26s %d in %s/aggregates, for clast pack --shapes\n", "aggregates",
                      r->n_written, cli_name(r->folder));
     }
-    if (r->bed_width > 0.0) {
-        (void)printf("%-26s %s/deposit.h5, for clast pack --start: %s wide, %s high\n", "bed",
-                     cli_name(r->folder), cli_quantity(r->bed_width, "m"),
-                     cli_quantity(r->bed_height, "m"));
-    }
+    print_bed(r);
     (void)printf("%-26s %.4g s\n", "took", r->wall_s);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
 }
@@ -122,14 +137,16 @@ static const char details[] =
     "kernel and stick by the law of sticking. Each event is one pair: the smaller comes to the\n"
     "larger and stays where their true surfaces first touch, with the contact of clast aggregate;\n"
     "where few touches stick, at any contact without overlap (--meeting reaction).\n"
-    "Mass, moments, porosity (of the ellipsoid of equal moments), collision radius, fall speed\n"
-    "and diffusivity are those of the new aggregate from then on.\n\n"
+    "Mass, moments, porosity, collision radius, fall speed and diffusivity are those of the new\n"
+    "aggregate from then on. Its envelope, of which diameter, porosity, density and fall are, is\n"
+    "the solid ellipsoid of equal moments: clast aggregate takes others, larger for a core with a\n"
+    "coat. grains counts particles of the start; an aggregate that begins as one is one.\n\n"
     "Not there: aggregates break, restructure or turn; particles act on the fluid; the field\n"
     "changes in time; bodies have inertia of their own.\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
     "is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
-    "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start), "
-    "particles.csv,\n"
+    "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start,\n"
+    "each once, above its place on the floor and on those that came before), particles.csv,\n"
     "state.h5 (the aggregate of most grains),\n"
     "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
     "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"

@@ -3,6 +3,7 @@
 #include "idle.h"
 #include "json.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -89,6 +90,22 @@ done:
     return status;
 }
 
+/// What the file's bodies hold of the grains' volume, where that is not all.
+static void tell_ratios(const clast_export_report *report)
+{
+    const double facets = 100.0 * (1.0 - report->facet_ratio);
+    if (facets >= 5e-4) {
+        (void)printf("facets of spheres and ellipsoids hold %.2g %% less volume than they do, and "
+                     "touching ones part (finer: --level)\n",
+                     facets);
+    }
+    if (isfinite(report->ellipsoid_ratio)) {
+        (void)printf("ellipsoids of the moments of surfaces and clumps: %.1f %% of their volume, "
+                     "of a density that gives each the mass and inertia of its grain\n",
+                     100.0 * report->ellipsoid_ratio);
+    }
+}
+
 static clast_status report_assembly(const cli_common *common, const clast_assembly *assembly,
                                     const clast_export_report *report)
 {
@@ -100,6 +117,7 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
             (void)printf(", %lld triangles", (long long)report->n_triangle);
         }
         (void)printf(", lengths in %s\n", report->unit);
+        tell_ratios(report);
         return CLAST_OK;
     }
     json_t *object = json_object();
@@ -110,6 +128,8 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
     cli_json_count(object, "n_shape", assembly->n_shape);
     cli_json_count(object, "n_vertex", report->n_vertex);
     cli_json_count(object, "n_triangle", report->n_triangle);
+    cli_json_number(object, "facet_ratio", report->facet_ratio);
+    cli_json_number(object, "ellipsoid_ratio", report->ellipsoid_ratio);
     return cli_print_json(object);
 }
 
@@ -186,7 +206,8 @@ const cli_command cli_export = {
         "  .vtu   ParaView: surfaces with grain, order, shape and size, or --points\n"
         "  .csv   a row a grain: pose, scale, length, volume, density, mass, contacts\n"
         "  .json  the same table\n"
-        "  .dump  LAMMPS: ellipsoids of equal moments (OVITO shows them); .data LAMMPS's input\n"
+        "  .dump  LAMMPS: ellipsoids of equal moments and mass (OVITO shows them); .data its "
+        "input\n"
         "  .txt   YADE: x y z r, spheres and clumps; .voro voro++; .xyzd: spheres\n"
         "  .conf  Rockable: spheres and convex surfaces, whose shapes go into the .shp beside\n"
         "Other lengths are in the run's unit (m); --table NAME writes a table of the run.",

@@ -312,7 +312,8 @@ const cli_command cli_fit = {
     .summary = "fit a linear porosity model to a table of beds",
     .example = {"clast fit beds.csv -o model/",
                 "clast fit beds.csv --target porosity --n-term 3 --json",
-                "clast fit beds.csv --grains study/ -o model/"},
+                "clast fit study/results.csv --grains study/ --group run --target porosity_bulk -o "
+                "model/"},
     .details =
         "TABLE has a row a bed: its porosity and its form (flatness and elongation, or L, I, S), "
         "or\n"

@@ -240,9 +240,9 @@ static void answer_words(const answer *a)
         size_words("curve, by mass", clast_curve_size(&a->curve, 0.1),
                    clast_curve_size(&a->curve, 0.5), clast_curve_size(&a->curve, 0.9));
     }
-    size_words("drawn, by mass", clast_grading_mass_size(g, 0.1), clast_grading_mass_size(g, 0.5),
+    size_words("to draw, by mass", clast_grading_mass_size(g, 0.1), clast_grading_mass_size(g, 0.5),
                clast_grading_mass_size(g, 0.9));
-    size_words("drawn, by number", clast_grading_size(g, 0.1), clast_grading_size(g, 0.5),
+    size_words("to draw, by number", clast_grading_size(g, 0.1), clast_grading_size(g, 0.5),
                clast_grading_size(g, 0.9));
     if (a->config->mass > 0.0) {
         (void)printf("  %s hold %.1f grains on average as drawn\n",

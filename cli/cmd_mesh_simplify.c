@@ -188,11 +188,15 @@ const cli_command cli_mesh_simplify = {
 const cli_command cli_mesh_hull = {
     .name = "mesh hull",
     .arguments = "FILE -o OUT",
-    .summary = "convex hull of a surface or of points",
+    .summary = "convex hull of a surface, or of the vertices of a file without faces",
     .example = {"clast mesh hull data/scarlet/stl/particle.stl -o hull.stl",
                 "clast mesh hull data/scarlet/stl/t_rex.stl -o hull.ply",
                 "clast mesh hull scan.stl -o hull.obj --json"},
-    .details = "Quickhull by qhull_r; reports the volume that the hull adds.",
+    .details =
+        "Quickhull by qhull_r; reports the volume that the hull adds. Points are the vertices of a "
+        "PLY "
+        "or OBJ;\nof a CSV of points (x, y, z), clast shape measures the hull and --surfaces "
+        "writes it.",
     .fields = NULL,
     .config_size = 0,
     .n_min = 1,

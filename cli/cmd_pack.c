@@ -62,7 +62,11 @@ static void print_hulls(const clast_pack_result *r)
 
 static void print_no_porosity(const clast_pack_result *r)
 {
-    if (isfinite(r->top)) {
+    if (r->porosity_state == CLAST_PACK_ABOVE_CUT) {
+        (void)printf("%-26s none: no slice is denser than the cut of %g, the least porosity of "
+                     "one is %.4f; give a greater --cut (or lower slices, --layer)\n",
+                     "bulk porosity", r->cut, r->porosity_least);
+    } else if (isfinite(r->top)) {
         (void)printf("%-26s none: the bed is %s high and %s are left out at both ends; "
                      "give a smaller --trim; %.4f with nothing left out\n",
                      "bulk porosity", cli_quantity(r->top, "m"), cli_quantity(r->trim, "m"),
@@ -86,6 +90,7 @@ static void print_frames(const clast_pack_result *r)
 /// What still moves, and what that says of the rule that ended the run.
 static void print_motion(const clast_pack_result *r)
 {
+    static const double MOST_DIAMETERS = 10.0; // a second: grains that go faster are not still
     if (r->dem.n_grain > 0) {
         (void)printf("%-26s %s the fastest grain; %d of %d with fewer than four contacts, "
                      "walls counted\n",
@@ -95,6 +100,12 @@ static void print_motion(const clast_pack_result *r)
         (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
                      "still_speed; --rule speed waits until it is\n",
                      "warning");
+    }
+    if (r->dem.n_grain > 0 && r->n_stage == 0 && r->cell.side[2] == 0.0 &&
+        r->still_diameters > MOST_DIAMETERS) {
+        (void)printf("%-26s still_speed is %.3g diameters of the smallest grain a second: for "
+                     "such grains take a lower --still-speed, and --height-change with it\n",
+                     "note", r->still_diameters);
     }
     if (r->fell) {
         (void)printf("%-26s shaking ended while grains fell: the highest sank by %s since; "
@@ -188,12 +199,30 @@ static void print_energy(const clast_pack_result *r)
     (void)printf("; %.1g %% not accounted for\n", 100.0 * e->rest / e->put_in);
 }
 
+/// What was asked for and what the grains are, where these differ.
+static void print_mass(const clast_pack_result *r)
+{
+    static const double MOST_MASS = 1.5; // of what was wanted
+    if (r->mass_wanted > 0.0 && r->n_left == 0 && r->dem.mass > MOST_MASS * r->mass_wanted) {
+        (void)printf("%-26s %.3g times the mass that was asked for: %s one grain weighs; give "
+                     "more --mass or smaller grains\n",
+                     "warning", r->dem.mass / r->mass_wanted,
+                     cli_quantity(r->dem.mass / r->dem.n_grain, "kg"));
+    }
+    if (r->own_density > 0.0) {
+        (void)printf("%-26s aggregates of %s are packed at %s: --density 0 keeps their own\n",
+                     "density", cli_quantity(r->own_density, "kg/m^3"),
+                     cli_quantity(r->given_density, "kg/m^3"));
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
     print_hulls(r);
     (void)printf("%-26s %d in %d fill%s, %s of %s\n", "grains", r->dem.n_grain, r->n_fill,
                  r->n_fill == 1 ? "" : "s", cli_quantity_as(r->dem.mass, "kg", r->mass_wanted),
                  cli_quantity(r->mass_wanted, "kg"));
+    print_mass(r);
     if (r->n_overlap > 0) {
         (void)printf(
             "%-26s %lld overlapped, the deepest by %.3g of the smaller one's radius; their "

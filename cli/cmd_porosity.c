@@ -251,12 +251,35 @@ done:
     return clast_run_folder_end(run, status);
 }
 
+/// One bed told twice is one realisation: its interval would be of no width.
+static clast_status check_different(const cli_common *common)
+{
+    char(*hash)[65] = calloc((size_t)common->n_argument, sizeof *hash);
+    clast_status status = CLAST_OK;
+    CLI_CHECK(hash != NULL, CLAST_E_MEMORY, "no memory for the digests of the runs");
+    for (int32_t i = 0; i < common->n_argument; ++i) {
+        char path[CLAST_RUN_PATH];
+        int64_t n = 0;
+        CLI_TRY(clast_run_folder_state(common->argument[i], path));
+        CLI_TRY(clast_sha256_file(path, hash[i], &n));
+        for (int32_t k = 0; k < i; ++k) {
+            CLI_CHECK(strcmp(hash[k], hash[i]) != 0, CLAST_E_USAGE,
+                      "%s and %s hold the same bytes: one realisation, not two",
+                      common->argument[k], common->argument[i]);
+        }
+    }
+done:
+    free(hash);
+    return status;
+}
+
 static clast_status run_several(const cli_common *common, const porosity_config *config,
                                 clast_run_folder *run)
 {
     cli_bed_runs runs = {0};
     clast_bed_kind kind = CLAST_BED_CYLINDER;
     clast_status status = CLAST_OK;
+    CLI_TRY(check_different(common));
     for (int32_t i = 0; i < common->n_argument; ++i) {
         CLI_TRY(gather_one(common, i, config, &runs, &kind));
     }

@@ -69,7 +69,8 @@ static const clast_field fields[] = {
     TEXT(dataset, "volume in an HDF5 file: name of the array [z][y][x]"),
     TEXT(threshold,
          "volume: grains are the connected parts above this grey value, their surfaces "
-         "its level; none: values are labels, 0 outside",
+         "its level (of a mask of two values: smoothed, as of labels); none: values are labels, 0 "
+         "outside",
          .common = true),
     {"least_voxels", .offset = offsetof(config, least_voxels), CLAST_FIELD_I32, 1, 1, INT32_MAX,
      "-", "volume: grains of fewer voxels are left out", NULL, .common = true},
@@ -231,6 +232,22 @@ static clast_status print(const cli_common *common, const cli_shape_result *shap
     return CLAST_OK;
 }
 
+/// A mask has no grey levels that could be cut between two voxels.
+static void tell_masks(const cli_common *common, const clast_grains *grains)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < grains->n; ++i) {
+        n += grains->record[i].is_smoothed && grains->record[i].kind == CLAST_GRAINS_VOXELS;
+    }
+    if (n > 0 && !common->quiet) {
+        (void)fprintf(
+            stderr,
+            "clast %s: %lld of %lld grains are of a mask (one value inside, one outside, "
+            "no grey levels at --threshold): their surfaces are smoothed as labels' are\n",
+            common->command, (long long)n, (long long)grains->n);
+    }
+}
+
 /// One line for each file or label that could not be measured, and for rows left out.
 static clast_status tell_faults(const cli_common *common, const clast_grains *grains)
 {
@@ -316,6 +333,9 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(write_table(common, &shape));
     CLI_TRY(add_statistics(common, c, &shape, folder, &statistics));
     CLI_TRY(print(common, &shape, &statistics));
+    if (options.has_threshold) {
+        tell_masks(common, &shape.grains);
+    }
     CLI_TRY(tell_faults(common, &shape.grains));
 done:
     clast_run_folder_destroy(folder);

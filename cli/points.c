@@ -19,8 +19,8 @@
 static const clast_field rows[] = {
     {"columns", .offset = offsetof(clast_cloud_columns, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0,
      "-",
-     "columns of the coordinates, as many as dimensions; without a header they are column_1, "
-     "column_2, ...",
+     "columns of the coordinates, as many as dimensions; x,y,z are found as x_m, x_mm, ... too; "
+     "without a header they are column_1, column_2, ...",
      "x,y,z", .common = true, .group = "columns of the file"},
     TEXT(unit, "unit of coordinates and --domain (mm, um); none: that of columns as x_mm, else m",
          .common = true),

@@ -83,7 +83,7 @@ json_t *cli_prediction_json(const cli_prediction *j)
         }
         cli_json_number(error, "model", p->model_error);
         cli_json_number(error, "coefficients", p->coefficient_error);
-        if (p->sampling_error > 0.0) { // else not known
+        if (isfinite(p->sampling_error)) { // else not known
             cli_json_number(error, "sampling", p->sampling_error);
         }
         (void)json_object_set_new(out, "errors", error);
@@ -116,7 +116,8 @@ static void print_one(const cli_prediction *j)
     (void)printf("porosity   %.4f +- %.4f  (one standard error: model %.4f, coefficients %.4f, "
                  "sampling ",
                  p->porosity, p->standard_error, p->model_error, p->coefficient_error);
-    (void)(p->sampling_error > 0.0 ? printf("%.4f)\n", p->sampling_error) : printf("not known)\n"));
+    (void)(isfinite(p->sampling_error) ? printf("%.4f)\n", p->sampling_error)
+                                       : printf("not known)\n"));
     print_formula(&j->model);
     if (v->n_grain > 0) {
         (void)printf("grains     %lld\n", (long long)v->n_grain);

@@ -61,6 +61,7 @@ static void put_surface(json_t *object, const clast_grain_record *r)
     put_triple(object, "moments", g->moments);
     put_triple(object, "centroid", g->centroid);
     cli_json_number(object, "roundness", g->roundness);
+    cli_json_number(object, "roundness_deviation", g->roundness_deviation);
     cli_json_count(object, "n_outline", g->n_outline);
     cli_json_number(object, "normal_roundness", g->normal_roundness);
     cli_json_number(object, "angularity", g->angularity);
@@ -79,6 +80,7 @@ static void put_surface(json_t *object, const clast_grain_record *r)
     }
     if (r->n_voxel > 0) {
         cli_json_count(object, "n_voxel", r->n_voxel);
+        cli_json_bool(object, "is_smoothed", r->is_smoothed);
     }
     for (int a = 0; a < CLAST_N_AXES; ++a) {
         json_t *one = json_object();
@@ -172,8 +174,11 @@ static void roundness_words(const clast_grain_record *r)
 {
     const clast_grain *g = &r->grain;
     if (isfinite(g->roundness)) {
-        (void)printf("roundness          %.3f (Wadell; outline of %d edges)\n", g->roundness,
-                     g->n_outline);
+        const bool is_low = r->is_smoothed && r->n_voxel < CLAST_ROUNDNESS_VOXELS;
+        (void)printf("roundness          %.3f +- %.3f (Wadell; by the start of the search; outline "
+                     "of %d edges%s)\n",
+                     g->roundness, g->roundness_deviation, g->n_outline,
+                     is_low ? "; labels below 80 voxels across read up to 0.3 low" : "");
     } else if (r->kind == CLAST_GRAINS_CLUMP) {
         line_words("roundness", 1, &g->roundness, "", "");
     } else {
@@ -219,7 +224,8 @@ static void surface_words(const cli_shape_result *shape, const clast_grain_recor
                      r->degree, 100.0 * r->power_last, 100.0 * r->power_cut);
     }
     if (r->n_voxel > 0) {
-        (void)printf("voxels             %lld\n", (long long)r->n_voxel);
+        (void)printf("voxels             %lld%s\n", (long long)r->n_voxel,
+                     r->is_smoothed ? " (steps between them smoothed)" : "");
     }
     for (int a = 0; a < CLAST_N_AXES; ++a) {
         char name[32];

@@ -140,7 +140,7 @@ static clast_status write_charts(const clast_agglomeration *r, const char *end, 
     static const char *const number[] = {"n_particle", "exact_n_particle", "fixed_n_particle",
                                          NULL};
     static const char *const square[] = {"M2", "exact_M2", NULL};
-    static const char *const legend[] = {"cells", "exact", "your mesh", NULL};
+    static const char *const legend[] = {"computed", "exact", "your mesh", NULL};
     static const char *const cluster[] = {"n_1", "n_2", "n_3", "n_4", "n_5",
                                           "n_6", "n_7", "n_8", NULL};
     static const char *const size[] = {"k = 1", "2", "3", "4", "5", "6", "7", "8", NULL};
@@ -156,7 +156,7 @@ static clast_status write_charts(const clast_agglomeration *r, const char *end, 
             cli_draw_columns(&r->history, chart[k].name, chart[k].label, chart[k].axis, path));
     }
     (void)snprintf(path, sizeof path, "%s/spectrum.%s", folder, end);
-    return cli_draw_spectra(&r->spectrum, "particles a monomer (-)", path);
+    return cli_draw_spectra(&r->spectrum, "particles per unit of size (1/monomer)", path);
 }
 
 clast_status cli_agglomerate_files(const clast_agglomeration *r, const char *end,

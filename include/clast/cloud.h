@@ -37,7 +37,8 @@ CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *
                                           double **column);
 
 /// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)") is
-/// converted. Of the default coordinates "x,y,z" missing trailing ones end the list.
+/// converted. The default coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table
+/// has one such column; missing trailing ones end the list.
 ///
 /// @return CLAST_E_FORMAT names the missing column; CLAST_E_CONFIG for radii and diameters at once,
 /// and for a unit beside columns that name another

@@ -60,12 +60,13 @@ typedef struct clast_evolve_config {
     clast_f64_list shape_weight;
     clast_f64_list density; ///< of the solid: one for all shapes, or one each [kg/m^3]
     char *unit;             ///< of the coordinates in surface files
-    char *curve;           ///< sizes, as clast_grading_load reads them: volume-equivalent diameters
-    int32_t particles;     ///< at the start; 0: the rows of `points`
-    double weight;         ///< real particles that each stands for, a whole number
-    char *release;         ///< domain where they start evenly; "": all of `domain`
-    char *points;          ///< file of positions in place of that; "": none
-    char *diameter_column; ///< of that file, in place of curve; "": none
+    char *curve;       ///< sizes, as clast_grading_load reads them: volume-equivalent diameters
+    int32_t particles; ///< at the start; 0: the rows of `points`
+    double weight;     ///< real particles that each stands for, a whole number
+    char *release;     ///< domain where they start evenly; "": all of `domain`
+    char *points;      ///< file of positions in place of that; "": none
+    clast_text_list columns; ///< of that file: x, y, z, which units in their names convert
+    char *diameter_column;   ///< of that file, in place of curve; "": none
 
     char *domain;
     int32_t floor, sides; ///< clast_border
@@ -161,6 +162,7 @@ typedef struct clast_evolve_result {
     double wall_s;
     int32_t n_frame, n_written;   ///< files written
     double bed_width, bed_height; ///< of the column in deposit.h5 [m]; 0: not written
+    double bed_mass;              ///< of its bodies, each once, whatever it stands for [kg]
     char *folder;                 ///< where the run lies; NULL: nowhere
 } clast_evolve_result;
 

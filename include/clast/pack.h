@@ -186,6 +186,14 @@ typedef struct clast_pack_hull {
 
 #define CLAST_PACK_CORE 2.0 ///< grain sizes from the side walls at which a bed's core begins
 
+/// Why a bed has no bulk porosity.
+typedef enum {
+    CLAST_PACK_POROUS,    ///< it has one
+    CLAST_PACK_NO_BED,    ///< grains are still made
+    CLAST_PACK_ABOVE_CUT, ///< no slice of the profile is denser than the cut
+    CLAST_PACK_TRIMMED    ///< the trim leaves nothing of it
+} clast_pack_porosity_state;
+
 typedef struct clast_pack_result {
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] of a run (clast_pack_run); else none
@@ -200,6 +208,9 @@ typedef struct clast_pack_result {
     double grain_steps;    ///< sum over all steps of the grains that were there
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
+    clast_pack_porosity_state porosity_state; ///< why there is none
+    double porosity_least; ///< of the slices of the profile; NAN: none, or a cell
+    double cut;            ///< porosity where the bed ends
     double z_low, z_high;  ///< its interval [m]
     double top;       ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
     double untrimmed; ///< bulk porosity with nothing left out at the ends
@@ -211,17 +222,21 @@ typedef struct clast_pack_result {
     int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
     bool is_moving;     ///< some grain is as fast as still_speed or faster
     double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
-    bool fell;   ///< it was still falling then: it sank by more than two mean diameters
-    double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
-    double elongation[2];  ///< I/L, the same
-    int64_t n_frame;       ///< frames for ParaView of a run (clast_pack_run), in all its parts
-    double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
-    int64_t n_overlap;     ///< of grains that a start brought
-    double deepest_start;  ///< of those, over the smaller one's radius
-    int32_t n_stage;       ///< stages that were gone through; 0: none were given
-    int64_t n_left;        ///< grains that left by outlets
-    double mass_left;      ///< [kg]
-    clast_dem_cell cell;   ///< zeros in other domains
+    bool fell;   ///< it was still falling then: it sank by more than two mean diameters; not where
+                 ///< shaking_time is 0, which no longer one would mend
+    double still_diameters; ///< still_speed by the smallest grain's diameter [1/s]
+    double own_density;     ///< of an aggregate that is packed at another; 0: none is [kg/m3]
+    double given_density;   ///< that one
+    double flatness[2];     ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
+    double elongation[2];   ///< I/L, the same
+    int64_t n_frame;        ///< frames for ParaView of a run (clast_pack_run), in all its parts
+    double frame_interval;  ///< from one to the next: whole steps; 0: none asked for [s]
+    int64_t n_overlap;      ///< of grains that a start brought
+    double deepest_start;   ///< of those, over the smaller one's radius
+    int32_t n_stage;        ///< stages that were gone through; 0: none were given
+    int64_t n_left;         ///< grains that left by outlets
+    double mass_left;       ///< [kg]
+    clast_dem_cell cell;    ///< zeros in other domains
     clast_dem_load load;
     clast_dem_energy energy; ///< zeros where none is booked
     clast_pack_ranks ranks;  ///< of a run (clast_pack_run)

@@ -117,7 +117,7 @@ typedef struct clast_prediction {
         standard_error; ///< of the porosity of one such bed: root of the squares of the next three
     double model_error; ///< scatter of beds about the model
     double coefficient_error; ///< of the coefficients: their covariance, or their printed digits
-    double sampling_error;    ///< of the features, from a limited number of grains; 0: not known
+    double sampling_error;    ///< of the features, from a limited number of grains; NaN: not known
     bool in_range;
     double leverage; ///< x' (X'X)^-1 x of the terms' values; NaN where the model holds no limit
     int32_t n_outside;

@@ -129,6 +129,10 @@ typedef struct clast_export_report {
     clast_export_format format;
     int64_t n_vertex, n_triangle; ///< 0 for formats without surfaces
     const char *unit;             ///< of lengths in the file; lasts as long as options and assembly
+    double
+        facet_ratio; ///< volume of spheres and ellipsoids as facets, by their own; NaN: no facets
+    double ellipsoid_ratio; ///< LAMMPS: volume of the ellipsoids that stand for surfaces and
+                            ///< clumps, by theirs; NaN: there are none
 } clast_export_report;
 
 /// Lower-case name of a format ("vtu").

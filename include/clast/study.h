@@ -80,7 +80,9 @@ typedef struct clast_study_report {
 ///
 /// @param comm    NULL for one rank    @param monitor  may be NULL; rank 0's hears of all runs
 /// @param report  the same on all ranks
-/// @return CLAST_E_USAGE when the folder holds another plan, CLAST_E_STOPPED after a stop,
+/// @return CLAST_E_USAGE when the folder holds another plan, CLAST_E_CONFIG after the first run
+/// when
+///         its result shows that a name of `keep` is misspelt, CLAST_E_STOPPED after a stop,
 ///         CLAST_E_NO when runs failed, and errors of the disk
 CLAST_API clast_status clast_study_run(const clast_study_config *config, const char *folder,
                                        const clast_study_worker *worker, const clast_comm *comm,

@@ -96,6 +96,10 @@ CLAST_API clast_status clast_volume_labels(const clast_volume *volume, clast_vox
 /// the order of their first brick; the grey values go along, so that surfaces are those of the
 /// threshold's level and not of bricks.
 ///
+/// A volume whose values beside the surface are one number inside and one outside, as in a mask of
+/// two values, has no grey levels to interpolate: `grey` is then NULL and the parts are labels
+/// as any other.
+///
 /// @param volume  its values move to `voxels`; it is empty after success
 CLAST_API clast_status clast_volume_parts(clast_volume *volume, double threshold,
                                           clast_voxels *voxels);

@@ -29,10 +29,10 @@ class Decomposition:
     score: float
     stop: str
     n_cell: int
-    events: float
+    events: float  #: with beta_dt, else nan
     events_low: float
     events_high: float
-    pair_integral: float
+    pair_integral: float  #: without beta_dt (with it: events / beta_dt), else nan
     pair_integral_low: float
     pair_integral_high: float
     resolved: bool

@@ -574,6 +574,7 @@ def evolve(
         weight: float | None = None,
         release: Text | None = None,
         points: Text | None = None,
+        columns: Texts | None = None,
         diameter_column: Text | None = None,
         domain: Text | None = None,
         floor: Literal["deposit", "reflect", "periodic"] | None = None,
@@ -644,6 +645,7 @@ def evolve(
         weight: real particles that each stands for, a whole number: the number density is particles x weight / volume (at least 1; default 1.0)
         release: domain in which they start evenly (as domain); none: all of it (no default)
         points: file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5) (no default)
+        columns: its columns of coordinates, three; units in their names count (x_mm), else they are in m; x,y,z are found as x_m, y_m, z_m too (default x,y,z)
         diameter_column: its column of volume-equivalent diameters; none: the curve (no default)
         domain: box:LOW..,HIGH.., cylinder:X,Y,Z,NX,NY,NZ,R,L (base, axis), sphere:R, mesh:FILE; z is up (no default)
         floor: what is below: it stays there, comes back, or enters at the top (deposit, reflect, periodic; default deposit)
@@ -694,7 +696,7 @@ def evolve(
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
-        bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, those that came first below; 0: none (m; 0 to 1e+06; default 0.0)
+        bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, each above its place (modulo the width) and those that came before; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)
@@ -1091,7 +1093,7 @@ def pack(
         spread: how sizes lie within a sieve class (step, linear, means; default step)
         count: grains of a class by its mean size (eq. 9), or by its mass (mean, exact; default mean)
         size_meaning: sizes are sieve sizes (eq. 1), or volume-equivalent (sieve, volume; default sieve)
-        shapes: shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts (default sphere)
+        shapes: shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts, and with density 0 an aggregate's own density (default sphere)
         shape_weight: chance of each shape; none: all equal (at least 0; no default)
         unit: length unit of surface files; may be left out, since sizes come from the curve (no default)
         hull: take the convex hull of every surface and report the volume it adds; no: refuse surfaces that are not convex (default True)
@@ -1163,9 +1165,9 @@ def pack(
         shake_from_start: shake while grains are made, too (default True)
         damping: velocities keep this share a second at the end (c_d) (1e-300 to 1; default 0.001)
         rule: when the bed is still (height, speed, either; default height)
-        height_change: of the mean height in check_time (m; 0 to 1e+06; default 1e-05)
+        height_change: of the mean height in check_time; for grains below 1 mm a hundredth of their size (m; 0 to 1e+06; default 1e-05)
         check_time: between two looks at it (s; 1e-12 to 1e+06; default 0.01)
-        still_speed: of the fastest grain (m/s; 0 to 1e+06; default 0.001)
+        still_speed: of the fastest grain; for grains below 1 mm their size a second or less (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
         wall: walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2 (no default)
@@ -1447,7 +1449,7 @@ def shapes(
         skip: bytes before its values (0 to 2.14748e+09; default 0)
         voxel_edge: volume: edges of a voxel, A or A,B,C along x, y, z; none: the file's, or 1 (no default)
         dataset: volume in an HDF5 file: name of the array [z][y][x] (no default)
-        threshold: volume: grains are the connected parts above this grey value, their surfaces its level; none: values are labels, 0 outside (no default)
+        threshold: volume: grains are the connected parts above this grey value, their surfaces its level (of a mask of two values: smoothed, as of labels); none: values are labels, 0 outside (no default)
         least_voxels: volume: grains of fewer voxels are left out (1 to 2.14748e+09; default 1)
         columns: table: columns of flatness,elongation or of L,I,S; none: by their names (no default)
         surfaces: write each grain's surface (or hull) as PLY into this folder (no default)

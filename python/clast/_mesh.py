@@ -64,6 +64,7 @@ class Shape:
     feret_max: float
     feret_min: float
     axes: str
+    roundness_deviation: float = float("nan")  #: of `roundness`, over where its search for corners begins
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items()})
@@ -112,6 +113,8 @@ class Mesh:
     def __init__(self, vertices: Any, triangles: Any) -> None:
         """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
         vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32, least=0)
+        if not np.isfinite(vert).all():
+            raise refuse(f"vertices: vertex {int(np.argmin(np.isfinite(vert).all(axis=1)))} of {len(vert)} is not finite")
         tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
         _check_numbers("triangles", tri, len(vert))
         self._mesh: Any = c.clast_mesh()
@@ -263,7 +266,8 @@ class Mesh:
         long, middle, least = grain.axes[kind].lis
         return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
                      sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,
-                     convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=given["axes"])
+                     convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=given["axes"],
+                     roundness_deviation=grain.roundness_deviation)
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"

@@ -68,7 +68,7 @@ class Prediction:
     standard_error: float
     model_error: float
     coefficient_error: float
-    sampling_error: float  #: of a limited number of grains; 0: not known
+    sampling_error: float  #: of a limited number of grains; nan: not known
     in_range: bool
     out_of_range: tuple[str, ...] = ()  #: features outside the range of the model's data
     leverage: float = float("nan")
@@ -117,6 +117,12 @@ def _prediction(model: Model, found: Any, inputs: Any, source: str) -> Predictio
                       {"from": source, **told, "equancy_by_independence": inputs.is_independent})
 
 
+def _looks_like_table(value: Any) -> bool:
+    has_names = hasattr(value, "keys") and any(isinstance(key, str) for key in value.keys())
+    return isinstance(value, os.PathLike) or has_names or getattr(getattr(value, "dtype", None), "names", None) is not None or (
+        isinstance(value, str) and os.path.exists(value))
+
+
 def predict(flatness: Moments | None = None, elongation: Moments | None = None, *, table: Any = None, model: Model | Path = "auto",
             grading: str = "U1", grains: int = 0, columns: str = "", resamples: int = 500, seed: int = 1) -> Prediction:
     """Porosity of a bed from its grains' form [Rettinger2022 eqs 17-19, 23, 24], or by a model of one's own.
@@ -125,6 +131,8 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     `table` with a row a grain (a file, a structured array, a DataFrame, a dictionary of columns), with flatness and elongation or L, I
     and S. "auto" takes the model of a mixture where forms vary, else the one of a single form; `grading` names the size distribution.
     """
+    if _looks_like_table(flatness):
+        raise refuse("flatness: a table of grains; give it by its name, predict(table=...)")
     if (table is None) == (flatness is None and elongation is None):
         raise refuse("predict: give a table of grains, or flatness and elongation" + ("" if table is None else ", not both"))
     if table is None:

@@ -153,7 +153,8 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     told = c.clast_export_report()
     check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
     return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),
-            "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle}
+            "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle, "facet_ratio": told.facet_ratio,
+            "ellipsoid_ratio": told.ellipsoid_ratio}
 
 
 def state_table(run: Path, name: str) -> Table:

@@ -38,7 +38,12 @@ class Table(NDArray[Any]):
 
     def __getitem__(self, key: Any) -> Any:
         part = super().__getitem__(key)
-        return part.view(np.ndarray) if isinstance(part, Table) and part.dtype.names is None else part
+        if not isinstance(part, Table):
+            return part
+        if part.dtype.names is None:
+            return part.view(np.ndarray)
+        part.units = {name: unit for name, unit in self.units.items() if name in part.dtype.names}
+        return part
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -53,8 +58,11 @@ class Table(NDArray[Any]):
         return pandas.DataFrame({name: np.ascontiguousarray(self[name]) for name in self.columns})
 
     def write(self, path: Path) -> None:
-        """Writes CSV, or JSON by the name's end, as the commands do."""
-        function = "clast_table_write_json" if os.fspath(path).endswith(".json") else "clast_table_write_csv"
+        """Writes CSV or JSON, by the name's end, as the commands do."""
+        functions = {".csv": "clast_table_write_csv", ".json": "clast_table_write_json"}
+        function = functions.get(os.path.splitext(os.fspath(path))[1].lower(), "")
+        if not function:
+            raise refuse(f"path: {os.fspath(path)}: a table is written as .csv or .json; to_pandas() writes others")
         owner = given_table("table", self)
         check(call(function)(ctypes.byref(owner.struct), encoded("path", path)))
 

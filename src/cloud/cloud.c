@@ -70,6 +70,36 @@ clast_status clast_cloud_column(const clast_table *table, const char *name, doub
     return status;
 }
 
+/// Whether a column holds lengths of this axis by its name and unit: "x_mm", "x (mm)", "x [mm]".
+static bool is_length_of(const clast_column *c, const char *axis)
+{
+    const size_t n = strlen(axis);
+    double factor = 1.0;
+    return strncmp(c->name, axis, n) == 0 && c->name[n] != '\0' &&
+           strchr("_ ([", c->name[n]) != NULL && strcmp(c->unit, "-") != 0 &&
+           strlen(c->name) <= n + strlen(c->unit) + strlen(" []") &&
+           clast_unit_factor(c->unit, "m", &factor) == CLAST_OK;
+}
+
+/// The column that a default coordinate is in: of its very name, else the only one that is its with
+/// a unit of length, as the tables have that clast writes. The name itself where there is none.
+static const char *default_column(const clast_table *table, const char *axis)
+{
+    const char *found = NULL;
+    if (clast_table_find(table, axis) >= 0) {
+        return axis;
+    }
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        if (is_length_of(&table->column[k], axis)) {
+            if (found != NULL) {
+                return axis; // x_mm and x_um: which is not guessed
+            }
+            found = table->column[k].name;
+        }
+    }
+    return found != NULL ? found : axis;
+}
+
 /// Up to three columns by name; *d becomes their number.
 static clast_status find_columns(const clast_table *table, const clast_text_list *list,
                                  double *column[3], int32_t *d)
@@ -81,12 +111,13 @@ static clast_status find_columns(const clast_table *table, const clast_text_list
     char *rest = names;
     *d = 0;
     for (char *name = strtok_r(rest, ",", &rest); name != NULL; name = strtok_r(rest, ",", &rest)) {
-        if (is_default && *d > 0 && clast_table_find(table, name) < 0) {
+        const char *const own = is_default ? default_column(table, name) : name;
+        if (is_default && *d > 0 && clast_table_find(table, own) < 0) {
             break;
         }
         CLX_CHECK(*d < 3, CLAST_E_FORMAT, "%s: more than three columns, from '%s' on", table->name,
                   name);
-        CLX_TRY(clast_cloud_column(table, name, &column[*d]));
+        CLX_TRY(clast_cloud_column(table, own, &column[*d]));
         CLAST_ASSERT(column[*d] != NULL); // a word of strtok_r is never empty
         ++*d;
     }

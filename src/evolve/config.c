@@ -65,6 +65,10 @@ const clast_field clast_evolve_fields[] = {
            .common = true),
     TEXT(release, "", "domain in which they start evenly (as domain); none: all of it"),
     TEXT(points, "", "file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)"),
+    {FIELD(TEXT_LIST, columns), 0, 0, 0, "-",
+     "its columns of coordinates, three; units in their names count (x_mm), else they are in m; "
+     "x,y,z are found as x_m, y_m, z_m too",
+     "x,y,z"},
     TEXT(diameter_column, "", "its column of volume-equivalent diameters; none: the curve"),
 
     TEXT(domain, "",
@@ -168,7 +172,7 @@ const clast_field clast_evolve_fields[] = {
     NUMBER(bed_width, 0, 0, 1e6, "m",
            "width of the column in deposit.h5 (that of its widest body at least; a periodic bed "
            "asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, "
-           "those that came first below; 0: none"),
+           "each above its place (modulo the width) and those that came before; 0: none"),
     COUNT(frames, 0, 0, 1e6, "a frame for ParaView at each so many rows; 0: none"),
     NUMBER(checkpoint_time, 60, 0, 1e9, "s", "between checkpoints, of the clock"),
     TEXT(resume, "", "run folder to go on with"),
@@ -297,6 +301,7 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
         {!c->structure, "meeting|walk_step|max_tries|keep", "without structure: drops merge"},
         {clx_evolve_meeting(c, collide.kernel) != CLAST_MEETING_DIFFUSIVE, "walk_step",
          "without meeting diffusive"},
+        {input->points == NULL, "columns", "without points"},
         {input->field == NULL, "field_columns", "without field"},
         {0}};
     CLX_TRY(check_used(c, &collide));

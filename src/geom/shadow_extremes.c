@@ -288,7 +288,7 @@ static void longest_side(const cone *c, int end[2])
 
 /// A direction and the sum of the face areas turned to it, whose component along any direction is
 /// no greater than the shadow there.
-static void take(search *s, const double direction[3], const double sum[3])
+static void take_direction(search *s, const double direction[3], const double sum[3])
 {
     if (v3_norm(sum) > s->greatest * (1.0 + BETTER)) {
         s->greatest = climb(s->body, direction, s->lying);
@@ -316,7 +316,7 @@ static void divide(search *s)
     }
     clx_shadow_sums(s->body, (const double(*)[3])middle, sum);
     for (int i = 0; i < n; ++i) {
-        take(s, middle[i], sum[i]);
+        take_direction(s, middle[i], sum[i]);
     }
     for (int i = 0; i < n; ++i) {
         const cone whole = s->part[s->first + i];

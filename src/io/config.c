@@ -78,8 +78,9 @@ static clast_status set_key(const reader *r, yaml_document_t *document, const ya
 static clast_status read_document(const reader *r, yaml_document_t *document)
 {
     const yaml_node_t *root = yaml_document_get_root_node(document);
-    if (root == NULL) {
-        return CLAST_OK; // an empty file keeps the defaults
+    if (root == NULL) { // a file that was never written is no wish for the defaults
+        return clx_fail(CLAST_E_CONFIG, "%s: empty; expected lines of the form 'key: value'",
+                        r->path);
     }
     if (root->type != YAML_MAPPING_NODE) {
         return fail_at(r, root, "expected lines of the form 'key: value'", "");

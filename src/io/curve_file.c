@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
+#include "cloud/columns.h"
 #include "io/size_columns.h"
 #include <clast/field.h>
 #include <clast/table.h>
@@ -86,8 +87,9 @@ static clast_status find_columns(curve_reader *r, const clast_table *table, int3
     *value = r->is_passing ? passing : retained;
     for (int k = 0; k < 2; ++k) {
         const clast_column *column = &table->column[k == 0 ? *size : *value];
-        CLX_CHECK(column->number != NULL, CLAST_E_FORMAT,
-                  "%s: column %s holds cells that are no numbers", r->name, column->name);
+        if (column->number == NULL) {
+            CLX_TRY(clx_cloud_no_column(table, column->name));
+        }
     }
     (void)snprintf(r->unit, sizeof r->unit, "%s", table->column[*value].unit);
 done:

@@ -61,34 +61,34 @@ static clast_status load_domain(const char *option, const char *text, clast_doma
     return status;
 }
 
-/// Rows of x, y, z with what else the columns name; `option` stands before messages.
-static clast_status load_cloud(const char *option, const char *path, clast_cloud_columns *columns,
-                               clast_cloud *cloud)
+/// Rows of three coordinates with what else the columns name; `option` stands before messages.
+static clast_status load_cloud(const char *option, const char *path,
+                               const clast_cloud_columns *columns, clast_cloud *cloud)
 {
-    static char axis[3][2] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    char *item[3] = {axis[0], axis[1], axis[2]};
-    columns->columns = (clast_text_list){.n = 3, .item = item};
     CLX_TRY(clast_cloud_read(path, NULL, &table));
     CLX_TRY(clast_cloud_from_table(&table, columns, cloud));
-    CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT, "%s has %d coordinates; x, y, z are needed",
-              path, cloud->dimension);
+    CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT,
+              "%s has %d coordinates of three; name its columns (columns)", path, cloud->dimension);
 done:
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", option);
     }
-    columns->columns = (clast_text_list){0};
     clast_table_free(&table);
     return status;
 }
 
 static clast_status load_clouds(const clast_evolve_config *c, clast_evolve_source *made)
 {
+    static char axes[] = "x,y,z";
     clast_status status = CLAST_OK;
     char *velocity = c->field_columns;
-    clast_cloud_columns points = {.diameter_column = c->diameter_column};
-    clast_cloud_columns field = {.velocity_columns = {.n = 1, .item = &velocity}};
+    char *usual = axes;
+    const clast_cloud_columns points = {.columns = c->columns,
+                                        .diameter_column = c->diameter_column};
+    const clast_cloud_columns field = {.columns = {.n = 1, .item = &usual},
+                                       .velocity_columns = {.n = 1, .item = &velocity}};
     if (c->points[0] != '\0') {
         CLX_TRY(load_cloud("points", c->points, &points, &made->points));
     }

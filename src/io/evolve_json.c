@@ -14,6 +14,7 @@ static json_t *deposit(const clast_evolve_result *r)
     json_t *o = json_object();
     clx_json_set_count(o, "n", r->n_deposit);
     clx_json_set_number(o, "mass", r->mass_deposit);
+    (void)json_object_set_new(o, "envelope_kind", json_string("ellipsoid of equal moments"));
     clx_json_set_number(o, "envelope_diameter", r->deposit_diameter);
     clx_json_set_number(o, "porosity", r->deposit_porosity);
     clx_json_set_number(o, "speed", r->deposit_speed);
@@ -21,6 +22,7 @@ static json_t *deposit(const clast_evolve_result *r)
     if (r->bed_width > 0.0) {
         clx_json_set_number(o, "bed_width", r->bed_width);
         clx_json_set_number(o, "bed_height", r->bed_height);
+        clx_json_set_number(o, "bed_mass", r->bed_mass);
     }
     return o;
 }

@@ -9,6 +9,7 @@
 #include <clast/mesh.h>
 #include <clast/state.h>
 #include <clast/table.h>
+#include <math.h>
 #include <string.h>
 
 static const char *const names[] = {"any",  "vtu",  "stl",  "obj", "ply",  "3mf",  "csv",
@@ -83,6 +84,41 @@ done:
     return status;
 }
 
+static double volume_of(const clast_assembly *a, int32_t i)
+{
+    return a->scale[i] * a->scale[i] * a->scale[i] * a->shape[a->shape_id[i]].volume;
+}
+
+/// What facets hold of the spheres and ellipsoids, whose vertices lie on them.
+static double facet_ratio(const clx_export *e)
+{
+    double all = 0.0;
+    double held = 0.0;
+    for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
+        const int32_t s = e->assembly->shape_id[i];
+        if (!clx_is_stood_for(&e->assembly->shape[s])) {
+            const double part = clast_mesh_volume(&e->parts.surface[s]);
+            all += volume_of(e->assembly, i);
+            held += volume_of(e->assembly, i) * part / e->assembly->shape[s].volume;
+        }
+    }
+    return held / all;
+}
+
+static double ellipsoid_ratio(const clast_assembly *a)
+{
+    double all = 0.0;
+    double held = 0.0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        if (clx_is_stood_for(shape)) {
+            all += volume_of(a, i);
+            held += volume_of(a, i) * clx_ellipsoid_ratio(shape);
+        }
+    }
+    return held / all;
+}
+
 static clast_status write_stream(clx_export *e, clast_export_format format, const char *path,
                                  clast_export_report *report)
 {
@@ -90,6 +126,9 @@ static clast_status write_stream(clx_export *e, clast_export_format format, cons
     if (has_surfaces(format, e->options->points)) {
         CLX_TRY(clx_parts_make(e->assembly, e->options->level, &e->parts));
         CLX_TRY(find_factor(e, path));
+        report->facet_ratio = facet_ratio(e);
+    } else if (format == CLAST_EXPORT_DUMP || format == CLAST_EXPORT_DATA) {
+        report->ellipsoid_ratio = ellipsoid_ratio(e->assembly);
     }
     CLX_TRY(clx_file_begin(path, &e->file));
     CLX_TRY(write_body(e, format));
@@ -121,17 +160,21 @@ static clast_status write_threemf(const clast_assembly *assembly, int level, con
 {
     clast_status status = CLAST_OK;
     clast_mesh all = {0};
+    clx_export e = {.assembly = assembly};
     const clast_mesh_write_options options = {
-        .format = CLAST_MESH_3MF, .unit = clx_export_unit(assembly), .name = "aggregate"};
+        .format = CLAST_MESH_3MF, .unit = clx_export_unit(assembly), .name = "grains"};
     CLX_CHECK(strcmp(options.unit, "model") != 0, CLAST_E_USAGE,
               "%s: 3MF is in millimetres, and this assembly's unit is not known", path);
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &all));
     }
+    CLX_TRY(clx_parts_make(assembly, level, &e.parts));
     CLX_TRY(clast_mesh_write(&all, path, &options));
     report->n_vertex = all.n_vert;
     report->n_triangle = all.n_tri;
+    report->facet_ratio = facet_ratio(&e);
 done:
+    clx_parts_free(&e.parts);
     clast_mesh_free(&all);
     return status;
 }
@@ -149,7 +192,7 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
     const clast_export_options *o = options != NULL ? options : &usual;
     const char *own = clx_export_unit(assembly);
     clx_export e = {.assembly = assembly, .options = o, .unit = o->unit != NULL ? o->unit : own};
-    clast_export_report made = {0};
+    clast_export_report made = {.facet_ratio = NAN, .ellipsoid_ratio = NAN};
     made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
     CLX_CHECK(made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
               "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump, "

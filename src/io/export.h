@@ -38,6 +38,12 @@ clast_status clx_export_types(const clast_assembly *assembly, int32_t **type);
 void clx_export_ellipsoid(const clast_assembly *assembly, int32_t i, double diameter[3],
                           double q[4]);
 
+/// True where the ellipsoid of a shape stands for a surface or a clump, whose moments it has.
+bool clx_is_stood_for(const clast_shape *shape);
+
+/// Volume of the ellipsoid of a shape by the shape's own, 1 where it is one.
+double clx_ellipsoid_ratio(const clast_shape *shape);
+
 /// Semi-axes and orientation of the ellipsoid with a shape's volume and moments: `turn` takes the
 /// ellipsoid's frame, a >= b >= c along x, y, z, to the shape's.
 void clx_shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4]);

@@ -86,7 +86,8 @@ clast_status clx_export_data(clx_export *e)
     put_box(file, a);
     (void)clx_file_print(file, "\nAtoms # %s\n\n", is_sphere ? "sphere" : "ellipsoid");
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        const double size[2] = {is_sphere ? 2.0 * radius_of(a, i) : 1.0, a->density[i]};
+        const double ratio = clx_ellipsoid_ratio(&a->shape[a->shape_id[i]]);
+        const double size[2] = {is_sphere ? 2.0 * radius_of(a, i) : 1.0, a->density[i] / ratio};
         (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, type[a->shape_id[i]]);
         clx_export_numbers(file, size, 2);
         clx_export_numbers(file, a->position[i], 3);

@@ -11,7 +11,7 @@
 clast_status clx_export_stl(clx_export *e)
 {
     clast_status status = CLAST_OK;
-    const clast_mesh_write_options options = {.unit = e->unit, .name = "aggregate"};
+    const clast_mesh_write_options options = {.unit = e->unit, .name = "grains"};
     int64_t n = 0;
     for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
         const clast_mesh placed = clx_parts_place(&e->parts, i);

@@ -236,6 +236,18 @@ done:
     return status;
 }
 
+bool clx_is_stood_for(const clast_shape *shape)
+{
+    return shape->kind != CLAST_SHAPE_SPHERE && shape->kind != CLAST_SHAPE_ELLIPSOID;
+}
+
+double clx_ellipsoid_ratio(const clast_shape *shape)
+{
+    const double *s = shape->semi_axes;
+    const double volume = 4.0 / 3.0 * CLAST_PI * s[0] * s[1] * s[2];
+    return clx_is_stood_for(shape) ? volume / shape->volume : 1.0;
+}
+
 void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3], double q[4])
 {
     double axes[3];
@@ -262,8 +274,9 @@ static void put_bounds(clx_file *file, const clast_assembly *a)
     }
 }
 
-/// LAMMPS: shapex, shapey, shapez are the diameters of an ellipsoid; atom ids and types count
-/// from 1.
+/// LAMMPS: shapex, shapey, shapez are the diameters of an ellipsoid, radius is that of the sphere
+/// of its volume; atom ids and types count from 1. The density of an ellipsoid that stands for
+/// another shape gives the grain's mass, and with it its moments.
 clast_status clx_export_dump(clx_export *e)
 {
     clast_status status = CLAST_OK;
@@ -280,15 +293,12 @@ clast_status clx_export_dump(clx_export *e)
     CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const clast_shape *shape = &a->shape[a->shape_id[i]];
-        const bool is_surface =
-            shape->kind != CLAST_SHAPE_SPHERE && shape->kind != CLAST_SHAPE_ELLIPSOID;
         double axes[3];
         double q[4];
         clx_export_ellipsoid(a, i, axes, q);
-        const double radius = is_surface ? cbrt(0.75 / CLAST_PI * measure_of(a, i, VOLUME))
-                              : axes[0] == axes[2] ? 0.5 * axes[0]
-                                                   : 0.5 * cbrt(axes[0] * axes[1] * axes[2]);
-        const double last[2] = {radius, a->density[i]};
+        const double radius =
+            axes[0] == axes[2] ? 0.5 * axes[0] : 0.5 * cbrt(axes[0] * axes[1] * axes[2]);
+        const double last[2] = {radius, a->density[i] / clx_ellipsoid_ratio(shape)};
         (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, type[a->shape_id[i]]);
         clx_export_numbers(file, a->position[i], 3);
         clx_export_numbers(file, q, 4);

@@ -216,6 +216,8 @@ static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels
                                 : clast_voxels_surface(voxels, label, &mesh));
     clast_mesh_transform(&mesh, 1.0, (double[4]){1.0, 0.0, 0.0, 0.0}, offset);
     CLX_TRY(take_mesh(task, kind, suffix, &mesh, label->n_voxel));
+    task->grains.record[task->grains.n - 1].is_smoothed =
+        !task->options->hull && voxels->grey == NULL;
     if (task->options->hull) { // of points; what it adds is told against the voxels
         clast_grain *grain = &task->grains.record[task->grains.n - 1].grain;
         const double *e = voxels->edge;

@@ -94,6 +94,7 @@ static const measure measures[] = {
     MEASURE("sphericity", sphericity, 0),
     MEASURE("convexity", convexity, 0),
     MEASURE("roundness", roundness, 0),
+    MEASURE("roundness_deviation", roundness_deviation, 0),
     MEASURE("normal_roundness", normal_roundness, 0),
     MEASURE("angularity", angularity, 0),
     MEASURE("feret_max", longest, 1),

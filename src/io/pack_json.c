@@ -108,6 +108,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     CLX_ARGUMENTS(r, text);
     CLX_ARRAY(r->hull, r->n_hull);
     clast_status status = CLAST_OK;
+    static const char *const why[] = {[CLAST_PACK_POROUS] = "",
+                                      [CLAST_PACK_NO_BED] = "no bed yet",
+                                      [CLAST_PACK_ABOVE_CUT] = "above cut",
+                                      [CLAST_PACK_TRIMMED] = "trimmed away"};
     char hash[32];
     json_t *o = json_object();
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, r->hash);
@@ -121,6 +125,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_number(o, "mass_wanted", r->mass_wanted);
     clx_json_set_count(o, "n_outside", r->n_outside);
     clx_json_set_number(o, "porosity_bulk", r->porosity);
+    if (r->porosity_state != CLAST_PACK_POROUS) {
+        (void)json_object_set_new(o, "porosity_none", json_string(why[r->porosity_state]));
+    }
+    clx_json_set_number(o, "porosity_least", r->porosity_least);
     (void)json_object_set_new(o, "porosity_method", json_string("spheres"));
     clx_json_set_number(o, "z_low", r->z_low);
     clx_json_set_number(o, "z_high", r->z_high);
@@ -140,6 +148,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_number(o, "max_overlap", r->dem.max_overlap);
     clx_json_set_number(o, "max_speed", r->dem.max_speed);
     (void)json_object_set_new(o, "still_moving", json_boolean(r->is_moving));
+    clx_json_set_number(o, "still_diameters", r->still_diameters);
     clx_json_set_count(o, "n_loose", r->n_loose);
     clx_json_set_number(o, "sank_after_shaking", r->sank);
     (void)json_object_set_new(o, "shaken_while_falling", json_boolean(r->fell));
@@ -152,6 +161,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_count(o, "n_refresh", r->dem.n_refresh);
     if (r->dem.verified.n > 0) {
         (void)json_object_set_new(o, "verified", verified(&r->dem.verified));
+    }
+    if (r->own_density > 0.0) {
+        clx_json_set_number(o, "aggregate_density", r->own_density);
+        clx_json_set_number(o, "given_density", r->given_density);
     }
     if (r->n_overlap > 0) {
         clx_json_set_count(o, "n_overlap_start", r->n_overlap);

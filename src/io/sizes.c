@@ -416,6 +416,9 @@ static clast_status read_row(reader *r)
               (long long)r->line, r->n_word, r->n_column);
     CLX_TRY(size_at(r, r->low, &low));
     CLX_TRY(size_at(r, r->high, &high));
+    CLX_CHECK(low <= high || r->is_phi, CLAST_E_FORMAT,
+              "%s:%lld: the size low, %s, is above high, %s", r->name, (long long)r->line,
+              r->word[r->low], r->word[r->high]);
     if (r->count >= 0) {
         CLX_TRY(count_at(r, &count));
     }

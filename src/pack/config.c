@@ -31,7 +31,8 @@ const clast_field clast_pack_fields[] = {
     CHOICE(size_meaning, 0, "sieve|volume", "sizes are sieve sizes (eq. 1), or volume-equivalent"),
     {FIELD(TEXT_LIST, shapes), 0, 0, 0, "-",
      "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a "
-     "clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts",
+     "clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts, "
+     "and with density 0 an aggregate's own density",
      "sphere", .common = true, .group = "shapes"},
     {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
      ""},
@@ -113,9 +114,11 @@ const clast_field clast_pack_fields[] = {
 
     CHOICE(rule, 0, "height|speed|either", "when the bed is still",
            .group = "when the bed is still"),
-    NUMBER(height_change, 1e-5, 0, 1e6, "m", "of the mean height in check_time"),
+    NUMBER(height_change, 1e-5, 0, 1e6, "m",
+           "of the mean height in check_time; for grains below 1 mm a hundredth of their size"),
     NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two looks at it"),
-    NUMBER(still_speed, 1e-3, 0, 1e6, "m/s", "of the fastest grain"),
+    NUMBER(still_speed, 1e-3, 0, 1e6, "m/s",
+           "of the fastest grain; for grains below 1 mm their size a second or less"),
     {FIELD(I64, max_steps), 0, 0, 9e15, "-", "stop after so many time steps as it is; 0: never",
      NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),

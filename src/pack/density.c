@@ -93,6 +93,21 @@ void clx_pack_densities(const clast_pack *p, double *low, double *high)
     }
 }
 
+void clx_pack_own_density(const clast_pack *p, double *own, double *given)
+{
+    const clast_f64_list *d = &p->config.density;
+    const bool by_shape = p->config.density_of == CLAST_PACK_DENSITY_SHAPE;
+    *own = *given = 0.0;
+    for (int32_t i = 0; p->input.start == NULL && by_shape && i < p->input.n_shape; ++i) {
+        const double its = p->input.shape[i].own.density;
+        const double made = d->item[d->n > 1 ? i : 0];
+        if (*own == 0.0 && its > 0.0 && made > 0.0 && fabs(made / its - 1.0) > 1e-6) {
+            *own = its;
+            *given = made;
+        }
+    }
+}
+
 static clast_status check_shapes(const clast_pack *p)
 {
     clast_status status = CLAST_OK;

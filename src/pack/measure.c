@@ -121,6 +121,17 @@ static clast_status measure_walls(const clast_assembly *a, const clast_bed *bed,
     return status == CLAST_E_GEOMETRY ? CLAST_OK : status; // a long, narrow box
 }
 
+/// Least porosity of the profile's slices.
+static double least_porosity(const clast_table *profile)
+{
+    const double *n = clast_table_numbers(profile, "porosity");
+    double least = INFINITY;
+    for (int64_t i = 0; n != NULL && i < profile->n_row; ++i) {
+        least = fmin(least, n[i]);
+    }
+    return isinf(least) ? (double)NAN : least;
+}
+
 /// Bulk porosity as published, and the forms; NAN while there is no bed.
 static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
 {
@@ -132,7 +143,10 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     const clast_porosity_options o = clast_pack_porosity(&p->config);
     clast_porosity_options whole = o;
     r->porosity = r->z_low = r->z_high = r->top = r->untrimmed = (double)NAN;
+    r->porosity_least = (double)NAN;
+    r->porosity_state = CLAST_PACK_NO_BED;
     r->trim = o.trim;
+    r->cut = o.cut;
     r->walls = (clast_bed_walls){(double)NAN, (double)NAN, (double)NAN};
     r->wall_share = (double)NAN;
     r->mass_wanted = p->config.mass;
@@ -152,17 +166,22 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         r->z_low = 0.0;
         r->z_high = r->top = side[2];
         r->untrimmed = r->porosity;
+        r->porosity_state = CLAST_PACK_POROUS;
         goto done;
     }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
+    r->porosity_least = least_porosity(&profile);
+    r->porosity_state = p->phase >= CLAST_PACK_DAMP ? CLAST_PACK_ABOVE_CUT : CLAST_PACK_NO_BED;
     whole.trim = 0.0;
     if (clast_porosity_measure(&a, &bed, &profile, &whole, &bulk) == CLAST_OK) {
         r->top = bulk.top;
         r->untrimmed = bulk.porosity;
+        r->porosity_state = CLAST_PACK_TRIMMED;
     }
     status = clast_porosity_measure(&a, &bed, &profile, &o, &bulk);
     if (status == CLAST_OK) {
         r->porosity = bulk.porosity;
+        r->porosity_state = CLAST_PACK_POROUS;
         r->z_low = bulk.z_low;
         r->z_high = bulk.z_high;
         CLX_TRY(measure_walls(&a, &bed, &o, &bulk, r));
@@ -195,7 +214,14 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
     const double *phase = clast_table_numbers(&p->series, "phase");
     const double *top = clast_table_numbers(&p->series, "top_m");
     double volume = 0.0;
+    double least = INFINITY;
     int64_t row = 0;
+    for (int32_t i = 0; i < r->dem.n_grain; ++i) {
+        volume += p->dem->motion[i].volume;
+        least = fmin(least, p->dem->motion[i].volume);
+    }
+    r->still_diameters =
+        r->dem.n_grain > 0 ? p->config.still_speed / cbrt(6.0 / CLAST_PI * least) : (double)NAN;
     r->is_moving = r->dem.max_speed >= p->config.still_speed;
     r->sank = (double)NAN;
     while (row < p->series.n_row && phase[row] < CLAST_PACK_DAMP) {
@@ -204,12 +230,9 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
     if (row == p->series.n_row || r->dem.n_grain == 0) {
         return;
     }
-    for (int32_t i = 0; i < r->dem.n_grain; ++i) {
-        volume += p->dem->motion[i].volume;
-    }
     r->sank = top[row] - r->dem.top;
-    r->fell =
-        p->config.stages.n == 0 && r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
+    r->fell = p->config.stages.n == 0 && p->config.shaking_time > 0.0 &&
+              r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
 }
 
 void clast_pack_result_free(clast_pack_result *result)
@@ -248,6 +271,7 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
     clast_dem_energy_measure(pack->dem, &r.energy);
     r.n_outside = clx_pack_n_outside(pack, &first);
     measure_motion(pack, &r);
+    clx_pack_own_density(pack, &r.own_density, &r.given_density);
     CLX_TRY(count_loose(pack, &r));
     CLX_TRY(measure_bed(pack, &r));
     *result = r;

@@ -136,6 +136,10 @@ void clx_pack_drive(clast_pack *pack);
 /// The usual density where none is given.
 CLX_SHARED void clx_pack_set_density(clast_pack_config *config);
 
+/// Of the first aggregate that is packed at another density than its own that one, and the other;
+/// zeros where there is none.
+void clx_pack_own_density(const clast_pack *p, double *own, double *given);
+
 /// Contacts by materials, where walls are; nothing without option contacts.
 clast_status clx_pack_materials_begin(clast_pack *pack);
 

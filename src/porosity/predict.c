@@ -147,15 +147,19 @@ static clast_status predict(const clast_porosity_model *model, const clast_form_
     CLX_TRY(clx_alloc(&value, (int64_t)model->n_term + model->n_range, sizeof *value));
     CLX_TRY(clx_porosity_model_values(model, inputs, value, value + model->n_term));
     CLX_TRY(clx_porosity_model_apply(model, value, value + model->n_term, prediction));
+    prediction->sampling_error = NAN;
 done:
     clx_free(value);
     return status;
 }
 
+/// Resamples of two grains, or of equal ones, tell nothing: their deviation is 0.
 static void add_sampling(clast_prediction *p, double error)
 {
-    p->sampling_error = error;
-    p->standard_error = hypot(p->standard_error, error);
+    if (error > 0.0) {
+        p->sampling_error = error;
+        p->standard_error = hypot(p->standard_error, error);
+    }
 }
 
 /// Porosities of resamples of the grains; a resample without an answer (all grains equal) is NaN.
@@ -326,19 +330,12 @@ clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
     enum { N_NAME = sizeof name / sizeof name[0] };
     const clast_prediction *p = prediction;
     const clast_form_inputs *in = inputs;
-    const double value[N_NAME] = {p->porosity,
-                                  p->standard_error,
-                                  p->model_error,
-                                  p->coefficient_error,
-                                  p->sampling_error > 0.0 ? p->sampling_error : (double)NAN,
-                                  p->in_range ? 1.0 : 0.0,
-                                  (double)in->n_grain,
-                                  in->flatness_mean,
-                                  in->flatness_deviation,
-                                  in->elongation_mean,
-                                  in->elongation_deviation,
-                                  in->equancy_mean,
-                                  in->equancy_deviation};
+    const double value[N_NAME] = {
+        p->porosity,          p->standard_error,        p->model_error,
+        p->coefficient_error, p->sampling_error,        p->in_range ? 1.0 : 0.0,
+        (double)in->n_grain,  in->flatness_mean,        in->flatness_deviation,
+        in->elongation_mean,  in->elongation_deviation, in->equancy_mean,
+        in->equancy_deviation};
     clast_status status = CLAST_OK;
     clast_table t = {0};
     CLX_TRY(clast_table_init(&t, "prediction", 1));

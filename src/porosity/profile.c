@@ -311,7 +311,7 @@ static clast_status find_top(const clast_porosity_options *options, const clast_
     }
     CLX_CHECK(k >= 0, CLAST_E_GEOMETRY,
               "no slice is denser than the cut: the least porosity of slices %s high is above %g; "
-              "check the bed, or take lower slices (layer)",
+              "check the bed, a greater cut, or lower slices (layer)",
               clx_unit_text(profile->n_row > 0 ? high[0] - low[0] : 0.0,
                             strcmp(unit, "m") == 0 ? "m" : "-"),
               options->cut);

@@ -326,7 +326,7 @@ static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
     CLX_TRY(clx_grain_hull(used.n_vert > 0 ? &used : mesh, grain, lying));
     clx_grain_ratios(grain);
     clx_grain_surface_means(mesh, grain);
-    CLX_TRY(clx_roundness(mesh, lying, grain->centroid, &grain->roundness, &grain->n_outline));
+    CLX_TRY(clx_grain_roundness(mesh, lying, grain));
 done:
     clast_mesh_free(&used);
     return status;

@@ -60,6 +60,7 @@ static void leave_out(clast_grain *grain)
     grain->projected_least = NAN;
     grain->projected_greatest = NAN;
     grain->roundness = NAN;
+    grain->roundness_deviation = NAN;
     grain->normal_roundness = NAN;
     grain->angularity = NAN;
 }

@@ -290,7 +290,7 @@ clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degr
     CLX_TRY(clx_grain_inertia(&made));
     CLX_TRY(clx_grain_hull(&mesh, &made, lying));
     clx_grain_surface_means(&mesh, &made);
-    CLX_TRY(clx_roundness(&mesh, lying, made.centroid, &made.roundness, &made.n_outline));
+    CLX_TRY(clx_grain_roundness(&mesh, lying, &made));
     made.area = area;
     clx_grain_ratios(&made);
     made.convexity = clast_mesh_volume(&mesh) / made.hull_volume; // both of the same facets

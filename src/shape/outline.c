@@ -72,11 +72,25 @@ static void project(const clast_mesh *mesh, int32_t vertex, const double centre[
     out[1] = v3_dot(to, axis[1]);
 }
 
-static clast_status cast_all(const clast_mesh *mesh, const double direction[3],
-                             const double centre[3], fan *f)
+/// True where facets on both sides of an edge are turned differently.
+static bool is_rim_edge(const clx_topology *topology, int32_t edge, const bool *lit)
 {
+    const int32_t *half = topology->half + topology->begin[edge];
+    for (int32_t i = 1; i < clx_edge_use(topology, edge); ++i) {
+        if (lit[half[i] / 3] != lit[half[0] / 3]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+clast_status clx_rim_find(const clast_mesh *mesh, const double direction[3], const double centre[3],
+                          clx_rim *rim)
+{
+    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
+    clx_rim made = {0};
     bool *lit = NULL;
     double axis[2][3];
     v3_frame(direction, axis[0], axis[1]);
@@ -86,23 +100,28 @@ static clast_status cast_all(const clast_mesh *mesh, const double direction[3],
         lit[t] = is_lit(mesh, t, direction);
     }
     for (int32_t e = 0; e < topology.n_edge; ++e) {
-        const int32_t *half = topology.half + topology.begin[e];
-        bool is_rim = false;
-        for (int32_t i = 1; i < clx_edge_use(&topology, e); ++i) {
-            is_rim = is_rim || lit[half[i] / 3] != lit[half[0] / 3];
-        }
-        if (is_rim) {
-            double a[2];
-            double b[2];
-            project(mesh, topology.edge[e][0], centre, axis, a);
-            project(mesh, topology.edge[e][1], centre, axis, b);
-            cast_edge(f, e, a, b);
+        made.n += is_rim_edge(&topology, e, lit);
+    }
+    CLX_TRY(clx_alloc(&made.end, made.n, sizeof *made.end));
+    for (int32_t e = 0, at = 0; e < topology.n_edge; ++e) {
+        if (is_rim_edge(&topology, e, lit)) {
+            project(mesh, topology.edge[e][0], centre, axis, made.end[at][0]);
+            project(mesh, topology.edge[e][1], centre, axis, made.end[at++][1]);
         }
     }
+    *rim = made;
+    made = (clx_rim){0};
 done:
+    clx_rim_free(&made);
     clx_free(lit);
     clx_topology_free(&topology);
     return status;
+}
+
+void clx_rim_free(clx_rim *rim)
+{
+    clx_free(rim->end);
+    *rim = (clx_rim){0};
 }
 
 /// Edges that the ends of the rays lie on, in turn; 0 when a ray ends nowhere.
@@ -153,10 +172,18 @@ static void cut(const fan *f, clx_outline *outline)
     }
 }
 
-clast_status clx_outline_cast(const clast_mesh *mesh, const double direction[3],
-                              const double centre[3], clx_outline *outline)
+/// A point of the rim as the rays see it.
+static void turned(const double end[2], double c, double s, bool is_mirrored, double out[2])
 {
-    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
+    const double y = is_mirrored ? -end[1] : end[1];
+    out[0] = c * end[0] + s * y;
+    out[1] = c * y - s * end[0];
+}
+
+clast_status clx_outline_cast(const clx_rim *rim, double turn, bool is_mirrored,
+                              clx_outline *outline)
+{
+    CLAST_ASSERT(rim->n == 0 || rim->end != NULL);
     clast_status status = CLAST_OK;
     fan *f = NULL;
     CLX_TRY(clx_alloc(&f, 1, sizeof *f));
@@ -164,7 +191,13 @@ clast_status clx_outline_cast(const clast_mesh *mesh, const double direction[3],
         f->ray[i][0] = cos(2.0 * CLAST_PI * i / N_RAY);
         f->ray[i][1] = sin(2.0 * CLAST_PI * i / N_RAY);
     }
-    CLX_TRY(cast_all(mesh, direction, centre, f));
+    for (int32_t e = 0; e < rim->n; ++e) {
+        double a[2];
+        double b[2];
+        turned(rim->end[e][0], cos(turn), sin(turn), is_mirrored, a);
+        turned(rim->end[e][1], cos(turn), sin(turn), is_mirrored, b);
+        cast_edge(f, e, a, b);
+    }
     outline->n_edge = count_edges(f);
     if (outline->n_edge > 0) {
         cut(f, outline);

@@ -11,10 +11,21 @@ typedef struct clx_outline {
     int32_t n_edge; ///< edges of the surface that the outline is made of; 0: no outline
 } clx_outline;
 
-/// The outer outline of the shadow along a unit direction, as seen from a centre: of each ray the
-/// farthest edge between a facet turned to the light and one turned away.
-clast_status clx_outline_cast(const clast_mesh *mesh, const double direction[3],
-                              const double centre[3], clx_outline *outline);
+/// A shadow as the edges between a facet turned to the light and one turned away.
+typedef struct clx_rim {
+    int32_t n;
+    double (*end)[2][2]; ///< [n], of each edge, about the centre
+} clx_rim;
+
+/// The rim of the shadow along a unit direction, as seen from a centre; `rim` must be empty.
+clast_status clx_rim_find(const clast_mesh *mesh, const double direction[3], const double centre[3],
+                          clx_rim *rim);
+void clx_rim_free(clx_rim *rim);
+
+/// The outer outline of a rim: of each ray from the centre the farthest edge. Its first ray is
+/// turned by `turn` from the first axis; a mirrored one runs the other way around the shadow.
+clast_status clx_outline_cast(const clx_rim *rim, double turn, bool is_mirrored,
+                              clx_outline *outline);
 
 /// Smooths by local quadratics of tricube weight over a window of this length [Cleveland1979].
 void clx_outline_smooth(clx_outline *outline, double window);

@@ -19,13 +19,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { N_POINT = CLX_OUTLINE_POINTS, LEAST_RUN = 3 };
+enum { N_POINT = CLX_OUTLINE_POINTS, LEAST_RUN = 3, N_START = 8 };
 
 static const double WINDOW = 0.07;  ///< of the inscribed circle's circumference
 static const double CHORD = 0.003;  ///< greatest deviation of a chord, in inscribed radii
 static const double INSIDE = 0.98;  ///< least distance of outline and circle's centre, in radii
 static const double ALLOWED = 1.01; ///< radius of a corner, in inscribed radii
 static const double SHARP = 0.15;   ///< corners below may have too few key points for a run
+static const double GOLDEN = 0.61803398874989485; ///< of a turn from one start to the next
 
 typedef struct {
     clx_outline outline;
@@ -238,29 +239,85 @@ static double mean_corner(const search *s)
     return n_corner > 0 ? sum / n_corner : (double)NAN;
 }
 
-clast_status clx_roundness(const clast_mesh *mesh, const double direction[3],
-                           const double centre[3], double *roundness, int32_t *n_edge)
+/// Radii of the greatest circles inside the outline as it was cast and as it was smoothed: neither
+/// hangs on where it starts.
+typedef struct {
+    double raw, smooth;
+} circles;
+
+/// Roundness by one start of the search, the first of which finds the circles; NAN where the
+/// outline is too coarse.
+static clast_status round_from(const clx_rim *rim, int start, search *s, circles *inside,
+                               double *roundness)
+{
+    clast_status status = CLAST_OK;
+    double middle[2];
+    *s = (search){0};
+    *roundness = NAN;
+    CLX_TRY(clx_outline_cast(rim, 2.0 * CLAST_PI * GOLDEN * start, start % 2 != 0, &s->outline));
+    if (s->outline.n_edge < (start == 0 ? CLAST_ROUNDNESS_EDGES : 1)) {
+        goto done;
+    }
+    if (start == 0) {
+        clx_outline_inscribed(&s->outline, middle, &inside->raw);
+    }
+    clx_outline_smooth(&s->outline, WINDOW * 2.0 * CLAST_PI * inside->raw);
+    if (start == 0) {
+        clx_outline_inscribed(&s->outline, middle, &inside->smooth);
+    }
+    s->radius = inside->smooth;
+    mark_keys(s);
+    keep_convex(s);
+    *roundness = mean_corner(s);
+done:
+    return status;
+}
+
+/// Mean and standard deviation over the starts.
+static clast_status round_from_all(const clx_rim *rim, search *s, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    double value[N_START];
+    circles inside = {0};
+    double sum = 0.0;
+    double square = 0.0;
+    for (int k = 0; k < N_START; ++k) {
+        CLX_TRY(round_from(rim, k, s, &inside, &value[k]));
+        if (k == 0) {
+            grain->n_outline = s->outline.n_edge;
+        }
+        if (isnan(value[k])) { // too coarse
+            return CLAST_OK;
+        }
+        sum += value[k];
+    }
+    for (int k = 0; k < N_START; ++k) {
+        const double off = value[k] - sum / N_START;
+        square += off * off;
+    }
+    grain->roundness = sum / N_START;
+    grain->roundness_deviation = sqrt(square / (N_START - 1));
+done:
+    return status;
+}
+
+clast_status clx_grain_roundness(const clast_mesh *mesh, const double direction[3],
+                                 clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     search *s = NULL;
-    double middle[2];
-    *roundness = NAN;
-    *n_edge = 0;
+    clx_rim rim = {0};
+    grain->roundness = NAN;
+    grain->roundness_deviation = NAN;
+    grain->n_outline = 0;
     if (mesh->n_tri < CLAST_ROUNDNESS_FACES) {
         return CLAST_OK;
     }
     CLX_TRY(clx_alloc(&s, 1, sizeof *s));
-    CLX_TRY(clx_outline_cast(mesh, direction, centre, &s->outline));
-    *n_edge = s->outline.n_edge;
-    if (s->outline.n_edge >= CLAST_ROUNDNESS_EDGES) {
-        clx_outline_inscribed(&s->outline, middle, &s->radius);
-        clx_outline_smooth(&s->outline, WINDOW * 2.0 * CLAST_PI * s->radius);
-        clx_outline_inscribed(&s->outline, middle, &s->radius);
-        mark_keys(s);
-        keep_convex(s);
-        *roundness = mean_corner(s);
-    }
+    CLX_TRY(clx_rim_find(mesh, direction, grain->centroid, &rim));
+    CLX_TRY(round_from_all(&rim, s, grain));
 done:
+    clx_rim_free(&rim);
     clx_free(s);
     return status;
 }

@@ -158,6 +158,41 @@ static void flood(const clast_volume *volume, float threshold, int32_t label, in
     }
 }
 
+/// Least and greatest of the values met.
+typedef struct {
+    float low, high;
+} range;
+
+static void widen(range *r, float value)
+{
+    r->low = fminf(r->low, value);
+    r->high = fmaxf(r->high, value);
+}
+
+/// True where bricks that meet across the threshold have one value inside and one outside: a mask,
+/// whose values say nothing of where between two centres its surface lies.
+static bool is_mask(const clast_volume *volume, float threshold)
+{
+    const int32_t *n = volume->n;
+    const int64_t stride[3] = {1, n[0], (int64_t)n[0] * n[1]};
+    range side[2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+    for (int64_t i = 0; i < count(volume); ++i) {
+        const int64_t place[3] = {i % n[0], i / n[0] % n[1], i / stride[2]};
+        const float own = volume->value[i];
+        for (int k = 0; k < 3; ++k) {
+            const float next = place[k] + 1 < n[k] ? volume->value[i + stride[k]] : own;
+            if ((own > threshold) != (next > threshold)) {
+                widen(&side[own > threshold], own);
+                widen(&side[next > threshold], next);
+            }
+        }
+        if (side[0].low < side[0].high || side[1].low < side[1].high) {
+            return false;
+        }
+    }
+    return true;
+}
+
 clast_status clast_volume_parts(clast_volume *volume, double threshold, clast_voxels *voxels)
 {
     CLX_ARGUMENTS(volume, voxels);
@@ -176,9 +211,11 @@ clast_status clast_volume_parts(clast_volume *volume, double threshold, clast_vo
             flood(volume, (float)threshold, ++n_part, (int32_t)i, &made, stack);
         }
     }
-    made.grey = volume->value;
     made.threshold = (double)(float)threshold;
-    volume->value = NULL;
+    if (!is_mask(volume, (float)threshold)) {
+        made.grey = volume->value;
+        volume->value = NULL;
+    }
     clast_volume_free(volume);
     *voxels = made;
     made = (clast_voxels){0};

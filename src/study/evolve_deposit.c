@@ -1,45 +1,22 @@
-// What lies on the floor as a bed to begin with: every body one rigid grain, in a column, those
-// that came first below. clast pack --start lets them fall and settles them.
+// What lies on the floor as a bed to begin with: every body one rigid grain above the place where
+// it came down, in the order in which they came, each dropped onto those before. clast pack --start
+// lets them fall and settles them.                                  [docs/theory/evolve.md sec. 6]
 #include "study/evolve_folder.h"
 
+#include "base/alloc.h"
 #include "io/rigid_grain.h"
 #include <clast/assembly.h>
+#include <clast/cloud.h>
 #include <clast/shape.h>
 #include <clast/state.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const double ROOM = 1.05; ///< of a body's place, by its diameter
-
-/// Where the next body's enclosing sphere goes: row by row, layer by layer.
-typedef struct {
-    double width;
-    double x, y, z;    ///< low corner of the place that is free
-    double row, layer; ///< greatest diameters so far
-} shelf;
-
-/// The centre of a sphere of this diameter.
-static void next_place(shelf *s, double diameter, double centre[3])
-{
-    const double room = ROOM * diameter;
-    if (s->x + room > s->width * (1.0 + 1e-12)) {
-        s->x = 0.0;
-        s->y += s->row;
-        s->row = 0.0;
-    }
-    if (s->y + room > s->width * (1.0 + 1e-12)) {
-        s->x = s->y = s->row = 0.0;
-        s->z += s->layer;
-        s->layer = 0.0;
-    }
-    centre[0] = s->x + 0.5 * room - 0.5 * s->width;
-    centre[1] = s->y + 0.5 * room - 0.5 * s->width;
-    centre[2] = s->z + 0.5 * room;
-    s->x += room;
-    s->row = fmax(s->row, room);
-    s->layer = fmax(s->layer, room);
-}
+static const double ROOM = 1.01;          ///< of a body's place, by its enclosing sphere
+static const double NARROWEST = 1.05;     ///< width of a bed, by its widest body's diameter
+static const double ASIDE = 0.01;         ///< a body's shift to the side, by its radius
+static const double GOLDEN = 2.399963230; ///< angle between the shifts of two that follow [rad]
 
 /// The shape of this name, or -1.
 static int32_t find_shape(const clast_assembly *bed, const char *name)
@@ -91,13 +68,12 @@ done:
     return status;
 }
 
-/// Adds a body, not yet anywhere.
+/// Adds a body where it came down.
 static clast_status add_body(const clast_evolve *evolve, int64_t node, double mass,
-                             clast_assembly *bed)
+                             const double place[3], clast_assembly *bed)
 {
     clast_status status = CLAST_OK;
     clast_assembly body = {0};
-    const double nowhere[3] = {0.0, 0.0, 0.0};
     double turn[4] = {1.0, 0.0, 0.0, 0.0};
     int32_t id = -1;
     CLX_TRY(clast_evolve_aggregate(evolve, node, &body));
@@ -106,35 +82,170 @@ static clast_status add_body(const clast_evolve *evolve, int64_t node, double ma
         memcpy(turn, body.orientation[0], sizeof turn);
     }
     CLX_TRY(shape_of(&body, node, bed, &id));
-    CLX_TRY(clast_assembly_add_grain(bed, id, nowhere, turn, scale,
+    CLX_TRY(clast_assembly_add_grain(bed, id, place, turn, scale,
                                      mass / (bed->shape[id].volume * scale * scale * scale)));
 done:
     clast_assembly_free(&body);
     return status;
 }
 
-static double diameter_of(const clast_assembly *bed, int32_t i)
+/// Radius of a body's place.
+static double room_of(const clast_assembly *bed, int32_t i)
 {
-    return 2.0 * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
+    return ROOM * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
 }
 
-/// Puts all into the column, which is no narrower than a periodic bed of them; its width and
-/// height.
-static void place_all(double width, clast_assembly *bed, clast_evolve_result *result)
+/// From where to where a domain reaches along x or y.
+typedef struct {
+    double low, high;
+} span;
+
+/// A disc of the domain, or its half (a half pipe: y of its own from 0 up), about an end of its
+/// axis.
+static span span_of_disc(const clast_domain *d, int axis, double along)
 {
-    shelf s = {.width = width};
-    for (int32_t i = 0; i < bed->n_grain; ++i) {
-        s.width = fmax(s.width, ROOM * diameter_of(bed, i));
+    double own[3];
+    double centre = d->is_placed ? d->centre[axis] : 0.0;
+    for (int k = 0; k < 3; ++k) {
+        own[k] = d->is_placed ? d->axes[k][axis] : (k == axis ? 1.0 : 0.0);
     }
-    for (int32_t i = 0; i < bed->n_grain; ++i) {
-        next_place(&s, diameter_of(bed, i), bed->position[i]);
-    }
-    result->bed_width = s.width;
-    result->bed_height = s.z + s.layer;
+    const bool is_half = d->kind == CLAST_DOMAIN_HALF_PIPE;
+    const double whole = d->radius * hypot(own[0], own[1]);
+    const double side = d->radius * fabs(own[0]);
+    centre += along * own[2];
+    return (span){centre - (is_half && own[1] >= 0.0 ? side : whole),
+                  centre + (is_half && own[1] <= 0.0 ? side : whole)};
 }
 
-clast_status clx_evolve_write_bed(const char *folder, double width, const clast_evolve *evolve,
-                                  clast_evolve_result *result)
+static span span_of(const clast_domain *d, int axis)
+{
+    if (d->kind == CLAST_DOMAIN_CYLINDER || d->kind == CLAST_DOMAIN_HALF_PIPE) {
+        const span base = span_of_disc(d, axis, 0.0);
+        const span end = span_of_disc(d, axis, d->length);
+        return (span){fmin(base.low, end.low), fmax(base.high, end.high)};
+    }
+    if (d->kind == CLAST_DOMAIN_SPHERE) {
+        const double centre = d->is_placed ? d->centre[axis] : 0.0;
+        return (span){centre - d->radius, centre + d->radius};
+    }
+    return (span){d->low[axis], d->high[axis]};
+}
+
+/// Where landing places go in a bed of this width: the domain is cut across into the whole number
+/// of strips that comes nearest to the bed's width, which lie upon each other, stretched onto what
+/// a body's centre can reach between the walls.
+static double across(span domain, double width, double x, double room)
+{
+    const double extent = domain.high - domain.low;
+    const double strip = extent / fmax(1.0, round(extent / width));
+    const double t = extent > 0.0 ? (x - domain.low) / strip : 0.5;
+    const double share = x >= domain.high ? 1.0 : t - floor(t);
+    return room - 0.5 * width + share * (width - 2.0 * room);
+}
+
+/// Moves bodies from where they came down to where they are in the column. Each goes a hundredth of
+/// its radius to a side of its own, so that none stands on the top of another, whatever the places.
+static void place_across(const clast_domain *domain, double width, clast_assembly *bed)
+{
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        const double room = room_of(bed, i);
+        const double aside = ASIDE * room / ROOM;
+        double *x = bed->position[i];
+        x[0] = across(span_of(domain, 0), width, x[0], room) + aside * cos(GOLDEN * i);
+        x[1] = across(span_of(domain, 1), width, x[1], room) + aside * sin(GOLDEN * i);
+    }
+}
+
+/// Bodies that lie already, by square cells of the column no smaller than the widest of them.
+typedef struct {
+    double width;
+    int32_t n;       ///< cells in a row
+    int32_t *newest; ///< [n * n] body, or -1
+    int32_t *older;  ///< [bodies] the one before it in its cell, or -1
+    double *crest;   ///< [bodies] top of the highest of it and all older ones of its cell
+} column;
+
+static int32_t cell_of(const column *c, double x)
+{
+    const int32_t k = (int32_t)((x / c->width + 0.5) * c->n);
+    return k < 0 ? 0 : (k < c->n ? k : c->n - 1);
+}
+
+/// Lowest height to which body i sinks straight down without meeting another one's place.
+static double height_of(const column *c, const clast_assembly *bed, int32_t i)
+{
+    const double *x = bed->position[i];
+    const double room = room_of(bed, i);
+    const int32_t at[2] = {cell_of(c, x[0]), cell_of(c, x[1])};
+    double best = room;
+    for (int k = 0; k < 9; ++k) {
+        const int32_t a = at[0] + k % 3 - 1;
+        const int32_t b = at[1] + k / 3 - 1;
+        const bool is_cell = a >= 0 && b >= 0 && a < c->n && b < c->n;
+        for (int32_t j = is_cell ? c->newest[a * c->n + b] : -1;
+             j >= 0 && c->crest[j] + room > best; j = c->older[j]) {
+            const double *y = bed->position[j];
+            const double reach = room + room_of(bed, j);
+            const double dx = x[0] - y[0];
+            const double dy = x[1] - y[1];
+            const double rest = reach * reach - dx * dx - dy * dy;
+            best = rest > 0.0 ? fmax(best, y[2] + sqrt(rest)) : best;
+        }
+    }
+    return best;
+}
+
+/// Drops all bodies in their order; the height of the column. O(bodies) where it is wide.
+static clast_status drop_all(double width, clast_assembly *bed, double *height)
+{
+    clast_status status = CLAST_OK;
+    column c = {.width = width};
+    double widest = 0.0;
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        widest = fmax(widest, 2.0 * room_of(bed, i));
+    }
+    c.n = (int32_t)fmax(1.0, fmin(floor(width / widest), ceil(sqrt((double)bed->n_grain))));
+    CLX_TRY(clx_alloc(&c.newest, c.n * c.n, sizeof *c.newest));
+    CLX_TRY(clx_alloc(&c.older, bed->n_grain, sizeof *c.older));
+    CLX_TRY(clx_alloc(&c.crest, bed->n_grain, sizeof *c.crest));
+    memset(c.newest, -1, (size_t)c.n * (size_t)c.n * sizeof *c.newest);
+    *height = 0.0;
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        double *x = bed->position[i];
+        int32_t *cell = &c.newest[cell_of(&c, x[0]) * c.n + cell_of(&c, x[1])];
+        x[2] = height_of(&c, bed, i);
+        c.older[i] = *cell;
+        c.crest[i] = fmax(x[2] + room_of(bed, i), *cell >= 0 ? c.crest[*cell] : 0.0);
+        *height = fmax(*height, c.crest[i]);
+        *cell = i;
+    }
+done:
+    clx_free(c.newest);
+    clx_free(c.older);
+    clx_free(c.crest);
+    return status;
+}
+
+/// Puts all into a column no narrower than the widest of them; its width, height and mass.
+static clast_status place_all(const clast_domain *domain, double width, clast_assembly *bed,
+                              clast_evolve_result *result)
+{
+    clast_status status = CLAST_OK;
+    double height = 0.0;
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        width = fmax(width, NARROWEST / ROOM * 2.0 * room_of(bed, i));
+    }
+    place_across(domain, width, bed);
+    CLX_TRY(drop_all(width, bed, &height));
+    result->bed_width = width;
+    result->bed_height = height;
+    result->bed_mass = clast_assembly_mass(bed);
+done:
+    return status;
+}
+
+clast_status clx_evolve_write_bed(const char *folder, double width, const clast_domain *domain,
+                                  const clast_evolve *evolve, clast_evolve_result *result)
 {
     clast_status status = CLAST_OK;
     clast_table deposit = {0};
@@ -142,11 +253,13 @@ clast_status clx_evolve_write_bed(const char *folder, double width, const clast_
     char path[CLX_PATH_LIMIT];
     CLX_TRY(clast_evolve_table(evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
     for (int64_t i = 0; i < deposit.n_row; ++i) {
+        const double place[3] = {clast_table_numbers(&deposit, "x_m")[i],
+                                 clast_table_numbers(&deposit, "y_m")[i], 0.0};
         CLX_TRY(add_body(evolve, (int64_t)clast_table_numbers(&deposit, "node")[i],
-                         clast_table_numbers(&deposit, "mass_kg")[i], &bed));
+                         clast_table_numbers(&deposit, "mass_kg")[i], place, &bed));
     }
     if (deposit.n_row > 0) {
-        place_all(width, &bed, result);
+        CLX_TRY(place_all(domain, width, &bed, result));
         CLX_TRY(clx_path_join(path, folder, "deposit.h5"));
         CLX_TRY(clast_state_write_assembly(&bed, path, NULL));
     }

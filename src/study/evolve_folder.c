@@ -122,7 +122,8 @@ done:
 
 clast_status clx_evolve_write_results(const char *folder, const char *config,
                                       const clast_evolve_config *physics,
-                                      const clast_evolve *evolve, clast_evolve_result *result)
+                                      const clast_domain *domain, const clast_evolve *evolve,
+                                      clast_evolve_result *result)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(write_tables(folder, evolve));
@@ -130,7 +131,7 @@ clast_status clx_evolve_write_results(const char *folder, const char *config,
     if (physics->structure) {
         CLX_TRY(write_aggregates(folder, config, physics->keep, evolve, &result->n_written));
         CLX_TRY(physics->bed_width > 0.0
-                    ? clx_evolve_write_bed(folder, physics->bed_width, evolve, result)
+                    ? clx_evolve_write_bed(folder, physics->bed_width, domain, evolve, result)
                     : CLAST_OK);
     }
     CLX_TRY(clx_evolve_draw(folder, evolve));

@@ -7,13 +7,15 @@
 /// summary.json; checkpoints go last. Sets result->n_written.
 clast_status clx_evolve_write_results(const char *folder, const char *config,
                                       const clast_evolve_config *physics,
-                                      const clast_evolve *evolve, clast_evolve_result *result);
+                                      const clast_domain *domain, const clast_evolve *evolve,
+                                      clast_evolve_result *result);
 
 /// deposit.h5: the bodies on the floor, one rigid grain each, by the time when they came, in a
-/// column about z of this width, or as wide as the widest of them: what clast pack --start settles.
-/// Not written where nothing came down. Sets result->bed_width and bed_height.
-clast_status clx_evolve_write_bed(const char *folder, double width, const clast_evolve *evolve,
-                                  clast_evolve_result *result);
+/// column about z of this width, or as wide as the widest of them, each above the place where it
+/// came down and free of those before: what clast pack --start settles.
+/// Not written where nothing came down. Sets result->bed_width, bed_height and bed_mass.
+clast_status clx_evolve_write_bed(const char *folder, double width, const clast_domain *domain,
+                                  const clast_evolve *evolve, clast_evolve_result *result);
 
 /// The state now as a checkpoint.
 clast_status clx_evolve_write_checkpoint(const char *folder, const char *config, int64_t step,

@@ -133,7 +133,8 @@ static clast_status write_all(run *r, clast_evolve_result *made)
     made->wall_s = clx_clock() - r->begun;
     if (r->folder != NULL) {
         CLX_TRY(clx_evolve_write_collection(r->folder, r->evolve, &made->n_frame));
-        CLX_TRY(clx_evolve_write_results(r->folder, r->text, r->config, r->evolve, made));
+        CLX_TRY(clx_evolve_write_results(r->folder, r->text, r->config, &r->source.domain,
+                                         r->evolve, made));
         CLX_TRY(clx_run_folder_seal(r->own));
         CLX_TRY(clast_report_write_run(r->folder, clx_run_folder_place(r->own)));
     }

@@ -27,6 +27,9 @@ clast_status clx_study_check_inputs(const char *folder, const clast_table *plan)
 /// FOLDER/exit_code of a run.
 clast_status clx_study_write_exit(const char *run_folder, int exit_code);
 
+/// Refuses a name of `keep` that a run's result has not where it is a slip for one that it has.
+clast_status clx_study_check_kept(const clast_study_config *config, const char *run_folder);
+
 /// Writes FOLDER/results.csv and FOLDER/times.csv from the runs that are there; the report's
 /// n_unknown and first_unknown.
 clast_status clx_study_collect(const clast_study_config *config, const char *folder,

@@ -161,6 +161,60 @@ done:
     return status;
 }
 
+/// True for names that differ in up to two letters at one place: slips, not other quantities.
+static bool is_slip(const char *a, const char *b)
+{
+    const size_t n = strlen(a);
+    const size_t m = strlen(b);
+    size_t begin = 0;
+    size_t end = 0;
+    while (begin < n && begin < m && a[begin] == b[begin]) {
+        ++begin;
+    }
+    while (end < n - begin && end < m - begin && a[n - 1 - end] == b[m - 1 - end]) {
+        ++end;
+    }
+    return begin + end >= 3 && begin + end + 2 >= n && begin + end + 2 >= m;
+}
+
+/// The key of an object of which a name that is not there is a slip, or NULL.
+static const char *find_meant(json_t *root, const char *name)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach(root, key, value)
+    {
+        if (is_slip(name, key)) {
+            return key;
+        }
+    }
+    return NULL;
+}
+
+clast_status clx_study_check_kept(const clast_study_config *config, const char *run_folder)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH + 16];
+    char *text = NULL;
+    int64_t n = 0;
+    json_t *root = NULL;
+    (void)snprintf(path, sizeof path, "%s/result.json", run_folder);
+    CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
+    root = json_loadb(text, (size_t)n, 0, NULL);
+    for (int32_t i = 0; i < config->keep.n && json_is_object(root); ++i) {
+        const char *name = config->keep.item[i];
+        const char *meant = find(root, name) == NULL ? find_meant(root, name) : NULL;
+        CLX_CHECK(meant == NULL, CLAST_E_CONFIG,
+                  "keep: '%s': a run's result has no such number (did you mean '%s'?); the runs "
+                  "that are done stay",
+                  name, meant);
+    }
+done:
+    clx_free(text);
+    json_decref(root);
+    return status;
+}
+
 /// A copy of the plan's columns.
 static clast_status copy_plan(const clast_table *plan, const char *name, clast_table *copy)
 {

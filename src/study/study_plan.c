@@ -91,7 +91,7 @@ static bool has_key(const axes *all, const char *key)
 }
 
 /// "key = a | b" as a column of an axis: a new one, or the one that is there (zip).
-static clast_status add_vary(axes *all, const char *text, bool join)
+static clast_status add_vary(axes *all, const char *text, bool is_zip, bool join)
 {
     clast_status status = CLAST_OK;
     const char *equals = strchr(text, '=');
@@ -118,6 +118,12 @@ static clast_status add_vary(axes *all, const char *text, bool join)
         CLX_TRY(copy_trimmed(begin, end, word));
         CLX_TRY(clast_table_set_text(&to->values, to->values.n_column - 1, i, word));
         begin = end + 1;
+        for (int64_t k = 0; k < i && !is_zip; ++k) {
+            CLX_CHECK(strcmp(to->values.column[0].text[k], word) != 0, CLAST_E_CONFIG,
+                      "vary: '%s' names the value '%s' twice: the same runs; option seeds repeats "
+                      "them with other random numbers",
+                      text, word);
+        }
     }
 done:
     return status;
@@ -169,8 +175,8 @@ static clast_status find_axes(const clast_study_config *config, axes *all)
         CLX_TRY(add_table(all, config->table));
     }
     for (int32_t i = 0; i < config->vary.n; ++i) {
-        const bool join = config->design == CLAST_STUDY_ZIP && i > 0;
-        CLX_TRY(add_vary(all, config->vary.item[i], join));
+        const bool is_zip = config->design == CLAST_STUDY_ZIP;
+        CLX_TRY(add_vary(all, config->vary.item[i], is_zip, is_zip && i > 0));
     }
     CLX_CHECK(!has_key(all, "run") && (config->seeds == 1 || !has_key(all, "seed")), CLAST_E_CONFIG,
               "'%s' cannot vary: it names the %s", has_key(all, "run") ? "run" : "seed",

@@ -34,6 +34,7 @@ typedef struct {
     const clast_table *plan;
     int64_t shard, n_shard; ///< this call does rows shard, shard + n_shard, ...
     int64_t n_mine;         ///< of these that are open
+    bool has_checked_kept;  ///< a run has shown whether the names of `keep` are misspelt
     int32_t n_busy;         ///< of this rank
     clx_queue queue;        ///< item i is row shard + i n_shard
     taken_row *taken;       ///< [n_busy] that this rank has begun
@@ -163,6 +164,10 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
                   clx_errno_text());
     }
     code = exit_code;
+    if (exit_code == 0 && !s->has_checked_kept) {
+        s->has_checked_kept = true;
+        CLX_TRY(clx_study_check_kept(s->config, whole));
+    }
 done:
     give_row_back(s, row);
     clx_queue_end(&s->queue, item_of(s, row), code);

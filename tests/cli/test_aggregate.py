@@ -135,6 +135,15 @@ class Results(Case):
         self.assertTrue(printable["resolved"])
         self.assertEqual((run / "printable.stl").stat().st_size, 84 + 50 * printable["n_triangle"])
 
+    def test_a_bin_of_sizes_has_its_low_end_first(self):
+        """low 40, high 30 were swapped without a word; phi falls with the size."""
+        listed = self.folder / "sizes.csv"
+        words = ["aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--sizes", listed, "--no-picture"]
+        listed.write_text("low_um,high_um,count\n40,30,5\n")
+        self.assert_fails(3, *words, says=["sizes.csv:2", "low, 40, is above high, 30"])
+        listed.write_text("low_phi,high_phi,count\n5.1,4.6,2\n")
+        self.assertEqual(clast(*words, "-q").code, 0)
+
     def test_the_chart_of_sizes_knows_no_order_of_the_list(self):
         charts = []
         for name, sizes in (("mixed", (30, 50, 40, 30, 50, 40)), ("sorted", (30, 30, 40, 40, 50, 50))):

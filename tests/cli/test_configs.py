@@ -23,6 +23,11 @@ class Configs(Case):
         path.write_text(text)
         return path
 
+    def test_an_empty_file_is_refused(self):
+        """It ran the defaults without a word: 1 kg of U1."""
+        for text in ("", "\n\n", "# mass: 1g\n"):
+            self.assert_fails(2, "pack", self.write(text), says=("run.yaml: empty; expected lines of the form 'key: value'",))
+
     def test_a_file_says_what_the_command_line_says(self):
         (self.folder / "forms.csv").write_text("flatness,elongation\n0.6,0.7\n0.65,0.68\n0.7,0.72\n")
         forms = self.folder / "forms.csv"
@@ -33,7 +38,7 @@ class Configs(Case):
                 ("agglomerate", [POINTS], "points", {"domain": CUBE, "constant": "1e-3", "n_step": 2}),
                 ("shape", [GRAIN], "file", {"unit": "mm"}),
                 ("fill", [GRAIN], "file", {"spheres": 20}),
-                ("predict", [forms], "table", {}),
+                ("predict", [forms], "table", {"grading": "U7"}),
                 ("fit", [fit], "table", {"target": "porosity"}),
                 ("grading", ["U7"], "curve", {"mass": "16kg"}),
                 ("mesh check", [STL], "file", {"weld": "off"})):

@@ -67,9 +67,9 @@ class Evolve(Case):
 
     def test_threads_change_no_byte(self):
         one, four = self.folder / "one", self.folder / "four"
-        self.run_ash("-j", 1, "-o", one)
-        self.run_ash("-j", 4, "-o", four)
-        for name in SAME:
+        self.run_ash("-j", 1, "--bed-width", "0.2mm", "-o", one)
+        self.run_ash("-j", 4, "--bed-width", "0.2mm", "-o", four)
+        for name in [*SAME, "deposit.h5"]:
             self.assertEqual((one / name).read_bytes(), (four / name).read_bytes(), name)
 
     def test_stopped_and_killed_runs_end_in_the_same_bytes(self):
@@ -157,6 +157,119 @@ class Evolve(Case):
         self.assertEqual(packed.json["n_grain"], len(deposit))
         self.assertAlmostEqual(packed.json["mass"] / sum(row["mass_kg"] for row in deposit), 1.0, 6)
 
+    EVEN = ("evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--curve", "20um", "--duration", "60s", "--kernel", "constant", "--constant", "1e-30",
+            "--quiet", "--json")
+
+    def bed_of(self, run):
+        """deposit.csv and centres of deposit.h5, rows in the order of arrival."""
+        out = self.folder / f"{run.name}.csv"
+        made = clast("export", run / "deposit.h5", "-o", out, "--quiet")
+        self.assertEqual(made.code, 0, made.err)
+        with open(out, newline="", encoding="utf-8") as file:
+            centre = [[float(row[f"{axis}_m"]) for axis in "xyz"] for row in csv.DictReader(file)]
+        return rows(run / "deposit.csv"), centre
+
+    def test_bodies_of_a_bed_are_above_the_places_where_they_came_down(self):
+        """They stood in 81 vertical poles, row by row, whatever their x and y; pack called that at rest."""
+        run, bed = self.folder / "run", self.folder / "bed"
+        out = clast(*self.EVEN, "--particles", 600, "--bed-width", "0.2mm", "-o", run).json["deposit"]
+        deposit, centre = self.bed_of(run)
+        width, radius = 2e-4, 1e-5
+        self.assertEqual(len({(round(x, 12), round(y, 12)) for x, y, _ in centre}), 600)
+        room = 1.01 * radius
+        for row, (x, y, z) in zip(deposit, centre):
+            for place, at in ((row["x_m"], x), (row["y_m"], y)):
+                wanted = room - width / 2 + (place % width) / width * (width - 2 * room)
+                self.assertLess(abs(wanted - at), 0.0101 * radius)
+                self.assertLess(abs(at) + radius, width / 2 * (1 + 1e-9))
+            self.assertGreater(z, radius)
+        for k, (x, y, z) in enumerate(centre):  # free of those before, and upon one of them or the floor
+            gaps = [math.dist((x, y, z), other) - 2 * room for other in centre[:k]]
+            self.assertGreater(min(gaps, default=0), -1e-12)
+            self.assertLess(min(gaps + [z - room]), 1e-12)
+        self.assertAlmostEqual(out["bed_height"], max(z for _, _, z in centre) + room, 12)
+        packed = clast("pack", "--start", run / "deposit.h5", "--domain", "box", "--width", "0.2mm", "--height", "4mm", "--fluid-density", 1000,
+                       "--shaking-time", 0, "--collision-time", "40us", "--time-step", "1us", "--rule", "speed", "--still-speed", "20um/s",
+                       "--layer", "5um", "--trim", "20um", "--quiet", "--json", "-o", bed)
+        self.assertEqual(packed.code, 0, packed.err)
+        self.assertLess(packed.json["n_loose"], 0.3 * 600)  # all of them
+        self.assertGreater(packed.json["coordination"], 4.0)  # 1.9
+        self.assertLess(packed.json["porosity_bulk"], 0.48)  # 0.61
+
+    def test_a_bed_of_one_place_has_no_poles(self):
+        run, points = self.folder / "run", self.folder / "points.csv"
+        points.write_text("x,y,z\n" + "".join(f"5e-3,5e-3,{(k + 1) * 1e-4}\n" for k in range(60)))
+        made = clast(*self.EVEN, "--points", points, "--no-brownian", "--bed-width", "0.2mm", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        deposit, centre = self.bed_of(run)
+        self.assertEqual({(row["x_m"], row["y_m"]) for row in deposit}, {(5e-3, 5e-3)})
+        for (x, y, _), (u, v, _) in zip(centre, centre[1:]):
+            self.assertGreater(math.hypot(x - u, y - v), 1e-8)
+        self.assertEqual([z for _, _, z in centre], sorted(z for _, _, z in centre))
+
+    def test_beds_of_any_domain_keep_their_layers_and_walls(self):
+        for domain in ("cylinder:1mm,2mm", "half-pipe:1mm,2mm", "cylinder:1cm,0,0,0,1,1,0.5mm,2mm", "sphere:1mm", "box:-3mm,0,0,-2.9mm,1mm,1mm"):
+            with self.subTest(domain):
+                run = self.folder / f"run{len(domain)}"
+                made = clast("evolve", "--domain", domain, "--particles", 200, "--curve", "uniform:10um,30um", "--duration", "2min", "--sides",
+                             "reflect", "--kernel", "constant", "--constant", "1e-30", "--bed-width", "0.3mm", "--quiet", "-o", run)
+                self.assertEqual(made.code, 0, made.err)
+                _, centre = self.bed_of(run)
+                self.assertGreater(len(centre), 150)
+                for axis in (0, 1):  # all of the width is taken
+                    at = [c[axis] for c in centre]
+                    self.assertLess(max(map(abs, at)), 1.5e-4)
+                    self.assertLess(abs(sum(at) / len(at)), 3e-5)
+                    self.assertGreater(max(at) - min(at), 2.4e-4)
+
+    def test_a_bed_of_weighted_bodies_says_that_each_comes_once(self):
+        run = self.folder / "run"
+        made = clast(*self.EVEN[:-2], "--particles", 30, "--weight", 3, "--bed-width", "0.2mm", "-o", run)
+        self.assertRegex(made.out, r"bed +.*deposit.h5, .* high; each body once, [\d.]+ ng, of the 3 that it stands for\n")
+        out = json.loads((run / "summary.json").read_text())["deposit"]
+        self.assertAlmostEqual(out["bed_mass"] * 3 / out["mass"], 1.0, 9)
+        plain = clast(*self.EVEN[:-2], "--particles", 30, "--bed-width", "0.2mm", "-o", self.folder / "plain")
+        self.assertRegex(plain.out, r"bed +.* high\n")
+
+    def test_the_envelope_is_named_and_grains_are_those_of_the_start(self):
+        """Porosity 0.259 for an aggregate whose clast aggregate says 0.653, and '1 grains' for a body of 301."""
+        grown, run = self.folder / "grown", self.folder / "run"
+        made = clast("aggregate", "--core", "sphere", "--core-size", "30um", "--coat", "sphere", "--size", "10um", "--replicate", 20, "--no-picture",
+                     "--quiet", "-o", grown)
+        self.assertEqual(made.code, 0, made.err)
+        told = clast(*self.EVEN[:-2], "--particles", 5, "--shapes", grown / "state.h5", "-o", run)
+        self.assertEqual(told.code, 0, told.err)
+        self.assertRegex(told.out, r"diameter [\d.]+ um and porosity [\d.]+ \(of the ellipsoid of equal moments\), .* 1 particle of the start")
+        self.assertRegex(told.out, r"largest aggregate +1 particle of the start")
+        self.assertEqual(json.loads((run / "summary.json").read_text())["deposit"]["envelope_kind"], "ellipsoid of equal moments")
+        self.assertIn("ellipsoid of equal moments", (run / "report.html").read_text())
+        self.assertIn("ellipsoid of equal moments", clast("evolve", "--help-all").out)
+
+    def test_points_are_read_from_the_tables_of_clast(self):
+        """No column 'x': they have x_m, and there was no option to name it."""
+        first, again, other = self.folder / "first", self.folder / "again", self.folder / "other"
+        made = clast(*self.EVEN, "--particles", 40, "--keep", 0, "-o", first)
+        self.assertEqual(made.code, 0, made.err)
+        lifted = self.folder / "lifted.csv"
+        table = rows(first / "deposit.csv")
+        lifted.write_text("node,x_m,y_m,z_m,envelope_m\n" + "".join(f"{r['node']},{r['x_m']},{r['y_m']},5e-3,{r['envelope_m']}\n" for r in table))
+        read = clast(*self.EVEN, "--points", lifted, "--keep", 0, "-o", again)
+        self.assertEqual((read.code, read.json["n_start"]), (0, 40), read.err)
+        mm = self.folder / "mm.csv"
+        mm.write_text("east_mm,north_mm,up_um,d_um\n" + "".join(f"{1e3 * r['x_m']!r},{1e3 * r['y_m']!r},5000,20\n" for r in table))
+        words = self.EVEN[:3] + self.EVEN[5:]
+        read = clast(*words, "--points", mm, "--columns", "east_mm,north_mm,up_um", "--diameter-column", "d_um", "--keep", 0, "-o", other)
+        self.assertEqual((read.code, read.json["n_start"]), (0, 40), read.err)
+        self.assert_fails(3, *self.EVEN, "--points", mm, says=("points", "east_mm", "'x'"))
+        self.assert_fails(3, *self.EVEN, "--points", mm, "--columns", "east_mm,north_mm", says=("2 coordinates", "columns"))
+        both = self.folder / "both.csv"
+        both.write_text("x_m,x_mm,y,z\n1e-3,1,1e-3,1e-3\n")
+        self.assert_fails(3, *self.EVEN, "--points", both, says=("'x'", "x_mm"))
+        for command in ("decompose", "agglomerate"):
+            told = clast(command, lifted, "--domain", "box:0,0,0,1cm,1cm,1cm", "--json",
+                         *(() if command == "decompose" else ("--kernel", "constant", "--constant", 1e-12)))
+            self.assertEqual(told.code, 0, told.err)
+
     def test_frames_and_points(self):
         run = self.folder / "run"
         points = self.folder / "points.csv"
@@ -200,6 +313,7 @@ class Evolve(Case):
                 ([*box, "--shapes", grown / "state.h5"], "density", 500, "with aggregates (state.h5), whose grains have their own"),
                 (box, "shape-weight", 3, "with one shape"), (box, "keep", 3, "without -o"),
                 (box, "walk-step", 0.3, "without meeting diffusive"), (box, "field-columns", "a,b,c", "without field"),
+                (box, "columns", "a,b,c", "without points"),
                 ([*box, "--even", "whole"], "change-level", 0.1, "with even whole"), (sized, "curve", "55um", "with diameter_column"),
                 (drops, "meeting", "central", "without structure"), (drops, "max-tries", 3, "without structure"),
                 (drops, "walk-step", 0.3, "without structure"), ([*drops, "-o", self.folder / "never"], "keep", 3, "without structure"),

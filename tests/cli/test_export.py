@@ -2,6 +2,7 @@
 import base64
 import csv
 import json
+import math
 import struct
 import unittest
 import xml.etree.ElementTree
@@ -120,6 +121,30 @@ class Export(Case):
         self.assertEqual(bytes(int(code) for code in field.text.split()), b"mm\0")
         self.assert_fails(2, "export", STATE, "-o", self.folder / "d.csv", "--unit", "um", says=["its unit is mm"])
         self.assert_fails(2, "export", STATE, "-o", self.folder / "d.stl", "--unit", "furlong", says=["furlong"])
+
+    def test_what_a_file_holds_of_the_volume_is_told(self):
+        """Meshes of spheres were 0.86 % low, dumps of scans 6 % heavy, and only a page of the documents said so."""
+        spheres = self.folder / "s.xyzd"
+        spheres.write_bytes(struct.pack("<8d", 0, 0, 0, 1, 1, 0, 0, 1))
+        out = clast("export", spheres, "-o", self.folder / "s.stl")
+        self.assertIn("facets of spheres and ellipsoids hold 0.86 % less volume", out.out)
+        self.assertIn(b"grains", (self.folder / "s.stl").read_bytes()[:80])
+        told = clast("export", spheres, "-o", self.folder / "s.3mf", "--json")
+        if told.code == 0:
+            self.assertAlmostEqual(told.json["facet_ratio"], 0.99139, delta=1e-5)
+        mass = {row["id"]: float(row["mass_kg"]) for row in self.grains()}
+        path, report = self.export("a.dump")
+        self.assertGreater(report["ellipsoid_ratio"], 1.0)
+        self.assertIsNone(report["facet_ratio"])
+        lines = path.read_text(encoding="utf-8").splitlines()
+        head = next(i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
+        names = lines[head].split()[2:]
+        for line in lines[head + 1:]:
+            row = dict(zip(names, map(float, line.split())))
+            ball = 4 / 3 * math.pi * row["radius"] ** 3
+            self.assertAlmostEqual(ball / (math.pi / 6 * row["shapex"] * row["shapey"] * row["shapez"]), 1.0, delta=1e-12)
+            self.assertAlmostEqual(1e-9 * ball * row["density"] / mass[str(int(row["id"]) - 1)], 1.0, delta=1e-9)
+        self.assertIn("of a density that gives each the mass and inertia", clast("export", STATE, "-o", self.folder / "a.data").out)
 
     def test_tables_of_the_run_are_written(self):
         path = self.folder / "history.csv"

@@ -124,6 +124,16 @@ class Grading(Case):
             self.assert_fails(2, "grading", "U3", "--sample", 5, "-o", self.folder / name, says=("a table is written as .csv or .json",))
             self.assertFalse((self.folder / name).exists())
 
+    def test_decimal_commas_are_guessed(self):
+        path = self.folder / "comma.csv"
+        path.write_text("Sieve size (mm);Passing (%)\n2;0\n2,8;30\n4;70\n5,6;100\n")
+        self.assert_fails(3, "grading", path, says=["row 2 holds '2,8'", "a decimal comma? write 0.5, not 0,5"])
+
+    def test_sizes_to_draw_are_not_called_drawn(self):
+        out = clast("grading", "U3").out
+        self.assertIn("to draw, by mass", out)
+        self.assertNotIn("drawn", out)
+
     def test_bad_input_is_one_line(self):
         file = self.folder / "bad.csv"
         file.write_text("sieve_mm,passing\n1,0\n2,60\n3,50\n4,100\n")

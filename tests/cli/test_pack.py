@@ -99,6 +99,61 @@ class Pack(Case):
         self.assertEqual((slow["still_moving"], slow["shaken_while_falling"], slow["converged"]), (False, False, True))
         self.assertLess(slow["max_speed"], 0.001)
 
+    def test_a_bed_looser_than_the_cut_is_no_missing_bed(self):
+        """'there is no bed yet' was said of a bed at rest."""
+        falling = (*SMALL[:4], "4g", *SMALL[5:], "--max-steps", 1000)
+        early = clast(*falling)
+        self.assertRegex(early.out, r"bulk porosity +none: there is no bed yet")
+        words = (*SMALL, "--shaking-time", 0, "--cut", 0.2)
+        loose = clast(*words)
+        self.assertEqual(loose.code, 0, loose.err)
+        self.assertRegex(loose.out, r"bulk porosity +none: no slice is denser than the cut of 0\.2, the least porosity of one is 0\.\d+; .*--cut")
+        self.assertNotIn("no bed yet", loose.out)
+        found = clast(*words, "--json").json
+        self.assertEqual((found["porosity_bulk"], found["porosity_none"]), (None, "above cut"))
+        self.assertGreater(found["porosity_least"], 0.2)
+        known = clast(*words[:-1], 0.9, "--json").json
+        self.assertNotIn("porosity_none", known)
+        self.assertGreaterEqual(known["porosity_bulk"], found["porosity_least"])
+        trimmed = clast(*words[:-1], 0.9, "--trim", "0.1m", "--json").json
+        self.assertEqual((trimmed["porosity_bulk"], trimmed["porosity_none"]), (None, "trimmed away"))
+        self.assertEqual(clast(*falling, "--json").json["porosity_none"], "no bed yet")
+        run = self.folder / "run"
+        self.assertEqual(clast(*words, "-o", run, "--quiet").code, 0)
+        self.assert_fails(3, "porosity", run, "--cut", 0.2, says=("cut",))
+
+    def test_nothing_is_said_of_a_shaking_that_was_switched_off(self):
+        told = clast(*SMALL, "--shaking-time", 0)
+        self.assertEqual(told.code, 0, told.err)
+        self.assertNotIn("--shaking-time", told.out)
+        self.assertFalse(clast(*SMALL, "--shaking-time", 0, "--json").json["shaken_while_falling"])
+
+    def test_one_grain_may_weigh_more_than_all_that_was_wanted(self):
+        heavy = clast("pack", "--curve", "4mm", "--mass", "0.01g", "--width", "30mm", "--height", "0.1m", "--shaking-time", 0)
+        self.assertRegex(heavy.out, r"warning +8\.88 times the mass that was asked for: 88\.8 mg one grain weighs")
+        self.assertNotIn("was asked for", clast(*SMALL, "--max-steps", 10).out)
+
+    def test_small_grains_have_a_still_speed_of_their_own(self):
+        tiny = ("pack", "--curve", "16um", "--mass", "1ug", "--width", "0.3mm", "--height", "2mm", "--collision-time", "20us", "--time-step", "0.5us",
+                "--spacing", "40um", "--initial-speed", "1mm/s", "--max-steps", 10)
+        told = clast(*tiny)
+        self.assertRegex(told.out, r"note +still_speed is 6\d\.\d diameters of the smallest grain a second.*--still-speed")
+        self.assertNotIn("note ", clast(*tiny, "--still-speed", "50um/s").out)
+        self.assertNotIn("note ", clast(*SMALL, "--max-steps", 10).out)
+
+    def test_an_aggregate_packed_at_another_density_is_told(self):
+        """The cookbook said that it comes with its density; it was 2650 without a word."""
+        grown = self.folder / "grown"
+        made = clast("aggregate", "--core", "sphere", "--core-size", "2mm", "--coat", "sphere", "--size", "1mm", "--replicate", 6, "--no-picture",
+                     "--quiet", "-o", grown)
+        self.assertEqual(made.code, 0, made.err)
+        words = ("pack", "--curve", "4mm", "--shapes", grown / "state.h5", "--mass", "1g", "--width", "30mm", "--height", "0.1m", "--max-steps", 10)
+        told = clast(*words)
+        self.assertRegex(told.out, r"density +aggregates of 2500 kg/m\^3 are packed at 2650 kg/m\^3: --density 0")
+        self.assertEqual(clast(*words, "--json").json["aggregate_density"], 2500)
+        for density in (0, 2500):
+            self.assertNotIn("are packed at", clast(*words, "--density", density).out)
+
     def test_contacts_have_one_count(self):
         for shape in ("sphere", "data/standin63/grain10.ply", "clump"):
             if shape == "clump":
@@ -730,11 +785,13 @@ class Pack(Case):
         self.assertTrue(out["converged"])
         self.assertGreater(out["porosity_bulk"], 0.3)
         self.assertLess(out["porosity_bulk"], 0.7)
-        several = clast("porosity", run, run, "--method", "spheres", "--json", "-o", self.folder / "mean")
+        other = clast("pack", "--container", cup, "--container-unit", "mm", "--curve", "8 mm", "--mass", "40g", "--seed", 2,
+                      "--shaking-time", "0.02s", "--quiet", "--json", "-o", self.folder / "other").json
+        several = clast("porosity", run, self.folder / "other", "--method", "spheres", "--json", "-o", self.folder / "mean")
         self.assertEqual(several.code, 0, several.err)
         several = json.loads(several.out)
-        self.assertAlmostEqual(several["bulk"]["mean"], out["porosity_bulk"], 12)
-        self.assertEqual(several["bulk"]["deviation"], 0)
+        self.assertAlmostEqual(several["bulk"]["mean"], (out["porosity_bulk"] + other["porosity_bulk"]) / 2, 12)
+        self.assertGreater(several["bulk"]["deviation"], 0)
         self.assertTrue((self.folder / "mean" / "mean_profile.svg").exists())
         one = json.loads(clast("porosity", run, "--json", "-o", self.folder / "one").out)
         self.assertGreater(one["stress"]["stress_zz"], 0)

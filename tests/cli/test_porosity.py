@@ -100,7 +100,11 @@ class Porosity(Case):
         self.assertNotEqual(json.loads((one / "summary.json").read_text()), summary)
         self.assertEqual([p.name for p in one.iterdir() if p.suffix == ".part"], [])
         # several runs have their mean; a container's file is an input
-        found = clast("porosity", path, path, *bed, "--json", "-o", two)
+        # (one bed told twice counted as two realisations: a deviation of 0, an interval of no width)
+        self.assert_fails(2, "porosity", path, path, *bed, says=["hold the same bytes", "one realisation"])
+        other = self.folder / "other.csv"
+        other.write_text(path.read_text() + "\n")
+        found = clast("porosity", path, other, *bed, "--json", "-o", two)
         self.assertEqual(json.loads((two / "summary.json").read_text()), found.json)
         manifest = json.loads((two / "manifest.json").read_text())
         self.assertEqual([i["role"] for i in manifest["inputs"]], ["run", "run"])
@@ -214,7 +218,9 @@ class Porosity(Case):
         self.assertAlmostEqual(found["bulk"] - found["core"], found["wall_share"], 12)
         self.assertTrue(0.15 < found["wall_share"] < 0.25)
         self.assertNotIn("core", clast("porosity", path, *bed, "--json").json)
-        two = clast("porosity", path, path, *bed, "--core", 2.5, "-o", self.folder / "two")
+        other = self.folder / "other.csv"
+        other.write_text(path.read_text() + "\n")
+        two = clast("porosity", path, other, *bed, "--core", 2.5, "-o", self.folder / "two")
         self.assertIn("wall_share", two.out)
         self.assertIn("core_depth,-,2.5", (self.folder / "two/means.csv").read_text())
         self.assert_fails(2, "porosity", path, *bed, "--core", 0.2, says=["half a grain size"])

@@ -212,6 +212,50 @@ class Report(Case):
                 self.assertNotIn("origin unknown", page)
                 self.assertNotRegex(seen(page), r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
 
+    def side_by_side(self, *runs):
+        """The table of several runs: heads, and a row of cells for each."""
+        folders = []
+        for k, (command, summary) in enumerate(runs):
+            folder = os.path.join(self.folder.name, f"run{k}")
+            os.mkdir(folder)
+            for name, what in (("summary", summary), ("manifest", {"command": command})):
+                with open(os.path.join(folder, f"{name}.json"), "w", encoding="utf-8") as file:
+                    json.dump(what, file)
+            folders.append(folder)
+        out = os.path.join(self.folder.name, "all.html")
+        self.assertEqual(clast("report", *folders, "-o", out).code, 0)
+        page = self.page(out)
+        part = page[page.index("Side by side"):page.index("</section>")]
+        rows = [[re.sub(r"<[^>]+>", " ", cell).split() for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.S)]
+                for row in re.findall(r"<tr>(.*?)</tr>", part, re.S)]
+        return [[" ".join(cell) for cell in row] for row in rows]
+
+    def test_side_by_side_has_one_number_a_cell(self):
+        """A history of 31 numbers filled a cell, two columns had one name, and runs without large figures an empty table."""
+        rows = self.side_by_side(("decompose", {"n_cell": 127, "events": 0.5}), ("agglomerate", {"n_cell": [1, 1, 365, 470], "events": [0, 21, 42, 66]}))
+        self.assertEqual(rows, [["Run", "Cells", "Agglomeration events", "Cells at the end", "Agglomeration events at the end"],
+                                ["run0", "127", "0.5000", "\u2013", "\u2013"], ["run1", "\u2013", "\u2013", "470", "66"]])
+
+    def test_side_by_side_has_no_two_columns_of_one_name(self):
+        rows = self.side_by_side(("pack", {"porosity_bulk": 0.4284}), ("porosity", {"bulk": 0.4288}))
+        self.assertEqual(rows[0], ["Run", "Bulk porosity by clast pack", "Bulk porosity by clast porosity"])
+
+    def test_box_models_and_fits_have_figures_side_by_side(self):
+        model = {"unit_n": "1/m^3", "n_particle": [4.0, 2.0], "events": [0.0, 2.0]}
+        self.assertEqual([row[1] for row in self.side_by_side(("agglomerate", model), ("agglomerate", {**model, "n_particle": [4.0, 3.0]}))],
+                         ["Number density at the end", "2.000 1/m\u00b3", "3.000 1/m\u00b3"])
+
+    def test_a_page_of_fit_names_its_own_tables(self):
+        """Models tried were "Rays times orientations", the step of the selection a "Time step"."""
+        self.put("summary.json", json.dumps({"r2": 0.28, "n_bed": 16, "trials": [{"feature": "friction", "step": 1, "r2": 0.2}]}))
+        self.put("manifest.json", json.dumps({"command": "fit"}))
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        page = seen(self.page(os.path.join(self.run_path, "report.html")))
+        for words in ("Models tried", "Features in the model", "R\u00b2"):
+            self.assertIn(words, page)
+        for words in ("Rays", "Time step"):
+            self.assertNotIn(words, page)
+
     def test_two_runs_need_a_name(self):
         self.assert_fails(2, "report", self.run_path, self.run_path, says=["-o NAME.html", "2 runs"])
 

@@ -147,6 +147,16 @@ class Study(Case):
         self.assertEqual(list(self.rows()[0]), ["run", "spheres", "seed", "exit_code", "n_sphere", "filled_fraction", "nothing.here"])
         self.assertGreater(float(self.rows("times.csv")[1]["wall_s"]), 0)  # stdout names this table, which had no times
 
+    def test_a_misspelt_result_ends_the_study_after_its_first_run(self):
+        """All runs were computed before the name was told; what is repeated was run twice without a word."""
+        text = f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 5 | 6 | 7 | 8 | 9]\nkeep: [fillde_fraction]\n"
+        out = ["-o", self.folder / "out", "-q", "-j", 1]
+        self.assert_fails(2, "study", self.plan(text), *out, says=["keep: 'fillde_fraction'", "did you mean 'filled_fraction'"])
+        self.assertLessEqual(len(list((self.folder / "out/runs").glob("[0-9]*[0-9]"))), 2)
+        done = clast("study", self.plan(text.replace("fillde", "filled")), *out, "--json")
+        self.assertEqual((done.code, done.json["n_before"] >= 1, done.json["n_run"]), (0, True, 5), done.err)
+        self.assert_fails(2, "study", self.plan(text), "-o", self.folder / "two", "--vary", "spheres=3|4|3", says=["'3' twice", "seeds"])
+
     def test_a_run_that_fails_is_named(self):
         plan = self.plan("run: fill\nargument: [absent.stl]\nvary: [spheres = 5 | 9]\n")
         done = clast("study", plan, "-o", self.folder / "out")

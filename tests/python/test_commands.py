@@ -334,8 +334,8 @@ class Commands(unittest.TestCase):
         box = "box:0,0,0,1,1,1"
         small, points, sets = (self.write(f"{name}.csv", dict(zip("xyz", columns.T))) for name, columns in
                                (("small", x * 1e-3), ("points", x), ("sets", np.random.default_rng(2).random((500, 3)) ** 3)))
-        pack = dict(curve="4mm", mass="5g", width="12mm", height="0.1m", shaking_time=0)
-        flags = [word for key, value in pack.items() for word in (f"--{key.replace('_', '-')}", f"{value}s" if value == 0 else value)]
+        pack = dict(curve="4mm", mass="5g", width="12mm", height="0.1m", shaking_time=1e-3)
+        flags = [word for key, value in pack.items() for word in (f"--{key.replace('_', '-')}", f"{value}s" if isinstance(value, float) else value)]
         agglomerate, box_model = dict(constant=1e-4, duration=1.0, n_step=2), dict(concentration=1e12, constant=1e-12, duration=1.0, n_step=2,
                                                                                    initial="exponential", particles=50)
         tail = ("--constant", 1e-12, "--duration", "1s", "--n-step", 2, "--initial", "exponential", "--particles", 50)

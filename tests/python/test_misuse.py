@@ -442,6 +442,32 @@ class Keywords(unittest.TestCase):
                 use()
         self.assertEqual(clast.predict(table={**FORMS, "flatness": np.ma.MaskedArray(FORMS["flatness"])}).porosity, clast.predict(table=FORMS).porosity)
 
+    def test_what_a_user_tries_first_is_told(self):
+        """A table given as flatness, a file name of another kind, vertices that are no numbers."""
+        table = clast.read_table(LATTICE)
+        for use, word in ((lambda: clast.predict(FORMS), "flatness: a table of grains; give it by its name"),
+                          (lambda: clast.predict(table), "flatness: a table of grains"),
+                          (lambda: clast.predict(str(LATTICE)), "flatness: a table of grains"),
+                          (lambda: table.write(pathlib.Path(FOLDER.name, "x.xlsx")), "x.xlsx: a table is written as .csv or .json"),
+                          (lambda: table.write(pathlib.Path(FOLDER.name, "plain")), "written as .csv or .json"),
+                          (lambda: clast.Mesh([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], [[0, 1, 2]]), "vertices: vertex 2 of 3 is not finite")):
+            with self.assertRaisesRegex(clast.Error, word) as caught:
+                use()
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        self.assertFalse(pathlib.Path(FOLDER.name, "x.xlsx").exists())
+
+    def test_parts_of_tables_have_the_units_of_their_columns(self):
+        history = clast.open(RUN).table("history")
+        part = history[["n", "d_agg_m"]]
+        self.assertEqual(part.units, {name: history.units[name] for name in ("n", "d_agg_m")})
+        self.assertEqual(history[3:].units, history.units)
+
+    def test_a_sampling_error_that_is_not_known_is_no_zero(self):
+        self.assertTrue(np.isnan(clast.predict((0.647, 0.175), (0.682, 0.139)).sampling_error))
+        self.assertGreater(clast.predict((0.647, 0.175), (0.682, 0.139), grains=63).sampling_error, 0)
+        two = clast.predict(table={"flatness": [0.6, 0.7], "elongation": [0.7, 0.8]})
+        self.assertTrue(np.isnan(two.sampling_error) and np.isfinite(two.standard_error))
+
     def test_integers_that_do_not_fit(self):
         grading = clast.Grading("U3")
         for use in (lambda: grading.draw(3, seed=-1), lambda: grading.draw(3, seed=2**64), lambda: grading.draw(-1), lambda: clast.mesh_synthesize(2**64),

@@ -233,6 +233,10 @@ static void sampling_error_is_the_first_derivative(void **state)
     CHECK_OK(clast_porosity_model_published(0, &m));
     CHECK_OK(clast_porosity_predict_moments(&m, &in, &p));
     CHECK_REL(p.sampling_error, 0.019 / (0.36 * 0.7) * 0.015, 1e-6);
+    /* without a number of grains it is not known: it was 0, "no sampling error" to a script */
+    CHECK_OK(clast_form_inputs_from_moments(mean, deviation, 0, &in));
+    CHECK_OK(clast_porosity_predict_moments(&m, &in, &p));
+    assert_true(isnan(p.sampling_error) && isfinite(p.standard_error));
     clast_porosity_model_free(&m);
 }
 

@@ -61,6 +61,33 @@ static void parts_join_across_faces(void **state)
     clast_voxels_free(&voxels);
 }
 
+/* A mask of two values went as grey levels: marching between 0 and 255 gave a terraced surface
+ * whose area was 24 % too large at every resolution. It is smoothed as labels are; one grey brick
+ * beside the surface makes it grey. */
+static void a_mask_has_no_grey_levels(void **state)
+{
+    (void)state;
+    const uint8_t mask[] = {0, 0, 255, 255, 255, 0};
+    const uint8_t saturated[] = {7, 0, 255, 200, 255, 0}; /* what varies lies off the surface */
+    const uint8_t grey[] = {0, 0, 250, 255, 255, 0};
+    const clast_volume_options options = {.n = {6, 1, 1}};
+    clast_volume volume = {0};
+    clast_voxels voxels = {0};
+    CHECK_OK(clast_volume_parse(mask, sizeof mask, &options, &volume));
+    CHECK_OK(clast_volume_parts(&volume, 128.0, &voxels));
+    assert_null(voxels.grey);
+    assert_null(volume.value);
+    clast_voxels_free(&voxels);
+    CHECK_OK(clast_volume_parse(saturated, sizeof saturated, &options, &volume));
+    CHECK_OK(clast_volume_parts(&volume, 128.0, &voxels));
+    assert_null(voxels.grey);
+    clast_voxels_free(&voxels);
+    CHECK_OK(clast_volume_parse(grey, sizeof grey, &options, &volume));
+    CHECK_OK(clast_volume_parts(&volume, 128.0, &voxels));
+    assert_non_null(voxels.grey);
+    clast_voxels_free(&voxels);
+}
+
 static void hdf5_arrays_are_volumes(void **state)
 {
     (void)state;
@@ -118,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_keep_type_and_order),
         cmocka_unit_test(parts_join_across_faces),
+        cmocka_unit_test(a_mask_has_no_grey_levels),
         cmocka_unit_test(hdf5_arrays_are_volumes),
         cmocka_unit_test(reading_survives_refused_memory),
     };
