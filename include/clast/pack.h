@@ -207,8 +207,8 @@ typedef struct clast_pack_result {
     double clocked_steps;  ///< grain-steps that step_s is of
     double grain_steps;    ///< sum over all steps of the grains that were there
     int32_t n_outside;     ///< grains whose centre is outside the container
+    clast_pack_porosity_state porosity_state; ///< why there is no porosity
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
-    clast_pack_porosity_state porosity_state; ///< why there is none
     double porosity_least; ///< of the slices of the profile; NAN: none, or a cell
     double cut;            ///< porosity where the bed ends
     double z_low, z_high;  ///< its interval [m]
@@ -221,9 +221,9 @@ typedef struct clast_pack_result {
     double mass_wanted; ///< [kg]
     int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
     bool is_moving;     ///< some grain is as fast as still_speed or faster
+    bool fell;          ///< the highest grain was still falling when shaking ended: it sank by more
+                        ///< than two mean diameters; not where shaking_time is 0
     double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
-    bool fell;   ///< it was still falling then: it sank by more than two mean diameters; not where
-                 ///< shaking_time is 0, which no longer one would mend
     double still_diameters; ///< still_speed by the smallest grain's diameter [1/s]
     double own_density;     ///< of an aggregate that is packed at another; 0: none is [kg/m3]
     double given_density;   ///< that one

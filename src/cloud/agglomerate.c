@@ -284,7 +284,8 @@ static void make_means(const clast_agglomerate_config *config, int64_t n_row, co
 }
 
 /// Adds the exact columns where they hold: one model kernel, one cell, single particles.
-static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
+static clast_status add_exact(const clast_agglomerate_input *input, const clx_evolution *run,
+                              clast_agglomeration *r)
 {
     clast_status status = CLAST_OK;
     const uint32_t kernel = run->collide.kernel;
@@ -292,8 +293,8 @@ static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
     const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
     double *column = NULL;
     const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
-    if (!clx_exact_counts_known(kernel, n0) || run->input->monomers != NULL ||
-        run->input->n_snapshot > 1 || run->n_cell != 1 || run->mesh.n_outside > 0) {
+    if (!clx_exact_counts_known(kernel, n0) || input->monomers != NULL || input->n_snapshot > 1 ||
+        run->n_cell != 1 || run->mesh.n_outside > 0) {
         return CLAST_OK;
     }
     CLX_TRY(clast_table_add_number(&r->history, "exact_n_particle", "-", &column));
@@ -472,7 +473,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     made.gel_time = made.n_gelled > 0 ? c.gel_sum / made.n_gelled : (double)NAN;
     CLX_TRY(clx_size_classes_table(&c.classes, config->repeats, c.time, &made.spectrum));
     CLX_TRY(clx_size_classes_columns(&c.classes, config->repeats, &made.history));
-    CLX_TRY(add_exact(&run, &made));
+    CLX_TRY(add_exact(input, &run, &made));
     *result = made;
     made = (clast_agglomeration){0};
 done:
