@@ -125,7 +125,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_number(o, "mass_wanted", r->mass_wanted);
     clx_json_set_count(o, "n_outside", r->n_outside);
     clx_json_set_number(o, "porosity_bulk", r->porosity);
-    if (r->porosity_state != CLAST_PACK_POROUS) {
+    if (r->porosity_state > CLAST_PACK_POROUS && r->porosity_state <= CLAST_PACK_TRIMMED) {
         (void)json_object_set_new(o, "porosity_none", json_string(why[r->porosity_state]));
     }
     clx_json_set_number(o, "porosity_least", r->porosity_least);

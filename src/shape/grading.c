@@ -380,6 +380,9 @@ clast_status clast_grading_lognormal(double mean, double deviation, double low, 
     CLX_TRY(check_lognormal(mean, deviation, low, high));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     const double variance = log1p(deviation / mean * (deviation / mean));
+    CLX_CHECK(variance > 0.0, CLAST_E_CONFIG,
+              "log-normal sizes: a deviation of %s is none beside a mean of %s; give one size",
+              clx_unit_text(deviation, "m"), clx_unit_text(mean, "m"));
     *made = (clast_grading){.kind = LAW_LOGNORMAL, .low = low, .high = high};
     made->sigma = sqrt(variance);
     made->mu = log(mean) - 0.5 * variance;

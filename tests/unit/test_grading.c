@@ -537,7 +537,7 @@ static void bad_files_are_refused(void **state)
     CHECK_REFUSED(parse("sieve,mass\n1,2\n2,0\n", &c), "has no unit");
     CHECK_REFUSED(parse("sieve_mm,mass,passing\n1,2,0\n2,0,1\n", &c), "one of them");
     CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n", &c), "1 sieves");
-    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,x\n", &c), "no numbers");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,x\n", &c), "no column of numbers: row 2");
     CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,\n", &c), "row 2");
     CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,inf\n", &c), "row 2");
     CHECK_REFUSED(parse("sieve_mm,mass\n-1,2\n2,0\n", &c), "row 1: a sieve size of -1 mm");
