@@ -194,8 +194,7 @@ const cli_command cli_mesh_hull = {
                 "clast mesh hull scan.stl -o hull.obj --json"},
     .details =
         "Quickhull by qhull_r; reports the volume that the hull adds. Points are the vertices of a "
-        "PLY "
-        "or OBJ;\nof a CSV of points (x, y, z), clast shape measures the hull and --surfaces "
+        "PLY or OBJ;\nof a CSV of points (x, y, z), clast shape measures the hull and --surfaces "
         "writes it.",
     .fields = NULL,
     .config_size = 0,

@@ -189,31 +189,12 @@ static void weigh_all(clast_evolve *e)
     }
 }
 
-/// Least width of the domain: the sphere of this diameter fits between its walls, and in a periodic
-/// box no part of it meets its own image.
-static double width_of(const clast_domain *d)
-{
-    switch (d->kind) {
-    case CLAST_DOMAIN_BOX:
-    case CLAST_DOMAIN_MESH: // its bounding box: not less than the width
-        return fmin(d->high[0] - d->low[0], fmin(d->high[1] - d->low[1], d->high[2] - d->low[2]));
-    case CLAST_DOMAIN_CYLINDER:
-        return fmin(2.0 * d->radius, d->length);
-    case CLAST_DOMAIN_HALF_PIPE:
-        return fmin(d->radius, d->length);
-    case CLAST_DOMAIN_SPHERE:
-        return 2.0 * d->radius;
-    default:
-        return INFINITY; // of a caller's map it is not known
-    }
-}
-
 /// Refuses particles that are wider than the domain. Pairs meet in the frame of the larger, images
 /// of a periodic box are not looked at: half of the width is no limit.
 static clast_status check_widths(const clast_evolve *e)
 {
     clast_status status = CLAST_OK;
-    const double width = width_of(e->input->domain);
+    const double width = clx_evolve_least_width(e->input->domain);
     int32_t n = 0;
     int32_t widest = 0;
     for (int32_t i = 0; i < e->n_start; ++i) {

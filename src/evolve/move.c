@@ -261,31 +261,38 @@ static void in_surface(const leg *l, clx_evolve_body *b, double to[3])
     }
 }
 
-double clx_evolve_width(const clast_evolve *e)
+double clx_evolve_least_width(const clast_domain *d)
 {
-    const clast_domain *d = e->input->domain;
-    const clast_evolve_config *c = e->config;
-    const bool keeps = c->sides == CLAST_BORDER_DEPOSIT;
-    const double size[3] = {d->high[0] - d->low[0], d->high[1] - d->low[1], d->high[2] - d->low[2]};
-    if (d->kind == CLAST_DOMAIN_BOX) {
-        const double across = keeps ? fmin(size[0], size[1]) : (double)INFINITY;
-        return c->open_top ? fmin(across, size[2]) : across;
-    }
-    if (!keeps && c->floor != CLAST_BORDER_DEPOSIT) {
-        return (double)INFINITY;
-    }
     switch (d->kind) {
+    case CLAST_DOMAIN_BOX:
+    case CLAST_DOMAIN_MESH:
+        return fmin(d->high[0] - d->low[0], fmin(d->high[1] - d->low[1], d->high[2] - d->low[2]));
     case CLAST_DOMAIN_CYLINDER:
         return fmin(2.0 * d->radius, d->length);
     case CLAST_DOMAIN_HALF_PIPE:
         return fmin(d->radius, d->length);
     case CLAST_DOMAIN_SPHERE:
         return 2.0 * d->radius;
-    case CLAST_DOMAIN_MESH:
-        return fmin(size[0], fmin(size[1], size[2]));
     default:
-        return cbrt(clast_domain_volume(d));
+        return INFINITY;
     }
+}
+
+double clx_evolve_width(const clast_evolve *e)
+{
+    const clast_domain *d = e->input->domain;
+    const clast_evolve_config *c = e->config;
+    const bool keeps = c->sides == CLAST_BORDER_DEPOSIT;
+    if (d->kind == CLAST_DOMAIN_BOX) {
+        const double across =
+            keeps ? fmin(d->high[0] - d->low[0], d->high[1] - d->low[1]) : (double)INFINITY;
+        return c->open_top ? fmin(across, d->high[2] - d->low[2]) : across;
+    }
+    if (!keeps && c->floor != CLAST_BORDER_DEPOSIT) {
+        return (double)INFINITY;
+    }
+    const double width = clx_evolve_least_width(d);
+    return isfinite(width) ? width : cbrt(clast_domain_volume(d));
 }
 
 /// Share of the width that a part may spread: planes are exact one by one, curved walls nearly so;

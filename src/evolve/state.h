@@ -157,6 +157,11 @@ clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double
 /// @return CLAST_E_LIMIT where a body needs more than a million parts of it
 clast_status clx_evolve_move(clast_evolve *e, double dt);
 
+/// Least width of a domain: the sphere of this diameter fits between its walls, and in a periodic
+/// box no part of it meets its own image; of a surface that of its box, which is no less [m];
+/// INFINITY: of a caller's map it is not known.
+double clx_evolve_least_width(const clast_domain *domain);
+
 /// Least distance between walls that keep or lose what meets them, but for the floor of a box alone
 /// [m]; INFINITY: none such.
 double clx_evolve_width(const clast_evolve *e);

@@ -250,17 +250,16 @@ static double bound_most(const cone *c)
     double g[3] = {0};
     double w[3] = {0}; // the corners' plane is w . x = 1
     double most = 0.0;
-    for (int k = 0; k < 3; ++k) {
+    double volume = 0.0;
+    for (int k = 2; k >= 0; --k) {
         double across[3];
         v3_cross(across, c->corner[(k + 1) % 3], c->corner[(k + 2) % 3]);
         v3_axpy(g, g, c->area[k], across);
         v3_add(w, w, across);
         most = fmax(most, c->area[k]);
+        volume = fabs(v3_dot(c->corner[k], across));
     }
-    double across[3];
-    v3_cross(across, c->corner[1], c->corner[2]);
-    const double inverse = 1.0 / fabs(v3_dot(c->corner[0], across));
-    return inverse * fmin(v3_norm(g), most * v3_norm(w));
+    return fmin(v3_norm(g), most * v3_norm(w)) / volume;
 }
 
 static void add_cone(search *s, const cone *c)

@@ -18,8 +18,7 @@ typedef struct clx_quantity {
 /// The quantity of a key of summary.json or of a column ("size_m", "porosity_surface_hull",
 /// "interval.d_agg.low"); its unit is the one that the name ends in, if any.
 ///
-/// @param place  table, list or command that holds the key, for keys that mean something else
-/// there;
+/// @param place  table, list or command that holds the key, where keys mean something else there;
 ///               the key of a quantity, whose unit its mean, deviation, low and high have; NULL; or
 ///               any of these after CLX_MODEL_UNITS, where lengths are in the unit of a file that
 ///               does not tell it
