@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The shared libraries export clast_* and nothing else, but what the core shares with the view of the same release alone (clx_*, under the
-# version name CLAST_PRIVATE_...); every CLAST_API declaration is exported by one library. The core loads no cairo and no libpng.
+# version name CLAST_PRIVATE_...); every CLAST_API declaration is exported by one library. The core loads no cairo and no libpng. Nothing fuses
+# a product and a sum: its bytes would be other ones than those of machines that cannot.
 set -eu
 export LC_ALL=C
 cd "$(dirname "$0")/.."
@@ -33,6 +34,8 @@ if [ -n "$view" ]; then
     [ -z "$missing" ] || { echo "declared CLAST_API but not exported: $missing"; exit 1; }
 fi
 ! ldd "$build/libclast.so" | grep -E 'cairo|libpng|libX11' || { echo "the core loads a library of pictures (above)"; exit 1; }
+fused=$(objdump -d --no-show-raw-insn "$build"/libclast*.so | awk '/^[0-9a-f]+ <.*>:/{f=$2} /[ \t](v?fn?m(add|sub)|fml[as])/{print f}' | sort -u)
+[ -z "$fused" ] || { echo "multiplies and adds in one rounding: $fused"; exit 1; }
 echo "symbols: core $(printf '%s\n' "$exported" | wc -l), view $(printf '%s' "$view" | plain | wc -l) exported, all clast_*, all declared ones" \
     "present; $(printf '%s' "$shared" | grep -c . || true) shared by core and view; the core loads $(ldd "$build/libclast.so" | wc -l) libraries," \
     "the view $(ldd "$build/libclast_view.so" 2> /dev/null | wc -l)"

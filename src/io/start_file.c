@@ -56,12 +56,21 @@ static clast_status refuse_density(const clast_pack_config *c, const char *whose
                : clx_fail(CLAST_E_CONFIG, "density is the %s's own; leave it out", whose);
 }
 
-static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
+/// What only packings of other programs leave open.
+static clast_status refuse_options(const clast_pack_config *c, const char *whose)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(c->start_columns[0] == '\0' && c->start_diameter == 0.0, CLAST_E_CONFIG,
               "start_columns and start_diameter are for packings of spheres from other programs");
-    CLX_TRY(refuse_density(c, "state"));
+    CLX_TRY(refuse_density(c, whose));
+done:
+    return status;
+}
+
+static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(refuse_options(c, "state"));
     CLX_TRY(clast_state_read_assembly(c->start, a));
 done:
     return status;
@@ -196,7 +205,7 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
     const double *x[3];
     const char *const *name = text_column(table, "shape");
     CLX_CHECK(name != NULL, CLAST_E_FORMAT, "there is no column shape");
-    CLX_TRY(refuse_density(config, "table"));
+    CLX_TRY(refuse_options(config, "table"));
     CLX_TRY(find_places(table, x, made.unit));
     for (int32_t i = 0; i < n_shape; ++i) {
         CLX_TRY(clast_assembly_add_shape(&made, &shape[i], NULL));

@@ -87,6 +87,14 @@ class Starts(Case):
         with open(self.folder / "again" / "grains.csv", encoding="utf-8") as file:
             self.assertEqual({float(row["density_kg/m^3"]) for row in csv.DictReader(file)}, {2000.0})
 
+    def test_columns_and_diameter_beside_poses_are_refused(self):
+        """They had no effect, without a word."""
+        start = self.folder / "poses.csv"
+        start.write_text("shape,x_m,y_m,z_m,qw,qx,qy,qz,scale,density_kg/m^3\n1-sphere,0,0,5e-3,1,0,0,0,4e-3,2650\n")
+        for option in (("--start-columns", "x,y,z,d"), ("--start-diameter", "3mm")):
+            self.assert_fails(2, "pack", "--start", start, "--shapes", "sphere", *option, *LONE, "-o", self.folder / "bad",
+                              says=("are for packings of spheres from other programs",))
+
     def test_old_shapes_stay_where_rockables_configuration_fails(self):
         """The shapes' file was replaced before the configuration was whole."""
         many, shapes = self.folder / "many.data", self.folder / "many.shp"
