@@ -173,6 +173,10 @@ static clast_status measure_run(const char *input, const porosity_config *config
     lengths typed = {0};
     CLI_GUARD(read_input(input, config, s));
     CLI_GUARD(read_lengths(config, s->assembly.unit, &typed));
+    if (typed.gap > 0.0 && s->contacts.n_column > 0) {
+        return cli_fail(CLAST_E_USAGE, "%s is a run, which knows its contacts: leave out --gap",
+                        input);
+    }
     if (config->bed[0] != '\0') {
         clast_mesh_free(&s->surface);
         CLI_GUARD(cli_check_bed_lengths(config->bed, s->assembly.unit));
@@ -188,6 +192,10 @@ static clast_status measure_run(const char *input, const porosity_config *config
         return cli_fail(CLAST_E_USAGE,
                         "%s does not say what holds the grains; give --bed, such "
                         "as cylinder:52mm",
+                        input);
+    } else if (typed.floor != 0.0) {
+        return cli_fail(CLAST_E_USAGE,
+                        "%s knows its bed and its floor: leave out --floor, or give --bed too",
                         input);
     }
     cli_porosity_wanted wanted = {.options = clast_porosity_options_default(),

@@ -7,6 +7,7 @@ import textwrap
 SOURCE = pathlib.Path(__file__).resolve().parents[1] / "python/clast"
 FILES = {"fill": {"name", "history"},  # keys by which the command alone writes files; those of clouds, which a box has not
          "box_model": {"rebuild", "change_level", "fixed", "depth", "self_collisions"}}
+SIZES = ("curve",)  # texts that may be one size, as in _core.py
 MODULES = ("_beds", "_boxes", "_clouds", "_core", "_grains", "_growth", "_html", "_mesh", "_models", "_runs", "_studies", "_surfaces", "_tables", "_views")
 # function: its module, its command, and the library's tables that its **keys may name
 FUNCTIONS = {
@@ -106,6 +107,9 @@ class Functions:
         if row["type"] == "choice":
             return "Literal[" + ", ".join(f'"{word}"' for word in row["choices"].split("|")) + "]"
         has_unit = row["unit"] != "-"
+        if row["name"] in SIZES:
+            self.used.update(("Quantity", "Text"))
+            return "Quantity | Text"
         name = {"number": "Quantity" if has_unit else "float", "integer": "int", "flag": "bool", "text": "Text", "texts": "Texts",
                 "numbers": "Quantities"}[row["type"]]
         self.used.add(name)

@@ -6,6 +6,7 @@
 #include <clast/assembly.h>
 #include <clast/shape.h>
 #include <math.h>
+#include <stdio.h>
 
 const char *clx_arrays_fault(const clast_assembly *a)
 {
@@ -31,17 +32,17 @@ static const char *grain_fault(const clast_assembly *a, int32_t i)
 {
     const double *q = a->orientation[i];
     if (a->shape_id[i] < 0 || a->shape_id[i] >= a->n_shape) {
-        return "a grain names no shape";
+        return "it names no shape";
     }
     if (!isfinite(a->position[i][0] + a->position[i][1] + a->position[i][2])) {
-        return "a grain's position is not finite";
+        return "its position is not finite";
     }
     if (!(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0) <= 1e-6)) {
-        return "a grain's orientation is not a unit quaternion";
+        return "its orientation is not a unit quaternion";
     }
     return !(a->scale[i] > 0.0) || !isfinite(a->scale[i]) || !(a->density[i] >= 0.0) ||
                    !isfinite(a->density[i])
-               ? "a grain's scale is not above 0, or its density is negative"
+               ? "its scale is not above 0, or its density is negative"
                : NULL;
 }
 
@@ -53,6 +54,11 @@ const char *clx_assembly_fault(const clast_assembly *a)
     }
     for (int32_t i = 0; fault == NULL && i < a->n_grain; ++i) {
         fault = grain_fault(a, i);
+        if (fault != NULL) {
+            static _Thread_local char text[128];
+            (void)snprintf(text, sizeof text, "grain %d of %d: %s", i, a->n_grain, fault);
+            fault = text;
+        }
     }
     for (int32_t c = 0; fault == NULL && a->contact != NULL && c < a->n_contact; ++c) {
         const int32_t *pair = a->contact[c];

@@ -158,10 +158,19 @@ done:
     return status;
 }
 
+/// A bare number is told with its unit: "30 is outside [-90 deg, 90 deg]" tells nobody that it was
+/// taken as radians.
 static clast_status bad_range(const clast_field *f, const char *text)
 {
-    return clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%s, %s]", f->name, text,
-                    clx_unit_text(f->low, f->unit), clx_unit_text(f->high, f->unit));
+    char *end = NULL;
+    const double degrees = clx_number_read(text, &end) * CLAST_PI / 180.0;
+    const bool is_bare = f->unit != NULL && strcmp(f->unit, "-") != 0 && *end == '\0';
+    const bool means_degrees =
+        is_bare && strcmp(f->unit, "rad") == 0 && degrees >= f->low && degrees <= f->high;
+    return clx_fail(CLAST_E_CONFIG, "%s: %s%s%s is outside [%s, %s]%s%s%s", f->name, text,
+                    is_bare ? " " : "", is_bare ? f->unit : "", clx_unit_text(f->low, f->unit),
+                    clx_unit_text(f->high, f->unit), means_degrees ? "; write " : "",
+                    means_degrees ? text : "", means_degrees ? "deg" : "");
 }
 
 /// A number of the field; `is_si`: bare ones are SI, else lengths and angles need a unit.

@@ -268,6 +268,16 @@ class Porosity(Case):
         self.assertIn("1 pair of grains, the deepest by 10 %", clast("porosity", file, "--bed", "box:0,0,4mm,2mm").out)
         self.assert_fails(2, "porosity", self.lattice(2), "--columns", "x,y", "--bed", "box:0,0,2,2", says=["x, y and z"])
 
+    def test_a_run_knows_its_contacts_and_its_floor(self):
+        """--gap put two sets of contacts into one fabric table; --floor was passed over without a word."""
+        bed = self.folder / "bed"
+        found = clast("pack", "--curve", "4mm", "--mass", "0.5g", "--width", "30mm", "--height", "0.1m", "--shaking-time", "0s", "--max-steps", 2000, "-o", bed)
+        self.assertEqual(found.code, 0, found.err)
+        self.assert_fails(2, "porosity", bed, "--cut", 0.95, "--gap", "0.1mm", says=["knows its contacts", "--gap"])
+        self.assert_fails(2, "porosity", bed, "--cut", 0.95, "--floor", "1mm", says=["--floor", "--bed"])
+        self.assert_fails(2, "porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--gap", "0.1mm", says=["knows its contacts"])
+        self.assertEqual(clast("porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--floor=-1mm", "--json").json["z_low"], -1e-3)
+
     def test_the_jammed_packing_as_it_is(self):
         path = shared("packings/rcp10000/packing.xyzd")
         if path is None:

@@ -393,7 +393,7 @@ class Keywords(unittest.TestCase):
                           (lambda: clast.porosity(LATTICE, **bed, columns=3), "columns"), (lambda: clast.shapes(GRAIN, threshold="grey"), "threshold"),
                           (lambda: clast.mesh_form(GRAIN, size=True), "size"), (lambda: clast.mesh_form(GRAIN, size="2kg"), "size"),
                           (lambda: clast.Assembly.read_spheres(LATTICE, diameter={}), "diameter"), (lambda: clast.Assembly.read_spheres(LATTICE, diameter="1kg"), "diameter"),
-                          (lambda: clast.Grading("U3", spread=3), "spread"), (lambda: clast.Grading("U3", count="Exact"), "count"), (lambda: clast.Grading(3), "text"),
+                          (lambda: clast.Grading("U3", spread=3), "spread"), (lambda: clast.Grading("U3", count="Exact"), "count"), (lambda: clast.Grading({}), "text"),
                           (lambda: grading.size("few"), "share"), (lambda: grading.size(float("nan")), "share"), (lambda: grading.size(2), "share"),
                           (lambda: grading.n_expected("1m"), "mass"), (lambda: grain.shape(3), "axes"), (lambda: grain.shape("n"), "axes"),
                           (lambda: clast.Mesh.ellipsoid((1, 1)), "semi_axes"), (lambda: clast.Mesh.ellipsoid((1, 1, 1, 1)), "semi_axes"),
