@@ -25,7 +25,10 @@ typedef struct {
     double share; ///< in the structure
     double sd[3]; ///< 0: uniform along this axis
     double side;  ///< > 0: uniform in a corner block of this side instead
+    double layer; ///< > 0: uniform in a layer so thick across the last axis, off the border
 } scene;
+
+static const double layer_low = 0.37;
 
 static const scene scenes[] = {{"uniform_3d", 3, 0.0, {0, 0, 0}, 0},
                                {"sheet_0.02", 3, 1.0, {0, 0, 0.02}, 0},
@@ -41,7 +44,9 @@ static const scene scenes[] = {{"uniform_3d", 3, 0.0, {0, 0, 0}, 0},
                                {"blob_1_of_0.2", 2, 1.0, {0.2, 0.2, 0}, 0},
                                {"quadrant_0.85", 2, 0.85, {0, 0, 0}, 0.5},
                                {"uniform_1d", 1, 0.0, {0, 0, 0}, 0},
-                               {"blob_0.5_of_0.02_1d", 1, 0.5, {0.02, 0, 0}, 0}};
+                               {"blob_0.5_of_0.02_1d", 1, 0.5, {0.02, 0, 0}, 0},
+                               {"layer_0.1", 3, 1.0, {0, 0, 0}, 0, 0.1},
+                               {"layer_0.2", 3, 1.0, {0, 0, 0}, 0, 0.2}};
 
 static double cut_normal(clx_rng *rng, double sd)
 {
@@ -62,11 +67,14 @@ static void draw(const scene *s, clx_rng *rng, double *x)
                : s->sd[j] == 0.0 ? clx_rng_uniform(rng)
                                  : cut_normal(rng, s->sd[j]);
     }
+    if (inside && s->layer > 0.0) {
+        x[s->d - 1] = layer_low + s->layer * clx_rng_uniform(rng);
+    }
 }
 
 static double integral_of(const scene *s)
 {
-    double squared = 1.0;
+    double squared = s->layer > 0.0 ? 1.0 / s->layer : 1.0;
     for (int j = 0; j < s->d; ++j) {
         if (s->side > 0.0) {
             squared /= s->side;
@@ -81,6 +89,10 @@ static double integral_of(const scene *s)
 static double density(const scene *s, const double *x)
 {
     double product = s->share;
+    if (s->layer > 0.0) {
+        const double z = x[s->d - 1] - layer_low;
+        product *= z >= 0.0 && z < s->layer ? 1.0 / s->layer : 0.0;
+    }
     for (int j = 0; j < s->d; ++j) {
         if (s->side > 0.0) {
             product *= x[j] < s->side ? 1.0 / s->side : 0.0;

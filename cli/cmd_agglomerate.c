@@ -51,11 +51,11 @@ enum { MAX_FIELD = 160, MAX_DETAIL = 9000 };
 static clast_field fields[MAX_FIELD];
 static char details[MAX_DETAIL];
 
-/// Fields of a decomposition that count events and pairs, which collisions do not look at.
+/// Fields of a decomposition that say how events and pairs are told, which collisions do not look
+/// at.
 static bool is_left_out(const char *name)
 {
-    static const char *const list[] = {"beta_dt", "events",       "crossfit",
-                                       "pairs",   "pairs_radius", "estimator"};
+    static const char *const list[] = {"beta_dt", "events", "crossfit", "pairs", "pairs_radius"};
     bool is_found = false;
     for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
         is_found = is_found || strcmp(name, list[k]) == 0;
@@ -71,7 +71,10 @@ static void join_details(void)
         "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
         "files are snapshots of the same\nparticles: collisions go on for --duration in each, the "
         "last too, so that three take three times it;\ncells are made anew when the cloud has "
-        "changed.\n-o FOLDER writes history.csv, spectrum.csv, "
+        "changed. Positions, velocities and columns of the flow are each snapshot's own,\nother "
+        "columns the first one's. Cells are made anew too when half of the particles are left that "
+        "they were made\nof (--rebuild never: they are not).\n-o FOLDER writes history.csv, "
+        "spectrum.csv, "
         "particles.csv, summary.json, manifest.json\nand charts (number, moments, clusters, "
         "spectrum).\n"
         "With --box-model there are no POINTS: the size spectrum of a well-mixed box, by Monte "
@@ -113,10 +116,13 @@ __attribute__((constructor)) static void join_fields(void)
     join_details();
 }
 
+enum { N_FLOW = 4 }; ///< columns of each snapshot
+
 /// Snapshots and columns in memory.
 typedef struct {
     clast_table first; ///< its columns are borrowed by input
     clast_cloud *cloud;
+    double *flow[N_FLOW]; ///< [n_snapshot][n] speed_rms, temperature, shear, dissipation, or NULL
     clast_agglomerate_input input;
 } loaded;
 
@@ -125,21 +131,11 @@ static void free_loaded(loaded *l)
     for (int64_t k = 0; k < l->input.n_snapshot; ++k) {
         clast_cloud_free(&l->cloud[k]);
     }
+    for (int i = 0; i < N_FLOW; ++i) {
+        free(l->flow[i]);
+    }
     free(l->cloud);
     clast_table_free(&l->first);
-}
-
-static clast_status load_snapshot(const cli_common *common, const config *c, int32_t k, loaded *l)
-{
-    clast_table later = {0};
-    clast_table *table = k == 0 ? &l->first : &later;
-    clast_status status = CLAST_OK;
-    CLI_TRY(cli_points_read(common->argument[k], &c->points, table));
-    CLI_TRY(clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]));
-    l->input.n_snapshot = k + 1;
-done:
-    clast_table_free(&later);
-    return status;
 }
 
 /// What stands after the last "_" or in brackets of a column's name: "T_C", "T (degC)".
@@ -176,6 +172,48 @@ static clast_status to_kelvin(const char *name, double *temperature, int64_t n)
     return CLAST_OK;
 }
 
+/// What the fluid is at the particles of snapshot k.
+static clast_status take_flow(const cli_common *common, const config *c, const clast_table *table,
+                              int32_t k, loaded *l)
+{
+    const char *const name[N_FLOW] = {c->speed_rms_column, c->temperature_column, c->shear_column,
+                                      c->dissipation_column};
+    const int64_t n = l->first.n_row;
+    for (int i = 0; i < N_FLOW; ++i) {
+        double *column = NULL;
+        CLI_GUARD(clast_cloud_column(table, name[i], &column));
+        if (column == NULL || table->n_row != n) { // which clast_agglomerate refuses
+            continue;
+        }
+        if (l->flow[i] == NULL) {
+            l->flow[i] = calloc((size_t)n + 1, (size_t)common->n_argument * sizeof *column);
+        }
+        if (l->flow[i] == NULL) {
+            return cli_fail(CLAST_E_MEMORY, "not enough memory for %d snapshots",
+                            common->n_argument);
+        }
+        memcpy(l->flow[i] + k * n, column, (size_t)n * sizeof *column);
+        if (name[i] == c->temperature_column) {
+            CLI_GUARD(to_kelvin(name[i], l->flow[i] + k * n, n));
+        }
+    }
+    return CLAST_OK;
+}
+
+static clast_status load_snapshot(const cli_common *common, const config *c, int32_t k, loaded *l)
+{
+    clast_table later = {0};
+    clast_table *table = k == 0 ? &l->first : &later;
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_points_read(common->argument[k], &c->points, table));
+    CLI_TRY(clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]));
+    l->input.n_snapshot = k + 1;
+    CLI_TRY(take_flow(common, c, table, k, l));
+done:
+    clast_table_free(&later);
+    return status;
+}
+
 static clast_status load(const cli_common *common, const config *c, loaded *l)
 {
     l->cloud = calloc((size_t)common->n_argument, sizeof *l->cloud);
@@ -189,19 +227,18 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
     const struct {
         const char *name;
         const double **column;
-    } wanted[] = {
-        {c->monomers_column, &l->input.monomers},        {c->speed_rms_column, &l->input.speed_rms},
-        {c->temperature_column, &l->input.temperature},  {c->shear_column, &l->input.shear},
-        {c->dissipation_column, &l->input.dissipation},  {c->fixed_column, &l->input.fixed_cell},
-        {c->fixed_volume_column, &l->input.fixed_volume}};
+    } wanted[] = {{c->monomers_column, &l->input.monomers},
+                  {c->fixed_column, &l->input.fixed_cell},
+                  {c->fixed_volume_column, &l->input.fixed_volume}};
     for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; ++k) {
         double *column = NULL;
         CLI_GUARD(clast_cloud_column(&l->first, wanted[k].name, &column));
         *wanted[k].column = column;
-        if (column != NULL && wanted[k].column == &l->input.temperature) {
-            CLI_GUARD(to_kelvin(wanted[k].name, column, l->first.n_row));
-        }
     }
+    l->input.speed_rms = l->flow[0];
+    l->input.temperature = l->flow[1];
+    l->input.shear = l->flow[2];
+    l->input.dissipation = l->flow[3];
     return CLAST_OK;
 }
 
@@ -247,6 +284,7 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     cli_json_count(out, "repeats", c->agglomerate.repeats);
     cli_json_count(out, "n_rebuilt", r->n_rebuilt);
     cli_json_count(out, "n_unresolved", r->n_unresolved);
+    cli_json_number(out, "volume_fraction", r->volume_fraction);
     set_column(out, "gel_fraction", h, "gel_fraction");
     cli_json_number(out, "gel_time", r->gel_time);
     cli_json_bool(out, "is_gelation", r->is_gelation);
@@ -300,11 +338,10 @@ static void print_words(const config *c, int32_t n_snapshot, const clast_agglome
         (void)putchar('\n');
     }
     if (r->n_unresolved > 0) {
-        (void)printf(
-            "\nwarning: %d of %d times that cells were made the particles did not show their own "
-            "structure (clast decompose tells more): collisions there are a best guess, rather "
-            "too few than too many\n",
-            r->n_unresolved, r->n_rebuilt + 1);
+        (void)printf("\nwarning: in %d of %d snapshot%s the particles did not show their own "
+                     "structure (clast decompose tells more): collisions there are a best guess, "
+                     "rather too few than too many\n",
+                     r->n_unresolved, n_snapshot, cli_plural(n_snapshot));
     }
     if (r->is_gelation) {
         (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "
@@ -339,7 +376,9 @@ static clast_status check_used(const cli_common *common, const config *c)
     const clast_idle rules[] = {
         {a->collide.collisions == CLAST_COLLISIONS_NEXT, "leap", "without --collisions poisson"},
         {columns->weight_column[0] == '\0', "self_collisions", "without --weight-column"},
-        {common->n_argument == 1, "rebuild|change_level", "with one snapshot"},
+        {common->n_argument == 1, "change_level", "with one snapshot"},
+        {common->n_argument == 1 && a->rebuild == CLAST_REBUILD_ALWAYS, "rebuild",
+         "with one snapshot, which gets its cells whatever it says"},
         {a->rebuild != CLAST_REBUILD_CHANGED, "change_level", "with this --rebuild"},
         {c->temperature_column[0] != '\0', "temperature", "with --temperature-column"},
         {c->shear_column[0] != '\0', "shear", "with --shear-column"},
@@ -380,6 +419,7 @@ static clast_status run(const cli_common *common, void *values)
     out = summary(c, &result, cli_clock() - begun);
     cli_json_count(out, "n_snapshot", common->n_argument);
     cli_range_warn(common, &result.range);
+    cli_dense_warn(common, result.volume_fraction);
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
     (void)json_object_set_new(out, "seed", json_integer((json_int_t)c->agglomerate.decompose.seed));
     if (folder != NULL) {

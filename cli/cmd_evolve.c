@@ -2,6 +2,7 @@
 #include "command.h"
 #include "idle.h"
 #include "quantity.h"
+#include "ranges.h"
 #include "resume.h"
 
 #include <math.h>
@@ -88,8 +89,12 @@ static void print_text(const clast_evolve_result *r)
     }
     (void)printf("%-26s %.2g of the mass, %lld of the number, at the worst row\n", "balance off by",
                  r->mass_balance, (long long)r->number_balance);
-    (void)printf("%-26s %s in %lld steps; cells cut %lld times\n", "time",
-                 cli_quantity(r->time, "s"), (long long)r->n_step, (long long)r->n_cut);
+    (void)printf("%-26s %s in %lld steps; cells cut %lld times", "time", cli_quantity(r->time, "s"),
+                 (long long)r->n_step, (long long)r->n_cut);
+    if (r->n_unresolved > 0) {
+        (void)printf(", the pairs in them a best guess %lld times", (long long)r->n_unresolved);
+    }
+    (void)putchar('\n');
     print_range(&r->range);
     if (r->n_frame > 0) {
         (void)printf("%-26s %d (frames.pvd)\n", "frames", r->n_frame);
@@ -117,6 +122,7 @@ static clast_status run(const cli_common *common, void *context)
                 ? resume(common, config, &monitor, &result)
                 : clast_evolve_run(config, common->output, &monitor, &result));
     warn_of_fall(common, &result);
+    cli_dense_warn(common, result.volume_fraction);
     if (!common->json) {
         print_text(&result);
         goto done;
@@ -133,10 +139,11 @@ static const char details[] =
     "Particles fall by the drag of their own form, drift with a linear wind and diffuse, exactly\n"
     "for any step away from the borders (in a velocity field on a grid by steps of Runge and\n"
     "Kutta, a quarter of a cell each). In each step the cloud is cut into cells where it is\n"
-    "even (D2SD; kept while the tests accept them); in a cell pairs meet at the rate of the\n"
-    "kernel and stick by the law of sticking. Each event is one pair: the smaller comes to the\n"
-    "larger and stays where their true surfaces first touch, with the contact of clast aggregate;\n"
-    "where few touches stick, at any contact without overlap (--meeting reaction).\n"
+    "even (D2SD; kept while the tests accept them), with volumes that make up for the pairs which\n"
+    "cells hide; in a cell pairs meet at the rate of the kernel and stick by the law of sticking.\n"
+    "Each event is one pair: the smaller comes to the larger and stays where their true surfaces\n"
+    "first touch, with the contact of clast aggregate; where few touches stick, at any contact\n"
+    "without overlap (--meeting reaction).\n"
     "Mass, moments, porosity, collision radius, fall speed and diffusivity are those of the new\n"
     "aggregate from then on. Its envelope, of which diameter, porosity, density and fall are, is\n"
     "the solid ellipsoid of equal moments: clast aggregate takes others, larger for a core with a\n"

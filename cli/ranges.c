@@ -57,6 +57,16 @@ void cli_range_warn(const cli_common *common, const clast_range_report *r)
         100.0 * share_of(&r->collisions), when);
 }
 
+void cli_dense_warn(const cli_common *common, double volume_fraction)
+{
+    if (volume_fraction > 0.1 && !common->quiet) {
+        (void)fprintf(stderr,
+                      "clast %s: warning: the particles fill %.3g %% of the domain; kernels are of "
+                      "dilute suspensions: are radii and positions in the same unit?\n",
+                      common->command, 100.0 * volume_fraction);
+    }
+}
+
 size_t cli_range_table(char *words, size_t size)
 {
     size_t used = 0;

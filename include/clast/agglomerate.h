@@ -189,9 +189,12 @@ CLAST_API void clast_spectrum_free(clast_spectrum *result);
 // Agglomeration in time: cells by decomposition, collisions in them, again at each snapshot.
 // [docs/theory/agglomeration.md]
 
+/// Times at which cells are made anew.
 typedef enum {
-    CLAST_REBUILD_CHANGED, ///< when the cloud is found to have changed
-    CLAST_REBUILD_ALWAYS,  ///< at every snapshot
+    CLAST_REBUILD_CHANGED, ///< at a snapshot, when the cloud is found to have changed; before a
+                           ///< step, when half of the particles are left that several cells were
+                           ///< made of
+    CLAST_REBUILD_ALWAYS,  ///< at every snapshot, and before such a step
     CLAST_REBUILD_NEVER
 } clast_rebuild;
 
@@ -215,9 +218,10 @@ extern CLAST_API const clast_field clast_agglomerate_fields[];
 typedef struct clast_agglomerate_input {
     const clast_cloud *snapshot; ///< [n_snapshot] positions of the same particles
     int64_t n_snapshot;
-    const double *monomers;                          ///< [n] whole numbers > 0; NULL: 1 each
-    const double *speed_rms;                         ///< [n] m/s
-    const double *temperature, *shear, *dissipation; ///< [n] of the fluid at each particle
+    const double *monomers;  ///< [n] whole numbers > 0; NULL: 1 each
+    const double *speed_rms; ///< [n_snapshot][n] m/s
+    const double *temperature, *shear,
+        *dissipation;           ///< [n_snapshot][n] of the fluid at each particle
     const double *fixed_cell;   ///< [n] whole numbers >= 0: cell of the user's mesh, or < 0
     const double *fixed_volume; ///< [n] volume of that cell [m^d]
     const clast_domain *domain; ///< NULL: the one that the configuration names
@@ -238,8 +242,11 @@ typedef struct clast_agglomeration {
     /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.
     clast_table spectrum;
     int32_t n_rebuilt;    ///< decompositions after the first, first repeat
-    int32_t n_unresolved; ///< of these and the first: their points are not resolved
+    int32_t n_unresolved; ///< snapshots whose cells were made of points that are not resolved
     int32_t n_cell;       ///< last, first repeat
+    /// Of spheres of the collision radii at the start in the domain; NaN: without radii, or a
+    /// missing dimension has no depth. Kernels are of dilute suspensions.
+    double volume_fraction;
     bool has_exact, has_fixed;
     bool is_gelation; ///< in some run, of a kernel that gels
     int32_t n_gelled; ///< runs where a parcel came to hold more than n^(-1/3) of the monomers

@@ -380,7 +380,7 @@ typedef struct clast_decompose_parts {
 ///
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param table  out, a row a part, smallest first: n, events, events_low, events_high, n_cell,
-/// and the events scaled by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events
+/// and the events scaled to the pairs of all points, scaled_...; with a regular mesh regular_events
 /// and scaled_regular. Without beta dt they are pair_integral, ... [1/m^d]
 /// @return CLAST_E_CONFIG for counts out of range, weights or a variable, a regular mesh in a mesh
 /// domain; what clast_decompose_ranks returns

@@ -152,8 +152,12 @@ typedef struct clast_evolve_result {
     double mass_balance;                             ///< greatest |sum - start| / start of all rows
     int64_t number_balance; ///< greatest |particles + events + deposit + out - start| of all rows
     int64_t n_cut, n_test;  ///< times that cells were cut, that the tests were made
+    int64_t n_unresolved;   ///< of those cuts: neither cells nor pairs resolve the cloud, meetings
+                            ///< are then a best guess, rather too few; 0 for one cell (even: whole)
     int64_t grains_most;    ///< of one aggregate, wherever it is
     double deposit_diameter, deposit_porosity, deposit_speed, deposit_grains; ///< means by mass
+    double volume_fraction; ///< of the particles' own volumes at the start in the domain; kernels
+                            ///< are of dilute suspensions
     double fall_reynolds; ///< greatest of all bodies; the drag law holds up to 3e5, Stokes' to 0.1
     double fall_reynolds_limit;              ///< that of the run's own law
     double fractal_dimension, fractal_error; ///< of aggregates that events made; NAN

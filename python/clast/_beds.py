@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import (Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, quantity, refuse,
-                    settled, view, warn)
+                    settled, single, view, warn)
 from ._html import file_html
 from ._mesh import Mesh
 from ._runs import Assembly
@@ -121,6 +121,8 @@ class _Bed:
         self.contacts, self.velocities = (Owner(c.clast_table(), "clast_table_free") for _ in range(2))
         has_bed = False
         if isinstance(run, Assembly):
+            if columns or diameter:
+                raise refuse("columns, diameter: an assembly knows its grains")
             self.grains = run._copy()
         else:
             state = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
@@ -153,16 +155,21 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
 
     `bed` is what holds the grains ("cylinder:52mm"); a run of `clast pack` knows its own.
     """
-    given = settled("porosity", dict(method=method, cut=cut, at_slice=at_slice, core=core, local=local, rings=rings, pores=pores, chains=chains))
-    b = _Bed(run, bed, columns, diameter)
+    given = settled("porosity", dict(bed=bed, columns=columns, method=method, cut=cut, at_slice=at_slice, core=core, local=local, rings=rings, pores=pores, chains=chains))
+    bed = given["bed"]
+    b = _Bed(run, bed, given["columns"], single("diameter", diameter))
     given["fields"] = b.length("fields", fields)
     placed, held = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed)
-    bottom = b.length("floor", floor, -1e9)
+    bottom, near = b.length("floor", floor, -1e9), b.length("gap", gap)
+    if near > 0 and b.contacts.struct.n_column:
+        raise refuse("gap: the run knows its contacts; leave gap out")
     if bed and b.bed.kind in (c.VALUES["CLAST_BED_MESH"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
         if bottom:
             raise refuse(f"floor: bed {bed} has a bottom of its own")
     elif bed:
         b.bed.floor = bottom
+    elif bottom:
+        raise refuse("floor: the run knows its bed and its floor; leave floor out, or give bed too")
     options = call("clast_porosity_options_default")()
     options.method, options.cut, options.trim, options.at_slice = int(given["method"] == "spheres"), given["cut"], b.length("trim", trim), given["at_slice"]
     slice_height = b.length("layer", layer)
@@ -180,7 +187,7 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     walls = call("clast_bed_side_walls")(held, placed)
     if given["core"] > 0:
         check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(bulk), given["core"], ctypes.byref(options), ctypes.byref(away)))
-    touching = _contacts(b, b.length("gap", gap))
+    touching = _contacts(b, near)
     tables: dict[str, Any] = _more(b, given, options, profile, bulk)
     return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top, b.grains.unit, len(b.grains), walls.size, walls.ratio,
                     away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)

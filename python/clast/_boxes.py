@@ -9,7 +9,7 @@ from typing import Any, Iterable
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, html_last, nearest, numbers, refuse, warn
+from ._core import Config, Error, Owner, call, check, html_last, nearest, numbers, refuse, single, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
@@ -40,6 +40,12 @@ def warn_of_range(report: Any) -> None:
         warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the collisions{since}")
 
 
+def warn_of_dense(volume_fraction: float) -> None:
+    if volume_fraction > 0.1:
+        warn(f"the particles fill {100 * volume_fraction:.3g} % of the domain; kernels are of dilute suspensions: are radii and positions in the "
+             "same unit?")
+
+
 def _warn_of_start(history: Table, law: Any) -> None:
     """Warns where drawn particles do not hold what their law has, as the command does: a tail of few large ones is in few samples."""
     mass, second = history["M1"][0], history["M2"][0]
@@ -68,9 +74,9 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". A call cannot be interrupted: Ctrl-C waits.
     """
-    solver = keys.get("solver") or "monte-carlo"
+    solver = "monte-carlo" if keys.get("solver") is None else str(single("solver", keys["solver"]))
     own = set(_FIELDS["clast_spectrum_fields"])
     for name in keys:
         if name in _OF_CLOUDS:

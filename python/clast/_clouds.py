@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._boxes import check_used, warn_of_range
-from ._core import (Config, Fixed, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, numbers, people_write,
-                    refuse, settled, view, warn, whole)
+from ._boxes import check_used, warn_of_dense, warn_of_range
+from ._core import (Config, Fixed, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, items, numbers,
+                    people_write, refuse, settled, view, warn, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -35,18 +35,21 @@ class Decomposition:
     pair_integral: float  #: without beta_dt (with it: events / beta_dt), else nan
     pair_integral_low: float
     pair_integral_high: float
+    events_cross: float  #: the two with crossfit=True, free of the bias of choosing cells by their counts; else nan
+    pair_integral_cross: float
     resolved: bool
     keeps_apart: bool  #: seeded evenly, stratified or repelling: not resolved
     points_needed: float
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
+    n_repeated: int  #: points that lie where another lies
     sizes: Table | None  #: events of random parts of the points, with sizes=K
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
 
     @cached_property
     def cells(self) -> NDArray[Any]:
-        """low, high, volume, count, weight, events of each cell."""
+        """low, high, volume, count, weight, events (without beta_dt the pair integral) of each cell."""
         kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
         cells = np.zeros(self.n_cell, np.dtype(kinds))
         for name, *kind in kinds:
@@ -70,13 +73,11 @@ class Decomposition:
         """g(r) in shells of distance, with pairs=True or the estimator "pairs"."""
         return table_of(self._owner, self._owner.struct.pairs.shells)
 
-    @property
-    def n_repeated(self) -> int:
-        """Points that lie where another lies."""
-        return self._cloud.n_repeated
-
     def chart(self, name: str, path: Path) -> None:
-        """Draws "points", "density", "score" or "events" ("pair_integral" without beta_dt) into an .svg, .pdf or .png file."""
+        """Draws "points", "density", "score" or "events" ("pair_integral" without beta_dt) into an .svg, .pdf or .png file.
+
+        Points are drawn where the cloud's array has them now.
+        """
         names = [call("clast_decompose_chart_name")(k, ctypes.byref(self._owner.struct)).decode()
                  for k in range(c.VALUES["CLAST_N_DECOMPOSE_CHART"])]
         number = choice("name", name, "|".join(names))
@@ -130,7 +131,7 @@ class Cloud(Fixed):
         return cloud
 
     @classmethod
-    def read(cls, path: Path, *, columns: Any = "x,y,z", unit: str = "", radius_column: str = "", diameter_column: str = "",
+    def read(cls, path: Path, *, columns: Any = "x,y,z", unit: str | None = "", radius_column: str = "", diameter_column: str = "",
              mass_column: str = "", velocity_columns: Any = "", weight_column: str = "", variable_column: str = "", dataset: str = "",
              frame: int = 0, domain: str | None = None) -> Cloud:
         """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
@@ -139,8 +140,8 @@ class Cloud(Fixed):
         check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
         names = dict(radius_column=radius_column, diameter_column=diameter_column, mass_column=mass_column, weight_column=weight_column,
                      variable_column=variable_column, unit=unit)
-        wanted = c.clast_cloud_columns(**{name: encoded(name, text) for name, text in names.items()})
-        lists = [_text_list(columns), _text_list(velocity_columns)]
+        wanted = c.clast_cloud_columns(**{name: encoded(name, "" if text is None else text) for name, text in names.items()})
+        lists = [_text_list("columns", "x,y,z" if columns is None else columns), _text_list("velocity_columns", velocity_columns)]
         wanted.columns, wanted.velocity_columns = lists
         check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
         owner, n, dimension = Owner(struct, "clast_cloud_free"), struct.n, struct.dimension
@@ -164,6 +165,13 @@ class Cloud(Fixed):
             return self._columns[name]
         raise AttributeError(f"this cloud has no {name}" if name in _COLUMNS else name)
 
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._columns]
+
+    def __repr__(self) -> str:
+        columns = f" with {', '.join(self._columns)}" if self._columns else ""
+        return f"<clast.Cloud of {len(self)} points in {self.positions.shape[1]} dimensions{columns}>"
+
     @property
     def n_repeated(self) -> int:
         """Points that lie where another lies."""
@@ -185,9 +193,9 @@ class Cloud(Fixed):
                            "least (m)": " ".join(f"{x:.6g}" for x in low), "greatest (m)": " ".join(f"{x:.6g}" for x in high)})
 
 
-def _text_list(value: Any) -> Any:
-    items = [encoded("text", text) for text in ([value] if isinstance(value, str) else value) if text]
-    return c.clast_text_list(n=len(items), item=(ctypes.c_char_p * max(1, len(items)))(*items))
+def _text_list(name: str, value: Any) -> Any:
+    texts = [encoded(name, text) for text in items(name, value) if text]
+    return c.clast_text_list(n=len(texts), item=(ctypes.c_char_p * max(1, len(texts)))(*texts))
 
 
 def _column(name: str, value: Any, x: Floats) -> Floats:
@@ -195,6 +203,14 @@ def _column(name: str, value: Any, x: Floats) -> Floats:
     if len(array) != len(x):
         raise refuse(f"{name}: {len(array)} rows where there are {len(x)} positions")
     return array
+
+
+def _flow(name: str, value: Any, snapshots: list[Cloud]) -> Floats:
+    """What the fluid is at each particle of each snapshot: (n,) of all of them, or (snapshots, n)."""
+    rows = value if np.ndim(value) == 2 else [value] * len(snapshots)
+    if len(rows) != len(snapshots):
+        raise refuse(f"{name}: {len(rows)} rows where there are {len(snapshots)} snapshots")
+    return np.concatenate([_column(name, row, snapshots[0].positions) for row in rows])
 
 
 def _domain(cloud: Cloud, domain: str | None) -> str:
@@ -211,6 +227,7 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
     ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree"). `test_only` runs the
     tests alone (`reject` says what they found); `sizes` gives the table of that name, what `clast decompose --sizes` writes.
+    A call cannot be interrupted: Ctrl-C waits for its end.
     """
     own = settled("decompose", dict(test_only=test_only, sizes=sizes, regular=regular))
     if own["test_only"]:
@@ -222,11 +239,12 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
         owner = Owner(result, "clast_decomposition_free")
         parts = _parts_of(cloud, own["sizes"], own["regular"], config.struct) if own["sizes"] else None
         _warn_of_units(config.struct, cloud)
-        if config.struct.variant != c.VALUES["CLAST_VARIANT_TEST"] and result.pairs.n > 0:
+        is_test = config.struct.variant == c.VALUES["CLAST_VARIANT_TEST"]
+        if not is_test and result.pairs.n > 0:
             _warn_of_pairs(result)
     if result.n_pass > 0 and result.points_per_bin < 10:
         warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
-    return _decomposition(owner, cloud, parts)
+    return _decomposition(owner, cloud, parts, is_test)
 
 
 def _warn_of_units(config: Any, cloud: Cloud) -> None:
@@ -276,9 +294,10 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
                 **keys: Any) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
-    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
-    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
-    duration="10s", n_step=100, seed=1).
+    radius, mass, weight, velocity and monomers are those of the first snapshot (a Cloud has its own velocities in each); speed_rms, temperature,
+    shear and dissipation are numbers, texts with a unit ("300 K"), or arrays of one value a particle, of all snapshots (n,) or of each
+    (snapshots, n). Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    duration="10s", n_step=100, seed=1). A call cannot be interrupted: Ctrl-C waits for its end.
     """
     if not snapshots:
         raise refuse("snapshots: none is given")
@@ -293,7 +312,7 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
             keys[name] = value  # of all particles
         elif value is not None:
             given_columns.append(name)
-            held.append(_column(name, value, made[0].positions))
+            held.append(_column(name, value, made[0].positions) if name == "monomers" else _flow(name, value, made))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
     owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
@@ -303,22 +322,30 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
         _warn_of_units(config.struct.decompose, made[0])
     r = owner.struct
     warn_of_range(r.range)
+    warn_of_dense(r.volume_fraction)
     if r.n_unresolved > 0:
-        warn(f"{r.n_unresolved} of {r.n_rebuilt + 1} times that cells were made the particles did not show their own structure (decompose tells "
-             "more): collisions there are a best guess, rather too few than too many")
+        where = f"in {r.n_unresolved} of {len(made)} snapshot{'s' if len(made) > 1 else ''}"
+        warn(f"{where} the particles did not show their own structure (decompose tells more): collisions there are a best guess, rather too few than "
+             "too many")
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
-def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposition:
+def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None, is_test: bool) -> Decomposition:
     r, nan = owner.struct, float("nan")
+    if is_test:  # whose one cell says nothing of events, least of all in a cloud just rejected
+        r.events = r.events_low = r.events_high = r.events_cross = r.points_needed = nan
+        r.resolved = r.keeps_apart = False
+        view(owner, r.cells.events, (r.cells.n,), np.float64)[...] = nan
     is_bound = not math.isnan(r.events_low)
     given = tuple(v if math.isfinite(v) else nan for v in
                   (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
     none = (nan, nan, nan)
     events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
+    cross = (r.events_cross, nan) if r.beta_dt > 0 else (nan, r.events_cross)
     estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
     return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject if r.before.n_test > 0 else None, score=r.before.score,
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
-                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], events_cross=cross[0], pair_integral_cross=cross[1],
+                         n_repeated=cloud.n_repeated, resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,
                          points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

@@ -8,6 +8,7 @@ import inspect
 import math
 import os
 import pathlib
+import re
 import signal
 import sys
 import threading
@@ -93,15 +94,26 @@ def call(name: str) -> Any:
     return function
 
 
+def status_name(status: int) -> str:
+    return _STATUS.get(status, str(status))
+
+
 def check(status: int, name: str = "") -> None:
     """Raises what the calling thread's last call failed with, `name` before it."""
     if status != 0:
-        detail = call("clast_error_detail")().decode("utf-8", "replace")
-        raise Error(_STATUS.get(status, str(status)), f"{name}: {detail}" if name else detail)
+        detail = in_python(call("clast_error_detail")().decode("utf-8", "replace"))
+        raise Error(status_name(status), f"{name}: {detail}" if name else detail)
+
+
+def in_python(line: str) -> str:
+    """A line of the library's without names of C functions, its options as the keywords that they are here ("--mean-free-path")."""
+    line = re.sub(r"(?<!\S)clast_\w+: ", "", line, count=1)
+    line = re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), line)
+    return re.sub(r"\b(by|without) -o\b", r"\1 output", line)
 
 
 def refuse(line: str) -> Error:
-    return Error("CLAST_E_ARGUMENT", line)
+    return Error("CLAST_E_ARGUMENT", line.replace("\n", " "))  # of an array
 
 
 def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
@@ -207,6 +219,12 @@ def written(name: str, value: Any) -> str | os.PathLike[str]:
     return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 
+def size(name: str, value: Any) -> Any:
+    """A text that may be one size: a number is in metres."""
+    one = single(name, value)
+    return one if isinstance(one, (str, bool, os.PathLike)) or not isinstance(one, Real) else f"{written(name, one)} m"
+
+
 def flag(name: str, value: Any) -> bool:
     """A flag by itself or by one of the words that the command takes ("yes", "off")."""
     word = written(name, single(name, value))
@@ -278,7 +296,7 @@ def warn(line: str) -> None:
     frame, level = sys._getframe(1), 2
     while frame is not None and frame.f_code.co_filename.startswith(_HOME):
         frame, level = frame.f_back, level + 1  # type: ignore[assignment]
-    warnings.warn(line, stacklevel=level)
+    warnings.warn(in_python(line), stacklevel=level)
 
 
 _HOME = os.path.dirname(__file__) + os.sep
@@ -287,7 +305,7 @@ _HOME = os.path.dirname(__file__) + os.sep
 def note(line: str) -> None:
     """What the command says as a note ("printable.stl: about 48 MB"), to the logger "clast"."""
     import logging
-    logging.getLogger("clast").info("%s", line)
+    logging.getLogger("clast").info("%s", in_python(line))
 
 
 def people_write(value: float, unit: str) -> str:
@@ -322,6 +340,9 @@ def spelt(function: Callable[P, R]) -> Callable[P, R]:
     return checked
 
 
+SIZES = ("curve",)  #: keys that take a text, or one size
+
+
 class Config:
     """A configuration of the library's: its tables' defaults, then keywords in SI numbers or texts with a unit ("50deg")."""
 
@@ -352,6 +373,7 @@ class Config:
         if not values:
             call("clast_field_clear")(found[0], self._bytes)
         for k, one in enumerate(values):
+            one = size(name, one) if name in SIZES else one
             is_text = isinstance(one, (str, os.PathLike))
             if kind == c.VALUES["CLAST_FIELD_U64"] and isinstance(one, float) and one.is_integer():
                 one = int(one)  # as 3.0 is where fewer bits are kept
@@ -469,7 +491,7 @@ def nearest(name: str, names: Iterable[str]) -> str:
 def choice(key: str, value: str, words: str) -> int:
     """The number of a word among "a|b|c"; any other is refused by name."""
     known = words.split("|")
-    if value not in known:
+    if not isinstance(value, str) or value not in known:
         raise refuse(f"{key}: '{value}' is none of {', '.join(known)}{nearest(str(value), known)}")
     return known.index(value)
 

@@ -276,9 +276,10 @@ def agglomerate(
 ) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
-    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
-    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
-    duration="10s", n_step=100, seed=1).
+    radius, mass, weight, velocity and monomers are those of the first snapshot (a Cloud has its own velocities in each); speed_rms, temperature,
+    shear and dissipation are numbers, texts with a unit ("300 K"), or arrays of one value a particle, of all snapshots (n,) or of each
+    (snapshots, n). Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    duration="10s", n_step=100, seed=1). A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
@@ -418,7 +419,7 @@ def box_model(
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". A call cannot be interrupted: Ctrl-C waits.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         seed: seed of the ghost points (default 1)
@@ -525,6 +526,7 @@ def decompose(
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
     ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree"). `test_only` runs the
     tests alone (`reject` says what they found); `sizes` gives the table of that name, what `clast decompose --sizes` writes.
+    A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
@@ -569,7 +571,7 @@ def evolve(
         shape_weight: Quantities | None = None,
         density: Quantities | None = None,
         unit: Text | None = None,
-        curve: Text | None = None,
+        curve: Quantity | Text | None = None,
         particles: int | None = None,
         weight: float | None = None,
         release: Text | None = None,
@@ -806,6 +808,7 @@ def fit(
 
     `table` has a row a bed (a file, a structured array, a DataFrame, a dictionary of columns); with `grains` a second table, or the
     folder of a study of `clast pack`, holds the grains of all beds, and a column of both (group="bed") names the bed.
+    A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         features: form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns (auto, form, mixture, columns; default auto)
@@ -987,7 +990,7 @@ def pack(
         *,
         output: Path | None = None,
         progress: Progress = None,
-        curve: Text | None = None,
+        curve: Quantity | Text | None = None,
         spread: Literal["step", "linear", "means"] | None = None,
         count: Literal["mean", "exact"] | None = None,
         size_meaning: Literal["sieve", "volume"] | None = None,
@@ -1243,7 +1246,7 @@ def predict(
         elongation: Moments | None = None,
         *,
         table: Any = None,
-        model: Model | Path = 'auto',
+        model: Model | Fit | Path = 'auto',
         grading: str = 'U1',
         grains: int = 0,
         columns: str = '',
@@ -1273,7 +1276,7 @@ def predict(
 def predict_beds(
         table: Any,
         *,
-        model: Model | Path = 'auto',
+        model: Model | Fit | Path = 'auto',
         grading: str = 'U1',
         columns: str = '',
 ) -> Table:
@@ -1433,7 +1436,8 @@ def shapes(
 ) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults`, the others are measured. Without `unit` lengths are those of the files.
+    What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
+    A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         axes: definition of L, I and S behind D and the form factors (ellipsoid, box, fitted, feret, principal; default ellipsoid)

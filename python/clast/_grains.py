@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Floats, Owner, call, check, choice, encoded, html_table, items, quantity, refuse, settled, view, warn
+from ._core import Error, Floats, Owner, call, check, choice, encoded, html_table, items, note, quantity, refuse, settled, status_name, view, warn
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
@@ -106,12 +106,13 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
            surfaces: Path | None = None) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults`, the others are measured. Without `unit` lengths are those of the files.
+    What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
+    A call cannot be interrupted: Ctrl-C waits for its end.
     """
     if not files:
         raise refuse("files: none is given")
     words = c.KEYS["shape"]
-    given = settled("shape", dict(axes=axes, hull=hull, degree=degree, level=level, spacing=spacing, kind=kind, voxel_type=voxel_type,
+    given = settled("shape", dict(axes=axes, hull=hull, degree=degree, level=level, spacing=spacing, kind=kind, unit=unit, voxel_type=voxel_type,
                                   big_endian=big_endian, skip=skip, least_voxels=least_voxels))
     options = c.clast_grains_options(kind=choice("kind", given["kind"], words["kind"][5] or ""), hull=given["hull"], degree=given["degree"],
                                      level=given["level"], spacing=given["spacing"], dataset=encoded("dataset", dataset),
@@ -130,8 +131,8 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
         edges = _numbers("voxel_edge", voxel_edge, (1, 3))
         volume.edge[:] = edges * 3 if len(edges) == 1 else edges
     metres = ctypes.c_double()
-    if unit:
-        check(call("clast_unit_factor")(encoded("unit", unit), b"m", ctypes.byref(metres)))
+    if given["unit"]:
+        check(call("clast_unit_factor")(encoded("unit", given["unit"]), b"m", ctypes.byref(metres)))
     return _measure(files, options, metres.value, choice("axes", given["axes"], words["axes"][5] or ""))
 
 
@@ -150,4 +151,12 @@ def _measure(files: tuple[Path, ...], options: Any, metres: float, axes: int) ->
     faults, notes = (tuple(lines[k].text.decode("utf-8", "replace") for k in range(n)) for lines, n in ((g.fault, g.n_fault), (g.note, g.n_note)))
     for line in notes:
         warn(line)
+    n_mask = sum(one.is_smoothed and one.kind == c.VALUES["CLAST_GRAINS_VOXELS"] for one in records)
+    if n_mask:
+        note(f"{n_mask} of {g.n} grains are of a mask (one value inside, one outside, no grey levels at threshold): their surfaces are smoothed as "
+             "labels' are")
+    if faults and not g.n:
+        raise Error(status_name(g.fault[g.n_fault - 1].status), faults[-1])
+    if faults:
+        warn(f"{len(faults)} file{'s' if len(faults) > 1 else ''} or grain{'s' if len(faults) > 1 else ''} could not be measured (first: {faults[0]})")
     return Grains(table_of(table), faults, notes, "m" if in_metres else "model")

@@ -7,7 +7,8 @@ import os
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Monitor, Progress, call, check, encoded, people_write, refuse, text_of, warn
+from ._boxes import warn_of_dense
+from ._core import Config, Monitor, Progress, call, check, encoded, note, people_write, refuse, text_of, warn
 from ._runs import Result
 from ._tables import Path
 
@@ -29,20 +30,21 @@ def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: 
             check(monitor.run(lambda m: call("clast_aggregate_resume")(encoded("resumed", resumed), None, m, ctypes.byref(report)) if resumed else
                               call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
         values = json.loads(text_of(lambda text: call("clast_aggregate_report_json")(ctypes.byref(report), True, text)))
-        return Result(values, resumed if output is None else os.fspath(output))
+        return Result(values, _folder(output, resumed))
     finally:
         call("clast_aggregate_report_free")(ctypes.byref(report))
 
 
 def _resumed(output: Path | None, keys: dict[str, Any], free: str = "") -> str | None:
     """The folder to go on with; every other key is the folder's own."""
-    if not keys.get("resume"):
+    resume = keys.get("resume")
+    if resume is None or isinstance(resume, str) and not resume:
         return None
+    folder = os.fsdecode(encoded("resume", resume))
     others = [name for name, value in keys.items() if name not in ("resume", free) and value is not None]
     if others or output is not None:
-        raise refuse(f"resume: {os.fspath(keys['resume'])} has every key; leave {(others or ['output'])[0]} out")
-    folder: str = os.fspath(keys["resume"])
-    return folder
+        raise refuse(f"resume: {folder} has every key; leave {(others or ['output'])[0]} out")
+    return os.path.abspath(folder)
 
 
 def _aggregate_fit(config: Config, output: Path | None, monitor: Monitor) -> Result:
@@ -50,7 +52,12 @@ def _aggregate_fit(config: Config, output: Path | None, monitor: Monitor) -> Res
     folder = None if output is None else encoded("output", output)
     check(monitor.run(lambda m: call("clast_aggregate_fit_study")(ctypes.byref(config.struct), folder, m, ctypes.byref(found))))
     values = json.loads(text_of(lambda text: call("clast_aggregate_fit_json")(ctypes.byref(found), text)))
-    return Result(values, None if output is None else os.fspath(output))
+    return Result(values, _folder(output))
+
+
+def _folder(output: Path | None, resumed: str | None = None) -> str | None:
+    """Where a run was written, found from any working folder."""
+    return resumed if output is None else os.path.abspath(os.fsdecode(output))
 
 
 def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
@@ -65,14 +72,22 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
             check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, None, m, ctypes.byref(result)) if resumed else
                               call("clast_pack_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
-        _warn_of_motion(result)
-        return Result(values, resumed if output is None else os.fspath(output))
+        _warn_of_bed(result)
+        return Result(values, _folder(output, resumed))
     finally:
         call("clast_pack_result_free")(ctypes.byref(result))
 
 
-def _warn_of_motion(r: Any) -> None:
-    """Warns of what still moves, as the command does."""
+def _warn_of_bed(r: Any) -> None:
+    """Warns of what still moves and of a mass that is not the one asked for, as the command does."""
+    if r.mass_wanted > 0 and r.n_left == 0 and r.dem.mass > 1.5 * r.mass_wanted:
+        warn(f"{r.dem.mass / r.mass_wanted:.3g} times the mass that was asked for: {people_write(r.dem.mass / r.dem.n_grain, 'kg')} one grain weighs; "
+             "give more mass or smaller grains")
+    if r.own_density > 0:
+        note(f"aggregates of {people_write(r.own_density, 'kg/m^3')} are packed at {people_write(r.given_density, 'kg/m^3')}: density=0 keeps their own")
+    if r.dem.n_grain > 0 and r.n_stage == 0 and r.cell.side[2] == 0 and r.still_diameters > 10:
+        note(f"still_speed is {r.still_diameters:.3g} diameters of the smallest grain a second: for such grains take a lower still_speed, and "
+             "height_change with it")
     if r.phase == c.VALUES["CLAST_PACK_DONE"] and r.is_moving and r.n_stage == 0:
         warn("the bed was level and still moves: its fastest grain is not below still_speed; rule='speed' waits until it is")
     if r.fell:
@@ -93,6 +108,10 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
             check(monitor.run(lambda m: call("clast_evolve_resume")(encoded("resumed", resumed), m, ctypes.byref(result)) if resumed else
                               call("clast_evolve_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_evolve_result_json")(ctypes.byref(result), True, text)))
-        return Result(values, resumed if output is None else os.fspath(output))
+        if result.fall_reynolds > result.fall_reynolds_limit:
+            warn(f"Reynolds number of the fastest fall is {result.fall_reynolds:.2g}, beyond the {result.fall_reynolds_limit:g} of the drag law"
+                 + ("; take fall='form' or 'sphere'" if result.fall_reynolds_limit < 1 else ""))
+        warn_of_dense(result.volume_fraction)
+        return Result(values, _folder(output, resumed))
     finally:
         call("clast_evolve_result_free")(ctypes.byref(result))

@@ -36,6 +36,9 @@ class View:
         with open(path, "wb") as file:
             file.write(self.page)
 
+    def __repr__(self) -> str:
+        return f"<clast.View of {len(self.page) // 1000} kB>"
+
     def _repr_html_(self) -> str:
         page = escape(self.page.decode("utf-8", "replace")).encode("ascii", "xmlcharrefreplace").decode()  # in a page of any encoding
         return (f'<iframe title="{escape(self.title)}" width="100%" height="500" style="border: 0" sandbox="allow-scripts" '

@@ -133,10 +133,10 @@ class Mesh:
         return mesh
 
     @classmethod
-    def read(cls, path: Path, weld: bool = True) -> Mesh:
+    def read(cls, path: Path, weld: bool | None = True) -> Mesh:
         """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
         struct, told, joined = c.clast_mesh(), c.clast_mesh_read_report(), c.clast_mesh_repair_report()
-        is_welded = flag("weld", weld)
+        is_welded = weld is None or flag("weld", weld)
         check(call("clast_mesh_read")(encoded("path", path), ctypes.byref(struct), ctypes.byref(told)))
         owner = Owner(struct, "clast_mesh_free")
         for k in range(told.n_warning):
@@ -246,7 +246,9 @@ class Mesh:
         return Mesh._own(struct)
 
     def write(self, path: Path) -> None:
-        """Writes STL, OBJ, PLY or OFF by the name's end."""
+        """Writes STL, OBJ, PLY or OFF by the name's end; mesh_convert writes 3MF too, which needs the unit."""
+        if os.fsdecode(encoded("path", path)).lower().endswith(".3mf"):
+            raise refuse("path: 3MF is in millimetres and a mesh has no unit; mesh_convert(mesh, path, unit='mm') writes it")
         check(call("clast_mesh_write")(self._struct(), encoded("path", path), None))
 
     def check(self) -> MeshCheck:

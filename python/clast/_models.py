@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Error, Fixed, Owner, call, check, choice, encoded, html_members, html_table, items, keys, refuse, settled, warn
+from ._core import Config, Error, Fixed, Owner, call, check, choice, encoded, html_members, html_table, items, keys, note, refuse, settled, warn
 from ._grains import warn_of_rows
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
@@ -52,8 +52,11 @@ class Model(Fixed):
 
     def write(self, path: Path) -> None:
         """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
-        note = (ctypes.c_char_p * 2)(b"clast", c.VERSION.encode())
-        check(call("clast_porosity_model_write")(ctypes.byref(self._model), note, 1, encoded("path", path)))
+        origin = (ctypes.c_char_p * 2)(b"clast", c.VERSION.encode())
+        check(call("clast_porosity_model_write")(ctypes.byref(self._model), origin, 1, encoded("path", path)))
+
+    def __repr__(self) -> str:
+        return f"<clast.Model {self.name}>"
 
     def _repr_html_(self) -> str:
         return html_table([(self.name, ""), ("intercept", self.intercept), *self.coefficients.items()], ("term", "coefficient"), self.source)
@@ -93,11 +96,11 @@ def _moments(name: str, value: Moments) -> tuple[float, float | None]:
     return found[0], found[1] if len(found) == 2 else None
 
 
-def _choose(model: Model | Path, grading: str, has_spread: bool) -> Model:
+def _choose(model: Model | Fit | Path, grading: str, has_spread: bool) -> Model:
     """The model by "auto", "single" or "mixture" for a published grading, by its published name, or of a file."""
-    if isinstance(model, Model):
-        return model
-    word = os.fspath(model)
+    if isinstance(model, (Model, Fit)):
+        return model if isinstance(model, Model) else model.model
+    word = os.fsdecode(encoded("model", model))
     choice("grading", grading, keys("predict")["grading"].choices or "")
     if word not in ("auto", "single", "mixture"):
         return Model(model)
@@ -109,6 +112,8 @@ def _choose(model: Model | Path, grading: str, has_spread: bool) -> Model:
 
 
 def _prediction(model: Model, found: Any, inputs: Any, source: str) -> Prediction:
+    if model._model.kind == c.VALUES["CLAST_MODEL_SINGLE"] and inputs.has_deviation:
+        note("a single-form model at the mean form: it leaves the spread of the forms out")
     told = {name: getattr(inputs, name) for name in ("n_grain", "flatness_mean", "flatness_deviation", "elongation_mean",
                                                      "elongation_deviation", "equancy_mean", "equancy_deviation")}
     outside = tuple(model._model.range[found.outside[k]].feature.decode() for k in range(min(found.n_outside, len(found.outside))))
@@ -123,7 +128,7 @@ def _looks_like_table(value: Any) -> bool:
         isinstance(value, str) and os.path.exists(value))
 
 
-def predict(flatness: Moments | None = None, elongation: Moments | None = None, *, table: Any = None, model: Model | Path = "auto",
+def predict(flatness: Moments | None = None, elongation: Moments | None = None, *, table: Any = None, model: Model | Fit | Path = "auto",
             grading: str = "U1", grains: int = 0, columns: str = "", resamples: int = 500, seed: int = 1) -> Prediction:
     """Porosity of a bed from its grains' form [Rettinger2022 eqs 17-19, 23, 24], or by a model of one's own.
 
@@ -151,7 +156,7 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     return _prediction(chosen, found, inputs, "table")
 
 
-def _predict_moments(flatness: Moments | None, elongation: Moments | None, model: Model | Path, grading: str, grains: int) -> Prediction:
+def _predict_moments(flatness: Moments | None, elongation: Moments | None, model: Model | Fit | Path, grading: str, grains: int) -> Prediction:
     if flatness is None or elongation is None:
         raise refuse(f"{'flatness' if flatness is None else 'elongation'}: is missing; give both flatness and elongation")
     pairs = [_moments("flatness", flatness), _moments("elongation", elongation)]
@@ -168,7 +173,7 @@ def _predict_moments(flatness: Moments | None, elongation: Moments | None, model
     return _prediction(chosen, found, inputs, "moments")
 
 
-def predict_beds(table: Any, *, model: Model | Path = "auto", grading: str = "U1", columns: str = "") -> Table:
+def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str = "U1", columns: str = "") -> Table:
     """One porosity a row, each a bed of that one form (`clast predict --each`) or of the columns that a model of one's own takes.
 
     Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
@@ -227,6 +232,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
 
     `table` has a row a bed (a file, a structured array, a DataFrame, a dictionary of columns); with `grains` a second table, or the
     folder of a study of `clast pack`, holds the grains of all beds, and a column of both (group="bed") names the bed.
+    A call cannot be interrupted: Ctrl-C waits for its end.
     """
     beds = given_table("table", table)
     data, made = Owner(c.clast_fit_data(), "clast_fit_data_free"), Owner(c.clast_porosity_fit(), "clast_porosity_fit_free")

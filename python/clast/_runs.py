@@ -6,7 +6,7 @@ import json
 import os
 import tempfile
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Iterator, KeysView
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,19 @@ class Result:
 
     def __getitem__(self, name: str) -> Any:
         return self.values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.values)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.values
+
+    def keys(self) -> KeysView[str]:
+        """The names of the results; `dict(result)` has all."""
+        return self.values.keys()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.values]
 
     def __getattr__(self, name: str) -> Any:
         if name == "run":  # which refused: Python comes here for what raises AttributeError
@@ -84,10 +97,10 @@ class Assembly(Fixed):
         return cls(Owner(struct, "clast_assembly_free"))
 
     @classmethod
-    def read_spheres(cls, path: Path, *, columns: str = "", diameter: Quantity | None = None) -> Assembly:
+    def read_spheres(cls, path: Path, *, columns: str | None = "", diameter: Quantity | None = None) -> Assembly:
         """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
         size = 0.0 if diameter is None else quantity("diameter", diameter, "m", 0, 1e9)
-        options, struct = c.clast_packing_options(columns=encoded("columns", columns), diameter=size), c.clast_assembly()
+        options, struct = c.clast_packing_options(columns=encoded("columns", "" if columns is None else columns), diameter=size), c.clast_assembly()
         check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct)))
         return cls(Owner(struct, "clast_assembly_free"))
 
@@ -103,6 +116,9 @@ class Assembly(Fixed):
     def volume(self) -> float:
         """Sum of the grains' own volumes."""
         return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
+
+    def __repr__(self) -> str:
+        return f"<clast.Assembly of {len(self)} grains, {self.unit}>"
 
     def write(self, path: Path) -> None:
         """Writes by the name's end, as `export`; lengths are in the assembly's own unit."""
@@ -170,7 +186,7 @@ class Run:
 
     def __init__(self, folder: Path) -> None:
         check(call("clast_run_folder_check")(encoded("folder", folder)))
-        self.folder = os.fspath(folder)
+        self.folder = os.path.abspath(os.fsdecode(folder))
         if self._has("study.json"):  # a folder of runs: each has its manifest
             self.manifest: dict[str, Any] = {"command": "study", "study": self._json("study.json")}
             codes = self.table("results")["exit_code"]
@@ -194,7 +210,7 @@ class Run:
 
     def table(self, name: str) -> Table:
         """A table of the folder by its name ("history", "profile")."""
-        return read_table(os.path.join(self.folder, name + ".csv"))
+        return read_table(os.path.join(self.folder, os.fsdecode(encoded("name", name)) + ".csv"))
 
     def view(self, triangles: int = 100_000) -> View:
         """The interactive 3-D view of its grains."""
@@ -207,6 +223,12 @@ class Run:
             with _open_file(os.path.join(self.folder, name), "rb") as file:
                 numbers += picture_html(file.read(), name[-3:], f"{self.command}: {name}")
         return numbers + (("" if pictures else self.grains._picture()) + self.view()._repr_html_() if self._has("state.h5") else "")
+
+    def __fspath__(self) -> str:
+        return self.folder
+
+    def __repr__(self) -> str:
+        return f"<clast.Run of {self.command} in {self.folder}>"
 
     def _has(self, name: str) -> bool:
         return os.path.isfile(os.path.join(self.folder, name))

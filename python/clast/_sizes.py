@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from typing import Any
 
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, encoded, html_table, quantity, refuse, settled, view, whole
-from ._tables import Table
+from ._core import Error, Floats, Owner, Quantity, call, check, encoded, html_table, quantity, refuse, settled, size, view, whole
+from ._tables import Path, Table
 
 
 class _Handle:
@@ -25,16 +26,17 @@ class _Handle:
 class Grading:
     """A distribution of grain sizes: a published case ("U1"), "lognormal:2mm,0.5mm", one size ("11 mm"), a curve's or a list's file.
 
-    `spread` and `count` are those of `clast grading`; sizes are in metres.
+    A number is one size in metres. `spread` and `count` are those of `clast grading`; sizes are in metres.
     """
 
-    def __init__(self, text: str, *, spread: str = "step", count: str = "mean") -> None:
+    def __init__(self, text: Quantity | Path, *, spread: str = "step", count: str = "mean") -> None:
         self._handle: Any = None
         given = settled("grading", dict(spread=spread, count=count))
         kinds = [c.VALUES[f"CLAST_{name}_{given[name]}".upper()] for name in ("spread", "count")]
         curve, handle = Owner(c.clast_curve(), "clast_curve_free"), ctypes.c_void_p()
-        check(call("clast_grading_load")(encoded("text", text), kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
-        self._handle, self._curve = _Handle(handle), curve
+        name = encoded("text", size("text", text))
+        check(call("clast_grading_load")(name, kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
+        self._handle, self._curve, self._name = _Handle(handle), curve, os.fsdecode(name)
 
     def close(self) -> None:
         """Lets go of the memory."""
@@ -52,9 +54,9 @@ class Grading:
             raise refuse(f"by: '{by}' is none of number, mass")
         return float(call("clast_grading_size" if by == "number" else "clast_grading_mass_size")(self._open(), quantity("share", share, low=0, high=1)))
 
-    def draw(self, n: int, seed: int = 1) -> Floats:
+    def draw(self, n: int, seed: int | None = 1) -> Floats:
         """Sizes of grains 0 .. n - 1 [m]: a function of the seed and the grain's number alone."""
-        draw, handle, n, seed = call("clast_grading_draw"), self._open(), whole("n", n, 0, 2**40), whole("seed", seed, 0, 2**64 - 1)
+        draw, handle, n, seed = call("clast_grading_draw"), self._open(), whole("n", n, 0, 2**40), whole("seed", 1 if seed is None else seed, 0, 2**64 - 1)
         return np.fromiter((draw(handle, seed, k) for k in range(n)), np.float64, n)
 
     @property
@@ -71,7 +73,8 @@ class Grading:
 
     def n_expected(self, mass: float, density: float = 2650.0, grain_volume: float = np.pi / 6) -> float:
         """Grains that a mass [kg] holds on average; grain_volume is that of a grain by the cube of its sieve size."""
-        return quantity("mass", mass, "kg") / (quantity("density", density, "kg/m^3") * quantity("grain_volume", grain_volume) * self.mean_cube)
+        given = settled("grading", dict(mass=mass, density=density, grain_volume=grain_volume))
+        return float(given["mass"] / (given["density"] * given["grain_volume"] * self.mean_cube))
 
     @property
     def classes(self) -> Table:
@@ -86,6 +89,9 @@ class Grading:
             rows["mean"] = [call("clast_curve_class_size")(ctypes.byref(curve), k) for k in range(curve.n_class)]
         rows.units = {"low": "m", "high": "m", "mean": "m"}
         return rows
+
+    def __repr__(self) -> str:
+        return f"<clast.Grading {self._name}>"
 
     def _repr_html_(self) -> str:
         return html_table({f"D{round(100 * share)} by {by} (mm)": 1e3 * self.size(share, by) for by in ("mass", "number")

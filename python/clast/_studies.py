@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, encoded, given, items, nearest, refuse, settled, single, warn, whole, written
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, given, items, nearest, refuse, settled, single, SIZES, size, warn, whole, written
 from ._tables import Path, Table, read_table
 
 
@@ -130,12 +130,16 @@ def _entries(command: str, name: str, values: dict[str, Any]) -> list[str]:
         texts = [_text(key, unit, one) for one in (items(key, value) if name == "vary" or kind in ("texts", "numbers") else [single(key, value)])]
         if not texts:
             raise refuse(f"{key}: an empty list")
+        parted = [text for text in texts if name == "vary" and "|" in text]
+        if parted:
+            raise refuse(f"{key}: '{parted[0]}' has a |, which parts values")
         made += [f"{key}={text}" for text in (["|".join(texts)] if name == "vary" else texts)]
     return made
 
 
 def _text(key: str, unit: str, value: Any) -> str:
     """A value with its unit: a process reads no bare lengths and angles."""
+    value = size(key, value) if key in SIZES else value
     is_bare = unit == "-" or isinstance(value, (str, os.PathLike, bool))
     return f"{os.fspath(written(key, value))}{'' if is_bare else ' ' + unit}"
 
@@ -165,7 +169,10 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
             check(status)
     finally:
         call("clast_parallel_set_threads")(before)
+    if report.n_unknown:
+        name = os.fsdecode(items("keep", keys["keep"])[report.first_unknown])
+        warn(f"keep: '{name}'{' and others' if report.n_unknown > 1 else ''}: no run's result has such a number")
     if report.n_failed:
         warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
              f"{report.first_failed:06d}.part/messages.txt; the same call tries them again")
-    return Study(os.fspath(output), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)
+    return Study(os.path.abspath(os.fsdecode(output)), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)

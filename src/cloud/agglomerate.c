@@ -288,13 +288,14 @@ static clast_status add_exact(const clast_agglomerate_input *input, const clx_ev
                               clast_agglomeration *r)
 {
     clast_status status = CLAST_OK;
+    CLAST_ASSERT(run->mesh != NULL);
     const uint32_t kernel = run->collide.kernel;
     const clast_medium *m = &run->collide.medium;
     const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
     double *column = NULL;
     const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
     if (!clx_exact_counts_known(kernel, n0) || input->monomers != NULL || input->n_snapshot > 1 ||
-        run->n_cell != 1 || run->mesh.n_outside > 0) {
+        clast_table_numbers(&r->history, "n_cell")[0] != 1.0 || run->mesh->n_outside > 0) {
         return CLAST_OK;
     }
     CLX_TRY(clast_table_add_number(&r->history, "exact_n_particle", "-", &column));
@@ -363,6 +364,7 @@ static clast_status finish_first(const clx_evolution *run, const columns *c,
                                  clast_agglomeration *made)
 {
     made->n_cell = run->n_cell;
+    made->volume_fraction = run->volume_fraction;
     made->n_unresolved = run->n_unresolved;
     for (int64_t row = 0; row < made->history.n_row; ++row) {
         made->n_rebuilt += c->rebuilt[row] > 0.0 ? 1 : 0;
@@ -406,12 +408,14 @@ static clast_status all_runs(const clast_agglomerate_input *input,
                              clast_agglomeration *made)
 {
     clast_status status = CLAST_OK;
+    clast_decomposition *const first = run->first;
     for (int32_t repeat = 0; repeat < config->repeats; ++repeat) {
         for (int fixed = made->has_fixed ? 1 : 0; fixed >= 0; --fixed) {
             clx_evolution_free(run);
             *run = (clx_evolution){.input = input,
                                    .config = config,
                                    .is_fixed = fixed == 1,
+                                   .first = first,
                                    .range = fixed == 1 ? NULL : &made->range};
             c->gel_row = -1;
             CLX_TRY(one_run(run, repeat, made->history.n_row, c));
@@ -458,7 +462,8 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     CLX_ARGUMENTS(input, config, result);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {.range = clx_range_begin()};
-    clx_evolution run = {0};
+    clast_decomposition first = {0};
+    clx_evolution run = {.first = &first};
     columns c = {0};
     CLX_TRY(check_arguments(input, config, result));
     const int64_t n_row = input->n_snapshot * config->n_step + 1;
@@ -477,6 +482,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     *result = made;
     made = (clast_agglomeration){0};
 done:
+    clast_decomposition_free(&first);
     clx_size_classes_free(&c.classes);
     clx_evolution_free(&run);
     clast_agglomeration_free(&made);

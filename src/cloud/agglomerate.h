@@ -11,17 +11,21 @@ typedef struct clx_evolution {
     clast_domain domain;
     bool is_fixed; ///< on the user's mesh
     clast_population population;
-    clast_decomposition mesh;
-    double *x_at_mesh;    ///< [n][d] positions when the mesh was made
-    int32_t *cell;        ///< [n]
-    double *volume;       ///< [n_cell]
-    clast_medium *medium; ///< [n_cell], or NULL without field columns
+    clast_decomposition *first;      ///< the mesh at the start, of all runs of one input
+    clast_decomposition later;       ///< the run's own
+    const clast_decomposition *mesh; ///< the one in use
+    double *x_at_mesh;               ///< [n][d] positions when the mesh was made
+    int64_t n_at_mesh;               ///< live particles then
+    int32_t *cell;                   ///< [n]
+    double *volume;                  ///< [n_cell]
+    clast_medium *medium;            ///< [n_cell], or NULL without field columns
     int32_t n_cell;
-    int64_t at;                ///< the last snapshot
-    bool is_rebuilt;           ///< there
-    int32_t n_unresolved;      ///< meshes of points that did not show their own structure
-    double n_event;            ///< collisions of real particles since the start
-    double time;               ///< since the start [s]
+    int64_t at;             ///< the last snapshot
+    bool is_rebuilt;        ///< there, or before the last step
+    int32_t n_unresolved;   ///< snapshots whose new cells' points did not show their own structure
+    double volume_fraction; ///< at the start
+    double n_event;         ///< collisions of real particles since the start
+    double time;            ///< since the start [s]
     clast_range_report *range; ///< grows; NULL beside, on the user's mesh
 } clx_evolution;
 

@@ -7,6 +7,7 @@
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 void clx_evolution_free(clx_evolution *r)
@@ -19,7 +20,7 @@ void clx_evolution_free(clx_evolution *r)
     clx_free(r->population.speed_rms);
     clx_free(r->population.owner);
     clx_free(r->population.weight);
-    clast_decomposition_free(&r->mesh);
+    clast_decomposition_free(&r->later);
     clx_free(r->x_at_mesh);
     clx_free(r->cell);
     clx_free(r->volume);
@@ -27,15 +28,20 @@ void clx_evolution_free(clx_evolution *r)
     *r = (clx_evolution){0};
 }
 
-/// Refuses values that no particle has; `column` may be NULL.
-static clast_status check_column(const double *column, int64_t n, const char *name, bool is_whole)
+/// Refuses values that no particle has; `column` [n_snapshot][n] may be NULL.
+static clast_status check_column(const double *column, int64_t n_snapshot, int64_t n,
+                                 const char *name, bool is_whole)
 {
     clast_status status = CLAST_OK;
-    for (int64_t i = 0; i < n && column != NULL; ++i) {
+    char where[40] = "";
+    for (int64_t i = 0; i < n_snapshot * n && column != NULL; ++i) {
+        if (i >= n) {
+            (void)snprintf(where, sizeof where, " in snapshot %lld", (long long)(i / n) + 1);
+        }
         CLX_CHECK(column[i] > 0.0 && isfinite(column[i]) &&
                       (!is_whole || (column[i] == floor(column[i]) && column[i] < 0x1p52)),
-                  CLAST_E_FORMAT, "the %s of particle %lld is %g; it must be a %snumber > 0", name,
-                  (long long)i + 1, column[i], is_whole ? "whole " : "");
+                  CLAST_E_FORMAT, "the %s of particle %lld%s is %g; it must be a %snumber > 0",
+                  name, (long long)(i % n) + 1, where, column[i], is_whole ? "whole " : "");
     }
 done:
     return status;
@@ -75,14 +81,14 @@ static clast_status check_input(const clx_evolution *r)
     for (int64_t k = 0; k < in->n_snapshot; ++k) {
         CLX_TRY(check_motion(&in->snapshot[k], (long long)k + 1));
     }
-    CLX_TRY(check_column(cloud->radius, n, "radius", false));
-    CLX_TRY(check_column(cloud->mass, n, "mass", false));
-    CLX_TRY(check_column(in->monomers, n, "number of monomers", true));
-    CLX_TRY(check_column(in->speed_rms, n, "speed_rms", false));
-    CLX_TRY(check_column(in->temperature, n, "temperature", false));
-    CLX_TRY(check_column(in->shear, n, "shear", false));
-    CLX_TRY(check_column(in->dissipation, n, "dissipation", false));
-    CLX_TRY(check_column(cloud->weight, n, "weight", false));
+    CLX_TRY(check_column(cloud->radius, 1, n, "radius", false));
+    CLX_TRY(check_column(cloud->mass, 1, n, "mass", false));
+    CLX_TRY(check_column(in->monomers, 1, n, "number of monomers", true));
+    CLX_TRY(check_column(in->speed_rms, in->n_snapshot, n, "speed_rms", false));
+    CLX_TRY(check_column(in->temperature, in->n_snapshot, n, "temperature", false));
+    CLX_TRY(check_column(in->shear, in->n_snapshot, n, "shear", false));
+    CLX_TRY(check_column(in->dissipation, in->n_snapshot, n, "dissipation", false));
+    CLX_TRY(check_column(cloud->weight, 1, n, "weight", false));
 done:
     return status;
 }
@@ -185,6 +191,19 @@ done:
     return status;
 }
 
+/// Share of the domain that spheres of the collision radii fill.
+static double volume_fraction(const clx_evolution *r)
+{
+    const clast_population *p = &r->population;
+    const double depth = p->dimension == 3 ? 1.0 : r->config->depth;
+    double sum = 0.0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        const double a = p->radius[i];
+        sum += (p->weight != NULL ? p->weight[i] : 1.0) * 4.0 / 3.0 * CLAST_PI * a * a * a;
+    }
+    return sum > 0.0 && depth > 0.0 ? sum / (clast_domain_volume(&r->domain) * depth) : (double)NAN;
+}
+
 /// The particles of a cell at the start against the ranges.
 static clast_status look_at_start(clx_evolution *r)
 {
@@ -220,6 +239,7 @@ clast_status clx_evolution_begin(clx_evolution *r)
     CLX_TRY(check_input(r));
     CLX_TRY(check_needs(r));
     CLX_TRY(make_population(r));
+    r->volume_fraction = volume_fraction(r);
     CLX_TRY(clx_alloc(&r->cell, cloud->n, sizeof *r->cell));
     CLX_TRY(clx_alloc(&r->x_at_mesh, cloud->n * cloud->dimension, sizeof *r->x_at_mesh));
 done:
@@ -261,22 +281,28 @@ done:
 static clast_status make_mesh(clx_evolution *r)
 {
     clast_status status = CLAST_OK;
+    const bool is_first = r->mesh == NULL;
+    clast_decomposition *mesh = is_first ? r->first : &r->later;
     clast_cloud live = {0};
     int64_t *number = NULL;
-    clast_decomposition made = {0};
     clast_decompose_config config = r->config->decompose;
-    config.estimator = CLAST_ESTIMATOR_CELLS; // their events are not looked at
-    config.beta_dt = 0.0;                     // cells alone: no cap binds
+    config.beta_dt = 0.0; // no cap binds
     CLX_TRY(clx_alloc(&number, r->population.n, sizeof *number));
     CLX_TRY(gather_live(r, &live, number));
-    CLX_TRY(clast_decompose_in(&r->domain, &live, &config, &made));
-    for (int64_t i = 0; i < live.n; ++i) {
-        r->cell[number[i]] = made.cells.of_point[i];
+    if (!is_first || mesh->cells.n == 0) {
+        clast_decomposition_free(mesh);
+        CLX_TRY(clast_decompose_in(&r->domain, &live, &config, mesh));
     }
+    for (int64_t i = 0; i < r->population.n; ++i) {
+        r->cell[i] = -1;
+    }
+    for (int64_t i = 0; i < live.n; ++i) {
+        r->cell[number[i]] = mesh->cells.of_point[i];
+    }
+    r->n_at_mesh = live.n;
     memcpy(r->x_at_mesh, r->population.x,
            (size_t)(r->population.n * r->population.dimension) * sizeof *r->x_at_mesh);
-    clast_decomposition_free(&r->mesh);
-    r->mesh = made;
+    r->mesh = mesh;
 done:
     clast_cloud_free(&live);
     clx_free(number);
@@ -315,8 +341,17 @@ static void locate(clx_evolution *r)
     const clast_population *p = &r->population;
     for (int64_t i = 0; i < p->n; ++i) {
         r->cell[i] = p->monomers[i] > 0
-                         ? clast_cells_locate(&r->mesh.cells, &r->domain, p->x + i * p->dimension)
+                         ? clast_cells_locate(&r->mesh->cells, &r->domain, p->x + i * p->dimension)
                          : -1;
+    }
+}
+
+/// Of the missing dimensions too.
+static void deepen(clx_evolution *r)
+{
+    const double depth = r->config->depth > 0.0 ? r->config->depth : 1.0;
+    for (int32_t c = 0; c < r->n_cell; ++c) {
+        r->volume[c] *= depth;
     }
 }
 
@@ -372,6 +407,7 @@ static clast_status fixed_regular(clx_evolution *r)
         r->cell[i] = cell;
     }
     r->n_cell = n_cell;
+    deepen(r);
 done:
     return status;
 }
@@ -405,6 +441,7 @@ static clast_status fixed_columns(clx_evolution *r)
     for (int32_t c = 0; c < r->n_cell; ++c) { // numbers that no particle has
         r->volume[c] = r->volume[c] > 0.0 ? r->volume[c] : 1.0;
     }
+    deepen(r);
 done:
     return status;
 }
@@ -415,12 +452,13 @@ static clast_status take_volumes(clx_evolution *r)
     clast_status status = CLAST_OK;
     clx_free(r->volume);
     r->volume = NULL;
-    r->n_cell = r->mesh.cells.n;
+    r->n_cell = r->mesh->cells.n;
     CLX_TRY(clx_alloc(&r->volume, r->n_cell, sizeof *r->volume));
-    const double share = 1.0 + r->mesh.smoothing_bias;
+    const double share = 1.0 + r->mesh->smoothing_bias;
     for (int32_t c = 0; c < r->n_cell; ++c) {
-        r->volume[c] = share * r->mesh.cells.volume[c];
+        r->volume[c] = share * r->mesh->cells.volume[c];
     }
+    deepen(r);
 done:
     return status;
 }
@@ -430,14 +468,21 @@ typedef struct {
     size_t offset; ///< in clast_medium
 } field_column;
 
+/// This snapshot's values of a column.
+static const double *at_snapshot(const clx_evolution *r, const double *column)
+{
+    return column != NULL ? column + r->at * r->population.n : NULL;
+}
+
 /// Mean of the field columns over the live particles of each cell.
 static clast_status fill_media(clx_evolution *r)
 {
     clast_status status = CLAST_OK;
     const clast_population *p = &r->population;
-    const field_column columns[3] = {{r->input->temperature, offsetof(clast_medium, temperature)},
-                                     {r->input->shear, offsetof(clast_medium, shear)},
-                                     {r->input->dissipation, offsetof(clast_medium, dissipation)}};
+    const field_column columns[3] = {
+        {at_snapshot(r, r->input->temperature), offsetof(clast_medium, temperature)},
+        {at_snapshot(r, r->input->shear), offsetof(clast_medium, shear)},
+        {at_snapshot(r, r->input->dissipation), offsetof(clast_medium, dissipation)}};
     double *sum = NULL;
     int64_t *n = NULL;
     if (columns[0].column == NULL && columns[1].column == NULL && columns[2].column == NULL) {
@@ -477,25 +522,24 @@ static void move_to(clx_evolution *r, const clast_cloud *snapshot)
 {
     clast_population *p = &r->population;
     const size_t size = (size_t)p->dimension * sizeof *p->x;
+    const double *speed_rms = at_snapshot(r, r->input->speed_rms);
     for (int64_t i = 0; i < p->n; ++i) {
         memcpy(p->x + i * p->dimension, snapshot->x + i * p->dimension, size);
         if (p->velocity != NULL && snapshot->velocity != NULL) {
             memcpy(p->velocity + i * p->dimension, snapshot->velocity + i * p->dimension, size);
         }
+        if (speed_rms != NULL) {
+            p->speed_rms[i] = speed_rms[i];
+        }
     }
 }
 
-static clast_status bring_mesh(clx_evolution *r, int64_t snapshot)
+static clast_status bring_mesh(clx_evolution *r, bool is_new)
 {
     clast_status status = CLAST_OK;
-    bool is_new = snapshot == 0 || r->config->rebuild == CLAST_REBUILD_ALWAYS;
-    if (!is_new && r->config->rebuild == CLAST_REBUILD_CHANGED) {
-        CLX_TRY(has_changed(r, &is_new));
-    }
-    r->is_rebuilt = is_new && snapshot > 0;
+    r->is_rebuilt = is_new && r->mesh != NULL;
     if (is_new) {
         CLX_TRY(make_mesh(r));
-        r->n_unresolved += r->mesh.resolved ? 0 : 1;
     } else {
         locate(r);
     }
@@ -504,24 +548,36 @@ done:
     return status;
 }
 
+/// Whether half of the particles are left that several cells were made of: what is alone in its
+/// cell meets nobody, for all that is near it in the next one.
+static bool is_thinned(const clx_evolution *r)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < r->population.n; ++i) {
+        n += r->population.monomers[i] > 0 ? 1 : 0;
+    }
+    return r->config->rebuild != CLAST_REBUILD_NEVER && r->mesh->cells.n > 1 &&
+           2 * n <= r->n_at_mesh;
+}
+
 clast_status clx_evolution_snapshot(clx_evolution *r, int64_t snapshot)
 {
     clast_status status = CLAST_OK;
+    bool is_new = snapshot == 0 || r->config->rebuild == CLAST_REBUILD_ALWAYS;
     r->at = snapshot;
     if (snapshot > 0) {
         move_to(r, &r->input->snapshot[snapshot]);
     }
     if (!r->is_fixed) {
-        CLX_TRY(bring_mesh(r, snapshot));
+        if (!is_new && r->config->rebuild == CLAST_REBUILD_CHANGED) {
+            CLX_TRY(has_changed(r, &is_new));
+        }
+        CLX_TRY(bring_mesh(r, is_new));
+        r->n_unresolved += is_new && !r->mesh->resolved ? 1 : 0;
     } else if (r->config->fixed > 0) {
         CLX_TRY(fixed_regular(r));
     } else if (snapshot == 0) {
         CLX_TRY(fixed_columns(r));
-    }
-    for (int32_t c = 0; c < r->n_cell && r->config->depth > 0.0 &&
-                        (!r->is_fixed || r->config->fixed > 0 || snapshot == 0);
-         ++c) {
-        r->volume[c] *= r->config->depth;
     }
 done:
     return status;
@@ -531,6 +587,9 @@ clast_status clx_evolution_step(clx_evolution *r, double dt, uint64_t number)
 {
     clast_status status = CLAST_OK;
     double *events = NULL;
+    if (!r->is_fixed && is_thinned(r)) {
+        CLX_TRY(bring_mesh(r, true));
+    }
     CLX_TRY(fill_media(r));
     if (r->range != NULL && r->time == 0.0) {
         CLX_TRY(look_at_start(r));

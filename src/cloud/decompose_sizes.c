@@ -71,14 +71,16 @@ static clast_status one_size(const clast_domain *domain, const clx_shuffled *all
     if (regular > 0) {
         CLX_TRY(regular_events(all->comm, domain, &part, regular, config->beta_dt, &row[8]));
     }
-    const double factor = (double)all->n_all / (double)n;
-    const double scale = factor * factor;
+    const double m = (double)all->n_all;
+    const double pairs = m * (m - 1.0) / ((double)n * (double)(n - 1));
+    const bool is_printed = config->paper || config->events == CLAST_EVENTS_PAPER;
+    const double scale = is_printed ? m * m / ((double)n * (double)n) : pairs;
     const double high = r.resolved ? r.events_high : (double)NAN;
     const double made[8] = {
         (double)n,         r.events,         r.events_low,         high,
         (double)r.cells.n, r.events * scale, r.events_low * scale, high * scale};
     memcpy(row, made, sizeof made);
-    row[9] = row[8] * scale;
+    row[9] = row[8] * pairs; // regular_events are of n (n - 1)
 done:
     clast_decomposition_free(&r);
     return status;

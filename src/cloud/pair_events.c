@@ -17,17 +17,19 @@ static clast_estimate scaled(const clast_estimate *e, double factor, double most
         e->resolved};
 }
 
-/// Gives the cells' events the pairs' sum.
-static void take_pairs(clast_decomposition *r)
+/// Gives the cells' events the pairs' sum, `all` of them where no cap binds.
+static void take_pairs(double all, clast_decomposition *r)
 {
     const double factor = r->events > 0.0 ? r->events_by_pairs.value / r->events : 0.0;
+    // what cells as they are hold, over what there is
+    const double even = r->n_capped == 0 ? r->events * (1.0 + r->smoothing_bias) : 0.0;
     for (int32_t c = 0; c < r->cells.n; ++c) {
         r->cells.events[c] *= factor;
     }
     r->events = r->events_by_pairs.value;
     r->events_low = r->events_by_pairs.low;
     r->events_high = r->events_by_pairs.high;
-    r->smoothing_bias = 0.0; // of pairs nothing was taken off
+    r->smoothing_bias = even > 0.0 && all > 0.0 ? even / all - 1.0 : r->smoothing_bias;
     r->resolved = r->events_by_pairs.resolved;
     r->points_needed = r->pairs.integral.n_needed;
     r->cells_bias = (double)NAN;
@@ -81,7 +83,7 @@ clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
                   "a greater --pairs-radius",
                   (long long)result->pairs.n_pair, clx_unit_text(result->pairs.radius, "m"));
         result->estimator = CLAST_ESTIMATOR_PAIRS;
-        take_pairs(result);
+        take_pairs(factor * found.value, result);
     }
 done:
     return status;

@@ -14,7 +14,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEG_STEPS = 16 };
+enum {
+    LEG_STEPS = 16,      ///< and from a count of pairs to the next
+    MOST_COUNTED = 20000 ///< particles that a count of pairs takes
+};
 
 void clast_evolve_destroy(clast_evolve *e)
 {
@@ -78,11 +81,12 @@ static clast_status prepare_cells(clast_evolve *e)
     policy.tests = CLAST_TESTS_MOVED;
     policy.cells = CLAST_CUT_CHANGED;
     policy.cells_level = e->config->change_level;
+    policy.pairs_every = LEG_STEPS;
+    policy.pairs_most = MOST_COUNTED;
     CLX_TRY(clast_workspace_set_policy(e->workspace, &policy));
     CLX_TRY(clast_fields_default(clast_decompose_fields, &e->decompose));
     e->has_decompose = true;
     e->decompose.mesh = e->config->even == CLAST_EVEN_BOXES ? CLAST_CELLS_BOXES : CLAST_CELLS_TREE;
-    e->decompose.estimator = CLAST_ESTIMATOR_CELLS;
     e->decompose.seed = e->config->seed;
 done:
     return status;
@@ -310,8 +314,9 @@ done:
     return status;
 }
 
-/// All meetings of a step, cell by cell.
-static clast_status meet_all(clast_evolve *e, int32_t n, const double *volume, double dt)
+/// All meetings of a step, cell by cell; pairs meet in `share` times the volume of each.
+static clast_status meet_all(clast_evolve *e, int32_t n, const double *volume, double share,
+                             double dt)
 {
     clast_status status = CLAST_OK;
     const int64_t before = e->n_event;
@@ -320,12 +325,52 @@ static clast_status meet_all(clast_evolve *e, int32_t n, const double *volume, d
         clx_rng rng = clx_rng_at(e->config->seed, CLX_STREAM_EVOLVE_MEET,
                                  (e->step << 32) | (uint64_t)(uint32_t)c);
         const int64_t begin = e->start[c];
-        CLX_TRY(clx_evolve_meet(e, e->order + begin, e->start[c + 1] - begin, volume[c], dt, &rng));
+        CLX_TRY(clx_evolve_meet(e, e->order + begin, e->start[c + 1] - begin, share * volume[c], dt,
+                                &rng));
     }
     e->rate = were > 0 ? 2.0 * (double)(e->n_event - before) / were / dt : 0.0;
     e->n_cell = n;
 done:
     return status;
+}
+
+/// Volume in which the pairs of a cell meet, over its own: cells taken as uniform hide pairs
+/// (smoothing_bias). Where they do not resolve the cloud its pairs of all distances are counted, at
+/// most once in LEG_STEPS steps; between, the share of the last count stays.
+static double share_of_volume(clast_evolve *e, const clast_decomposition *made, bool is_counted,
+                              bool *is_resolved)
+{
+    const double share = 1.0 + made->smoothing_bias;
+    const bool is_one = made->cells.n == 1;
+    const bool is_even = is_one && fabs(share - 1.0) < 1e-9; // by pairs too, as far as they tell
+    const bool is_carried = e->decompose.estimator == CLAST_ESTIMATOR_CELLS && !made->resolved &&
+                            !is_one && e->pair_share != 1.0;
+    if (is_counted) { // one cell with structure: no share of it holds for several
+        e->pair_share = is_even ? 1.0 : is_one ? 0.0 : share;
+        e->pair_resolved = made->resolved;
+        e->pair_step = e->step;
+        e->pair_n = e->n_live;
+    }
+    *is_resolved = is_carried ? e->pair_resolved != 0 : made->resolved;
+    CLAST_ASSERT(share > 0.0 && isfinite(share));
+    return is_carried ? e->pair_share : share;
+}
+
+/// Whether this leg counts the pairs of a cloud that cells do not resolve.
+static bool is_pair_count_due(const clast_evolve *e)
+{
+    return !(e->pair_share > 0.0) || e->step - e->pair_step >= LEG_STEPS ||
+           5 * (int64_t)e->n_live < 4 * (int64_t)e->pair_n;
+}
+
+/// Forgets the cells and says how the next ones show their pairs: by the saved state alone, so that
+/// a run that goes on from here has the same bits.
+static clast_status begin_leg(clast_evolve *e)
+{
+    const bool is_due = is_pair_count_due(e);
+    e->pair_share = is_due ? 0.0 : e->pair_share;
+    e->decompose.estimator = is_due ? CLAST_ESTIMATOR_AUTO : CLAST_ESTIMATOR_CELLS;
+    return clast_workspace_forget(e->workspace);
 }
 
 /// Cells on the positions now, and who meets in them.
@@ -335,10 +380,11 @@ static clast_status meet(clast_evolve *e, double dt)
     const clast_decomposition *made = NULL;
     clast_workspace_calls before;
     clast_workspace_calls after;
+    bool is_resolved = false;
     if (e->config->even == CLAST_EVEN_WHOLE) {
         const double volume = clast_domain_volume(e->input->domain);
         CLX_TRY(sort_by_cell(e, 1, NULL));
-        CLX_TRY(meet_all(e, 1, &volume, dt));
+        CLX_TRY(meet_all(e, 1, &volume, 1.0, dt));
         return CLAST_OK;
     }
     const clast_points points = {
@@ -347,10 +393,12 @@ static clast_status meet(clast_evolve *e, double dt)
     CLX_TRY(clast_workspace_decompose_in(e->workspace, e->input->domain, &points, &e->decompose,
                                          &made));
     CLX_TRY(clast_workspace_count(e->workspace, &after));
+    const double share = share_of_volume(e, made, after.n_pairs > before.n_pairs, &is_resolved);
     e->n_cut += after.n_cut - before.n_cut;
     e->n_test += after.n_test - before.n_test;
+    e->n_unresolved += is_resolved ? 0 : after.n_cut - before.n_cut;
     CLX_TRY(sort_by_cell(e, made->cells.n, made->cells.of_point));
-    CLX_TRY(meet_all(e, made->cells.n, made->cells.volume, dt));
+    CLX_TRY(meet_all(e, made->cells.n, made->cells.volume, share, dt));
 done:
     return status;
 }
@@ -407,7 +455,7 @@ clast_status clast_evolve_advance(clast_evolve *e)
     CLX_ARGUMENTS(e);
     clast_status status = CLAST_OK;
     bool is_row = false;
-    CLX_TRY(clast_workspace_forget(e->workspace));
+    CLX_TRY(begin_leg(e));
     for (int k = 0; k < LEG_STEPS && !is_row && !clast_evolve_is_over(e); ++k) {
         CLX_TRY(step(e, &is_row));
         is_row = is_row || e->n_live == 0;

@@ -103,6 +103,16 @@ static double fall_reynolds(const clast_evolve *e)
     return most * m->density / m->viscosity;
 }
 
+/// Share of the domain that all bodies fill, wherever they are now.
+static double volume_fraction(const clast_evolve *e)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < e->n_start; ++i) {
+        sum += e->body[i].state != CLX_BODY_MERGED ? e->body[i].volume : 0.0;
+    }
+    return e->config->weight * sum / clast_domain_volume(e->input->domain);
+}
+
 clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *result)
 {
     CLX_ARGUMENTS(e, result);
@@ -115,6 +125,8 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                              .number_balance = e->number_error,
                              .n_cut = e->n_cut,
                              .n_test = e->n_test,
+                             .n_unresolved = e->n_unresolved,
+                             .volume_fraction = volume_fraction(e),
                              .fall_reynolds = fall_reynolds(e),
                              .fall_reynolds_limit =
                                  e->config->fall == CLAST_FALL_STOKES ? 0.1 : 3e5,

@@ -35,6 +35,11 @@ static const member clock_member[] = {
     NUMBER(evolution, "rate", "-", rate),
     WHOLE(evolution, "n_cut", "-", n_cut, LARGE, 0, 0, 1e15),
     WHOLE(evolution, "n_test", "-", n_test, LARGE, 0, 0, 1e15),
+    WHOLE(evolution, "n_unresolved", "-", n_unresolved, LARGE, 0, 0, 1e15),
+    NUMBER(evolution, "pair_share", "-", pair_share),
+    WHOLE(evolution, "pair_resolved", "-", pair_resolved, SMALL, 0, 0, 1),
+    WHOLE(evolution, "pair_n", "-", pair_n, SMALL, 0, 1, 0),
+    WHOLE(evolution, "pair_step", "-", pair_step, LARGE, 0, 0, 4294967295.0),
     WHOLE(evolution, "n_cell", "-", n_cell, SMALL, 0, 0, 2e9),
     NUMBER(evolution, "mass_error", "-", mass_error),
     WHOLE(evolution, "number_error", "-", number_error, LARGE, 0, 0, 1e15),
@@ -219,6 +224,9 @@ static clast_status load_clock(const clast_table *table, clast_evolve *e)
               seen.n_start, e->config->rows, e->n_start);
     CLX_CHECK(isfinite(seen.time) && seen.time >= 0.0 && isfinite(seen.rate) && seen.rate >= 0.0,
               CLAST_E_FORMAT, "the saved time %g or rate %g cannot be", seen.time, seen.rate);
+    CLX_CHECK(isfinite(seen.pair_share) && seen.pair_share >= 0.0 && seen.pair_step <= seen.step,
+              CLAST_E_FORMAT, "the saved share of volume %g or its step cannot be",
+              seen.pair_share);
     *e = seen;
 done:
     return status;

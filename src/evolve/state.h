@@ -115,9 +115,13 @@ struct clast_evolve {
     uint64_t step;
     int32_t row; ///< rows written after the first
     double rate; ///< collisions a particle and time in the last step; 0: not known
-    int64_t n_cut, n_test;
-    double mass_start; ///< of all real particles
-    double mass_error; ///< greatest, relative
+    int64_t n_cut, n_test, n_unresolved;
+    double pair_share; ///< volume in which pairs met at the last count of pairs of all distances,
+                       ///< over that of their cell; 1: of one even cell, 0: none stands
+    int32_t pair_resolved, pair_n; ///< whether it resolved the cloud; particles then
+    uint64_t pair_step;            ///< when
+    double mass_start;             ///< of all real particles
+    double mass_error;             ///< greatest, relative
     int64_t number_error;
     clast_range_use range;
     clx_rows balance, spectrum;

@@ -59,6 +59,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     clx_json_set_number(o, "mass_out", r->mass_out);
     clx_json_set_number(o, "mass_balance", r->mass_balance);
     clx_json_set_count(o, "grains_most", r->grains_most);
+    clx_json_set_number(o, "volume_fraction", r->volume_fraction);
     clx_json_set_number(o, "fall_reynolds", r->fall_reynolds);
     clx_json_set_number(o, "fractal_dimension", r->fractal_dimension);
     clx_json_set_number(o, "fractal_error", r->fractal_error);
@@ -66,6 +67,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     (void)json_object_set_new(o, "range", range(&r->range));
     clx_json_set_count(o, "n_cut", r->n_cut);
     clx_json_set_count(o, "n_test", r->n_test);
+    clx_json_set_count(o, "n_unresolved", r->n_unresolved);
     clx_json_set_count(o, "n_frame", r->n_frame);
     clx_json_set_count(o, "n_written", r->n_written);
     if (times) {

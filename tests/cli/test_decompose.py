@@ -240,7 +240,7 @@ class Decompose(Case):
         self.assertAlmostEqual(rows[-1]["events"], r.json["events"], delta=0.05 * r.json["events"])
         truth = 0.5e-6 * 4000 ** 2 / (4 * math.pi * 0.01)  # integral of the density's square
         for row in rows:  # a part has half the points of the next: error of the regular mesh is 1 / (2 sigma)^2 bins
-            self.assertAlmostEqual(row["scaled_events"], row["events"] * (4000 / row["n"]) ** 2, delta=1e-9)
+            self.assertAlmostEqual(row["scaled_events"], row["events"] * 4000 * 3999 / (row["n"] * (row["n"] - 1)), delta=1e-9)
             self.assertLess(abs(row["scaled_regular"] / truth - 1), 0.03 + 4 * 2 / math.sqrt(row["n"]))
         self.assertLess(abs(rows[-1]["scaled_events"] / truth - 1), 0.1)
         self.assertTrue((out / "events_by_n.svg").read_text().startswith("<?xml"))
@@ -422,6 +422,7 @@ class Pairs(Case):
         self.assertAlmostEqual(pairs["pairs"]["events_by_cells"], cells["events"])
         self.assertEqual(auto["estimator"], "pairs")  # cells do not resolve the sheet
         self.assertAlmostEqual(auto["events"], pairs["events"], places=9)
+        self.assertAlmostEqual(pairs["smoothing_bias"], auto["smoothing_bias"], delta=1e-9)  # 0 of pairs, though their events are the same
         plain = clast("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--estimator", "pairs").json
         self.assertEqual(plain["pair_integral"], plain["pairs"]["pair_integral"])
         self.assertNotIn("events", plain["pairs"])

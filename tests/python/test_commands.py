@@ -347,7 +347,7 @@ class Commands(unittest.TestCase):
                  ["all points lie within 999.2 um, the domain is 1 m wide; are both in the same unit?"]),
                 (lambda: clast.agglomerate(x * 1e-3, domain=box, **agglomerate),
                  ("agglomerate", small, "--domain", box, "--constant", 1e-4, "--duration", "1s", "--n-step", 2),
-                 ["all points lie within 999.2 um, the domain is 1 m wide", "of 1 times that cells were made the particles did not show their own structure"]),
+                 ["all points lie within 999.2 um, the domain is 1 m wide", "in 1 of 1 snapshot the particles did not show their own structure"]),
                 (lambda: clast.pack(**pack), ("pack", *flags), ["the bed was level and still moves: its fastest grain is not below still_speed",
                                                                  "shaking ended while grains fell: the highest sank by"]),
                 (lambda: clast.box_model(**box_model), ("agglomerate", "--box-model", "--concentration", 1e12, *tail),
@@ -421,6 +421,14 @@ class Commands(unittest.TestCase):
         self.assertEqual(made[0], made[2])
         self.assertEqual(made[0], made[1])
         self.assertLess(made[0][-1], 50)
+        two = [list(clast.agglomerate(x, x, **keys, temperature=t).history["n_particle"]) for t in (300, np.full(50, 300.0), np.full((2, 50), 300.0))]
+        self.assertEqual(two[0], two[1])
+        self.assertEqual(two[0], two[2])
+        hot = clast.agglomerate(x, x, **keys, temperature=np.outer([300, 900], np.ones(50))).history["n_particle"]
+        self.assertEqual(list(hot[:3]), two[0][:3])
+        self.assertNotEqual(list(hot), two[0])
+        with self.assertRaisesRegex(clast.Error, "^temperature: 3 rows where there are 2 snapshots"):
+            clast.agglomerate(x, x, **keys, temperature=np.ones((3, 50)))
 
     def test_shapes_of_many_files(self):
         files = sorted((ROOT / "data/standin63").glob("*.ply"))[:12] + [ROOT / "README.md"]
@@ -595,6 +603,11 @@ class Clouds(unittest.TestCase):
     def test_the_tests_alone(self):
         found = clast.decompose(self.x, domain=self.box, test_only=True)
         self.assertEqual((found.reject, found.n_cell, len(found.tests)), (True, 1, 5))
+        # one cell says nothing of the events of a cloud just rejected: they were those of a uniform one
+        for found in (found, clast.decompose(self.x, domain=self.box, variant="test", beta_dt=1e-6, crossfit=True)):
+            for name in ("events", "events_low", "events_cross", "pair_integral", "pair_integral_high", "pair_integral_cross", "points_needed"):
+                self.assertTrue(math.isnan(getattr(found, name)), name)
+            self.assertEqual((found.resolved, found.keeps_apart, np.isnan(found.cells["events"]).all()), (False, False, True))
 
 
 class Tables(unittest.TestCase):

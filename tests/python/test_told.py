@@ -1,0 +1,244 @@
+"""What users are told: warnings of the command, refusals in one line with the key's name, words of Python and not of the shell.
+
+Found by someone who used the package from a notebook for the first time.
+"""
+import inspect
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+import clast
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GRAIN = ROOT / "data/standin63/grain00.ply"
+X = np.random.default_rng(7).random((400, 3))
+BOX = "box:0,0,0,1,1,1"
+FOLDER = tempfile.TemporaryDirectory()
+BED = pathlib.Path(FOLDER.name, "bed")
+AGGREGATE = {"core": "sphere", "core_size": 270e-6, "coat": "sphere", "size": "30um", "replicate": 5, "picture": False}
+PACK = {"curve": "4mm", "mass": "0.5g", "width": "30mm", "height": "0.1m", "shaking_time": 0, "max_steps": 2000}
+LATTICE = pathlib.Path(FOLDER.name, "lattice.csv")
+LATTICE.write_text("x_mm,y_mm,z_mm,d_mm\n" + "".join(f"{i},{j},{k + 0.5},1\n" for i in range(3) for j in range(3) for k in range(6)))
+FORMS = {"flatness": np.linspace(0.4, 0.8, 9), "elongation": np.linspace(0.7, 0.5, 9) ** 2 + 0.3}
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    clast.pack(**PACK, output=BED)
+
+
+class Case(unittest.TestCase):
+    def refused(self, line, use):
+        with self.assertRaisesRegex(clast.Error, line) as caught:
+            use()
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def said(self, *words):
+        done = subprocess.run([os.environ["CLAST"], *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=FOLDER.name, text=True)
+        return " ".join(done.stdout.split())
+
+    def heard(self, use):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            use()
+        return [str(one.message) for one in caught]
+
+
+class Porosity(Case):
+    def test_a_run_knows_its_contacts(self):
+        """Coordination came of the pairs within `gap`, directions of the run's own contacts: two sets in one table."""
+        self.refused("^gap: .*knows its contacts", lambda: clast.porosity(BED, cut=0.95, gap="0.1mm"))
+
+    def test_a_run_knows_its_floor(self):
+        self.refused("^floor: .*bed", lambda: clast.porosity(BED, cut=0.95, floor="1mm"))
+        low = clast.porosity(BED, cut=0.95, bed="cylinder:15mm", floor="-1mm").z_low
+        self.assertEqual(low, -1e-3)
+
+    def test_an_assembly_knows_its_grains(self):
+        grains = clast.Assembly.read_spheres(LATTICE)
+        for keys in (dict(columns="x,y,z,d"), dict(diameter="1mm")):
+            self.refused("^columns, diameter: ", lambda: clast.porosity(grains, bed="periodic:0mm,0mm,3mm,3mm", **keys))
+
+
+class Warnings(Case):
+    def test_evolve_beyond_its_drag_law(self):
+        keys = dict(domain="box:0,0,0,10mm,10mm,10mm", particles=5, curve="200um", duration="1ms", fall="stokes")
+        told = self.said("evolve", *(word for key, value in keys.items() for word in (f"--{key}", value)))
+        line = re.search(r"Reynolds number of the fastest fall .*? drag law", told)[0]
+        self.assertEqual([one[:len(line)] for one in self.heard(lambda: clast.evolve(**keys))], [line])
+
+    def test_a_bed_heavier_than_asked_for(self):
+        keys = {**PACK, "mass": "1mg"}
+        told = self.said("pack", *(word for key, value in keys.items() for word in (f"--{key.replace('_', '-')}", "0s" if value == 0 else value)))
+        line = re.search(r"[0-9.]+ times the mass that was asked for: [^;]*;", told)[0]
+        self.assertEqual([one[:len(line)] for one in self.heard(lambda: clast.pack(**keys)) if "times the mass" in one], [line])
+
+    def test_aggregates_packed_at_another_density(self):
+        run = os.path.join(FOLDER.name, "aggregate")
+        clast.aggregate(**AGGREGATE, core_density=2500, coat_density=2500, output=run)
+        keys = dict(shapes=run + "/state.h5", curve="1mm", mass="10mg", width="20mm", height="20mm", max_steps=5, shaking_time=0)
+        with self.assertLogs("clast", "INFO") as caught:
+            self.heard(lambda: clast.pack(**keys))
+        self.assertRegex(" ".join(caught.output), "aggregates of 2500 kg/m.3 are packed at 2650 kg/m.3: density=0 keeps their own")
+
+    def test_a_result_that_no_run_has(self):
+        keys = dict(run="fill", argument=ROOT / "data/scarlet/stl/Menger2.stl", vary={"spheres": [2]}, keep=["nonsense", "filled_fraction"])
+        heard = self.heard(lambda: clast.study(**keys, output=os.path.join(FOLDER.name, "study")))
+        self.assertEqual(heard, ["keep: 'nonsense': no run's result has such a number"])
+
+    def test_a_model_of_one_form(self):
+        with self.assertLogs("clast", "INFO") as caught:
+            clast.predict((0.65, 0.1), (0.7, 0.1), model="single")
+        self.assertIn("a single-form model at the mean form: it leaves the spread of the forms out", caught.output[0])
+        with self.assertNoLogs("clast", "INFO"):
+            clast.predict(0.65, 0.7, model="single")
+
+    def test_a_mask_has_no_grey_levels(self):
+        mask = np.zeros((12, 12, 12), np.uint8)
+        mask[3:9, 3:9, 3:9] = 200
+        pathlib.Path(FOLDER.name, "mask.raw").write_bytes(mask.tobytes())
+        told = self.said("shape", "mask.raw", "--kind", "voxels", "--voxels", "12,12,12", "--threshold", 100)
+        line = re.search("1 of 1 grains are of a mask.*labels' are", told)[0].replace("--", "")
+        with self.assertLogs("clast", "INFO") as caught:
+            clast.shapes(os.path.join(FOLDER.name, "mask.raw"), kind="voxels", voxels=(12, 12, 12), threshold=100)
+        self.assertIn(line, caught.output[0])
+
+    def test_grains_that_cannot_be_measured(self):
+        """A misspelt name was an empty table, and a mean of 62 of 63 grains said nothing."""
+        self.refused("nope.ply", lambda: clast.shapes("nope.ply"))
+        heard = self.heard(lambda: self.assertEqual(len(clast.shapes("nope.ply", GRAIN)), 1))
+        self.assertEqual(len(heard), 1)
+        self.assertRegex(heard[0], "^1 file or grain could not be measured .first: .*nope.ply")
+
+
+class Words(Case):
+    def test_a_bare_number_is_told_with_its_unit(self):
+        """"30 is outside [-90 deg, 90 deg]" read as if the package could not count."""
+        for keys, line in ((dict(elevation=30), r"^elevation: 30 rad is outside \[-90 deg, 90 deg\]; write 30deg"),
+                           (dict(azimuth=45), r"^azimuth: 45 rad is .*; write 45deg"), (dict(elevation="2rad"), r"^elevation: 2rad is outside"),
+                           (dict(elevation="100deg"), r"^elevation: 100deg is outside \[-90 deg, 90 deg\]$"), (dict(width=1), r"^width: 1 is outside"),
+                           (dict(elevation=200), r"^elevation: 200 rad is outside \[-90 deg, 90 deg\]$")):
+            self.refused(line, lambda: clast.render(BED, **keys))
+        self.refused("^mass: -1 kg is outside", lambda: clast.pack(mass=-1))
+        self.refused("^density: -5 kg/m3 is outside", lambda: clast.pack(density="-5 kg/m3"))
+
+    def test_options_are_keywords(self):
+        self.refused("outside drop|outside='drop'", lambda: clast.decompose(X * 1.2, domain=BOX))
+        self.refused("replace it with force$", lambda: clast.pack(**PACK, output=BED))
+        self.refused("concentration$", clast.box_model)
+        for use in (lambda: clast.decompose(X * 1.2, domain=BOX), lambda: clast.pack(**PACK, output=BED), clast.box_model,
+                    lambda: clast.fit({"x": [1.0, 2.0]}, features="columns")):
+            with self.assertRaisesRegex(clast.Error, "^(?!.*--).*$"):
+                use()
+
+    def test_a_grain_has_its_number(self):
+        for member, value in (("positions", np.nan), ("orientations", 2.0), ("scales", -1.0)):
+            grains = clast.Assembly.read(BED)
+            getattr(grains, member)[2] = value
+            for use in (lambda: clast.render(grains, width=64), lambda: grains.write(os.path.join(FOLDER.name, "x.vtu")), grains._copy):
+                self.refused(f"^assembly: grain 2 of {len(grains)}: ", use)
+
+    def test_a_number_is_metres_where_a_size_is_a_text(self):
+        self.assertEqual(clast.Grading(0.004).size(0.5), clast.Grading("4mm").size(0.5))
+        self.assertEqual(clast.Grading(np.float32(0.5)).size(0.5), 0.5)
+        keys = dict(mass="0.2g", width="30mm", height="0.1m", max_steps=10, shaking_time=0)
+        self.assertEqual(clast.pack(**keys, curve=4e-3)["n_grain"], clast.pack(**keys, curve="4mm")["n_grain"])
+        study = clast.study(run="pack", fix={**keys, "max_steps": 2000}, vary={"curve": [3e-3, "4mm"]}, seeds=1, output=os.path.join(FOLDER.name, "sizes"))
+        self.assertEqual((study.n_done, study.n_failed), (2, 0))
+        for bad in ({}, [1, 2], float("nan")):
+            self.refused("^text: |nan", lambda: clast.Grading(bad))
+            self.refused("^curve: |nan", lambda: clast.pack(**keys, curve=bad))
+
+    def test_a_bar_parts_values(self):
+        self.refused("^shapes: .*has a |", lambda: clast.study(run="pack", vary={"shapes": ["a|b", "c"]}, output=os.path.join(FOLDER.name, "x")))
+
+    def test_what_is_no_path_model_or_word_is_named(self):
+        fit = clast.fit({"x": np.arange(40.0), "porosity": 0.3 + 0.001 * np.arange(40.0) + 0.01 * np.sin(np.arange(40.0) ** 2)}, features="columns", n_term=1,
+                        n_permutation=0)
+        for line, use in (("^resume: a bool", lambda: clast.pack(resume=True)), ("^resume: a dict", lambda: clast.aggregate(resume={})), ("^resume: a ndarray", lambda: clast.pack(resume=X)),
+                          ("^resume: a bool", lambda: clast.evolve(resume=True)), ("call predict_beds", lambda: clast.predict(table=FORMS, model=fit)),
+                          ("^model: a dict", lambda: clast.predict(0.6, 0.7, model={})), ("^model: a int", lambda: clast.predict_beds(FORMS, model=3)),
+                          ("^solver: ", lambda: clast.box_model(solver=["a", "b"])), ("^solver: ", lambda: clast.box_model(solver={})),
+                          ("^bed: takes one value", lambda: clast.porosity(LATTICE, bed=X)), ("^unit: takes one value", lambda: clast.shapes(GRAIN, unit=X)),
+                          ("^name: a int", lambda: clast.open(BED).table(3)), ("^axes: ", lambda: clast.shape(GRAIN, axes=X[:3])),
+                          ("^columns: a ndarray", lambda: clast.Assembly.read_spheres(LATTICE, columns=X)),
+                          ("^columns: a int", lambda: clast.Cloud.read(GRAIN, columns=3)), ("^output: a bool", lambda: clast.pack(**PACK, output=True)),
+                          ("^density: 0.0 lies", lambda: clast.Grading("U1").n_expected(1, density=0)),
+                          ("^mass: -1.0 lies", lambda: clast.Grading("U1").n_expected(-1)),
+                          ("^grain_volume: 0.0 lies", lambda: clast.Grading("U1").n_expected(1, grain_volume=0))):
+            self.refused(line, use)
+        self.assertEqual(len(clast.predict_beds({"x": [3.0]}, model=fit)), 1)
+        self.assertEqual(clast.porosity(clast.open(BED), cut=0.95).porosity, clast.porosity(BED, cut=0.95).porosity)  # a run is its folder
+
+    def test_none_is_the_default(self):
+        points = os.path.join(FOLDER.name, "points.csv")
+        np.savetxt(points, X, delimiter=",", header="x,y,z", comments="")
+        self.assertEqual(len(clast.Cloud.read(points, unit=None, columns=None, velocity_columns=None)), 400)
+        self.assertEqual(len(clast.Assembly.read_spheres(LATTICE, columns=None)), 54)
+        self.assertEqual(list(clast.Grading("U1").draw(3, seed=None)), list(clast.Grading("U1").draw(3)))
+        self.assertEqual(clast.Mesh.read(GRAIN, weld=None).volume, clast.Mesh.read(GRAIN).volume)
+
+    def test_three_mf_is_of_mesh_convert(self):
+        mesh = clast.Mesh.read(GRAIN)
+        self.refused("mesh_convert", lambda: mesh.write(os.path.join(FOLDER.name, "x.3mf")))
+
+    def test_documents_say_what_can_be_interrupted(self):
+        page = re.sub(r"\s+", " ", (ROOT / "docs/python.md").read_text())
+        stoppable = [name for name in clast._functions.__all__ if "progress" in inspect.signature(getattr(clast, name)).parameters]
+        self.assertIn(f"Ctrl-C ends {', '.join(f'`{name}`' for name in sorted(stoppable))}", page)
+        for name in ("agglomerate", "box_model", "decompose", "fit", "shapes"):
+            self.assertIn("cannot be interrupted", getattr(clast, name).__doc__, name)
+
+
+class Results(Case):
+    def test_a_result_is_a_mapping(self):
+        found = clast.aggregate(**AGGREGATE)
+        self.assertEqual(("density" in found, "nothing" in found), (True, False))
+        self.assertEqual((list(found), dict(found)), (list(found.values), found.values))
+        self.assertLessEqual({"density", "run", "folder"}, set(dir(found)))
+        self.assertIn("mass", dir(clast.Cloud(X, mass=np.ones(400))))
+
+    def test_a_folder_is_found_from_elsewhere(self):
+        before = os.getcwd()
+        try:
+            os.chdir(FOLDER.name)
+            for made in (clast.aggregate(**AGGREGATE, output="here"), clast.study(run="fill", argument=GRAIN, vary={"spheres": [2]}, output="many"), clast.open("here")):
+                os.chdir("/")
+                self.assertTrue(os.path.isdir(made.folder), made.folder)
+                os.chdir(FOLDER.name)
+        finally:
+            os.chdir(before)
+
+    def test_what_is_shown_says_what_it_is(self):
+        run = clast.open(BED)
+        self.assertEqual(repr(run), f"<clast.Run of pack in {BED}>")
+        self.assertEqual(repr(run.grains), f"<clast.Assembly of {len(run.grains)} grains, m>")
+        self.assertEqual(repr(clast.Cloud(X, mass=np.ones(400))), "<clast.Cloud of 400 points in 3 dimensions with mass>")
+        self.assertEqual(repr(clast.Grading("4mm")), "<clast.Grading 4mm>")
+        self.assertEqual(repr(clast.Model("single_form_U1")), "<clast.Model single_form_U1>")
+        self.assertRegex(repr(run.grains.view()), "^<clast.View of [0-9]+ kB>$")
+
+    def test_cross_fitting_can_be_read(self):
+        keys = dict(domain=BOX, crossfit=True)
+        x = X**2
+        found = clast.decompose(x, **keys, beta_dt=1e-6)
+        self.assertGreater(found.events_cross, 0)
+        self.assertTrue(np.isnan(found.pair_integral_cross))
+        self.assertAlmostEqual(clast.decompose(x, **keys).pair_integral_cross * 1e-6 / found.events_cross, 1)
+        self.assertTrue(np.isnan(clast.decompose(x, domain=BOX).pair_integral_cross))
+
+    def test_repeated_points_are_those_that_were_decomposed(self):
+        x = X.copy()
+        x[:60] = x[0]
+        found = clast.decompose(x, domain=BOX)
+        self.assertEqual(found.n_repeated, 59)
+        x[:] = X
+        self.assertEqual(found.n_repeated, 59)
+
+
+if __name__ == "__main__":
+    unittest.main()
