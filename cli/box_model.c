@@ -103,6 +103,7 @@ static json_t *summary_of(const cli_box *box, const char *kernel, int32_t repeat
     cli_json_number(out, "gel_size", r->gel_size);
     cli_json_number(out, "exact_gel_time", r->exact_gel_time);
     cli_json_number(out, "mass_error", r->mass_error);
+    cli_json_number(out, "volume_fraction", r->volume_fraction);
     cli_json_number(out, "law_M1", r->law_M1);
     cli_json_number(out, "law_M2", r->law_M2);
     cli_range_json(out, &r->range);
@@ -300,6 +301,7 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     CLI_TRY(evolve(job->box, job->agglomerate, &r));
     out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
     cli_range_warn(common, &r.range);
+    cli_dense_warn(common, r.volume_fraction);
     if (job->box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO) {
         warn_of_start(common, &r);
     }

@@ -61,8 +61,8 @@ void cli_dense_warn(const cli_common *common, double volume_fraction)
 {
     if (volume_fraction > 0.1 && !common->quiet) {
         (void)fprintf(stderr,
-                      "clast %s: warning: the particles fill %.3g %% of the domain; kernels are of "
-                      "dilute suspensions: are radii and positions in the same unit?\n",
+                      "clast %s: warning: the particles fill %.3g %% of the volume; kernels are of "
+                      "dilute suspensions: look at the units\n",
                       common->command, 100.0 * volume_fraction);
     }
 }

@@ -34,7 +34,7 @@ if [ -n "$view" ]; then
     [ -z "$missing" ] || { echo "declared CLAST_API but not exported: $missing"; exit 1; }
 fi
 ! ldd "$build/libclast.so" | grep -E 'cairo|libpng|libX11' || { echo "the core loads a library of pictures (above)"; exit 1; }
-fused=$(objdump -d --no-show-raw-insn "$build"/libclast*.so | awk '/^[0-9a-f]+ <.*>:/{f=$2} /[ \t](v?fn?m(add|sub)|fml[as])/{print f}' | sort -u)
+fused=$(set -o pipefail; objdump -d --no-show-raw-insn "$build"/libclast*.so | awk '/^[0-9a-f]+ <.*>:/{f=$2} /[ \t](v?fn?m(add|sub)|fml[as])/{print f}' | sort -u)
 [ -z "$fused" ] || { echo "multiplies and adds in one rounding: $fused"; exit 1; }
 echo "symbols: core $(printf '%s\n' "$exported" | wc -l), view $(printf '%s' "$view" | plain | wc -l) exported, all clast_*, all declared ones" \
     "present; $(printf '%s' "$shared" | grep -c . || true) shared by core and view; the core loads $(ldd "$build/libclast.so" | wc -l) libraries," \

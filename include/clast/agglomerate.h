@@ -163,6 +163,9 @@ typedef struct clast_spectrum {
     int32_t n_gelled;      ///< runs
     bool is_gelation;      ///< the kernel gels: grid or sample are not merely too small
     double exact_gel_time; ///< product kernel alone: 1 / (c M2(0)) [s]; else NaN
+    /// Of the monomers at the start by monomer_radius; NaN: without. Kernels are of dilute
+    /// suspensions.
+    double volume_fraction;
     double law_M1, law_M2; ///< of the law at the start [1/m^3]; the history's first row has what
                            ///< the box holds of it
     double mass_error;     ///< largest, relative to what was there and came in

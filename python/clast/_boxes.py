@@ -42,8 +42,7 @@ def warn_of_range(report: Any) -> None:
 
 def warn_of_dense(volume_fraction: float) -> None:
     if volume_fraction > 0.1:
-        warn(f"the particles fill {100 * volume_fraction:.3g} % of the domain; kernels are of dilute suspensions: are radii and positions in the "
-             "same unit?")
+        warn(f"the particles fill {100 * volume_fraction:.3g} % of the volume; kernels are of dilute suspensions: look at the units")
 
 
 def _warn_of_start(history: Table, law: Any) -> None:
@@ -106,6 +105,7 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
                                             ctypes.byref(result.struct)))
     r = result.struct
     warn_of_range(r.range)
+    warn_of_dense(r.volume_fraction)
     history = table_of(result, r.history)
     if s.solver == c.VALUES["CLAST_SOLVER_MONTE_CARLO"]:
         _warn_of_start(history, r)

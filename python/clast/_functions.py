@@ -322,7 +322,7 @@ def agglomerate(
         gravity: gravity g (m/s^2; 0 to 1e+06; default 9.80665)
         efficiency: collision efficiency E of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
         settling_law: drag of settling spheres: the standard curve, or Stokes' (standard, stokes; default standard)
-        rebuild: when later snapshots get new cells: when the cloud has changed, always, never (changed, always, never; default changed)
+        rebuild: when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for never also when half of the particles are left (changed, always, never; default changed)
         change_level: false alarms of the test that finds the cloud changed (1e-12 to 0.5; default 0.01)
         fixed: a regular mesh of this many cells an axis is evolved beside; 0: none (0 to 1000; default 0)
         depth: extent of the missing dimensions: a length in 2-D (a bare number: m), m^2 in 1-D (bare) (m; at least 0; default 0.0)

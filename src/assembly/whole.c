@@ -56,7 +56,7 @@ const char *clx_assembly_fault(const clast_assembly *a)
         fault = grain_fault(a, i);
         if (fault != NULL) {
             static _Thread_local char text[128];
-            (void)snprintf(text, sizeof text, "grain %d of %d: %s", i, a->n_grain, fault);
+            (void)snprintf(text, sizeof text, "grain %d of %d: %s", i + 1, a->n_grain, fault);
             fault = text;
         }
     }

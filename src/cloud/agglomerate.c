@@ -95,7 +95,9 @@ const clast_field clast_agglomerate_fields[] = {
     {DEEP(CLAST_FIELD_CHOICE, settling_law, medium.settling_law), 0, 0, 0, "-",
      "drag of settling spheres: the standard curve, or Stokes'", "standard|stokes"},
     {FIELD(CLAST_FIELD_CHOICE, rebuild), 0, 0, 0, "-",
-     "when later snapshots get new cells: when the cloud has changed, always, never",
+     "when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for "
+     "never "
+     "also when half of the particles are left",
      "changed|always|never", .group = "cells in time"},
     {FIELD(CLAST_FIELD_F64, change_level), 0.01, 1e-12, 0.5, "-",
      "false alarms of the test that finds the cloud changed", NULL},

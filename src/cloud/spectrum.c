@@ -448,6 +448,9 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
     CLX_TRY(clx_start_begin(config, start_table, &start));
     made.law_M1 = clx_start_moment(&start, 1);
     made.law_M2 = clx_start_moment(&start, 2);
+    made.volume_fraction = collide->monomer_radius > 0.0 ? made.law_M1 * 4.0 / 3.0 * CLAST_PI *
+                                                               pow(collide->monomer_radius, 3.0)
+                                                         : (double)NAN;
     CLX_TRY(make_grid(&start, &grid));
     CLX_TRY(make_sums(config->n_step + 1, grid.n, &sums));
     if (config->solver == CLAST_SOLVER_SECTIONAL) {

@@ -243,7 +243,13 @@ class Agglomerate(Case):
             file = write(self.folder / "p.csv", ["x", "y", "z", "r"], [[*(1e-3 * random.random() for _ in range(3)), radius] for _ in range(500)])
             r = clast("agglomerate", file, "--domain", "box:0,0,0,1mm,1mm,1mm", "--radius-column", "r", "--constant", "1e-15", "--json")
             self.assertAlmostEqual(r.json["volume_fraction"] / share, 1, delta=1e-3)
-            self.assertEqual("warning: the particles fill 1.68e+03 % of the domain" in r.err, share > 1, r.err)
+            self.assertEqual("warning: the particles fill 1.68e+03 % of the volume" in r.err, share > 1, r.err)
+
+        for concentration, share in (("1e18", 33.51), ("1e12", 3.351e-5)):
+            r = clast("agglomerate", "--box-model", "--concentration", concentration, "--kernel", "brownian", "--temperature", "300", "--viscosity", "1e-3",
+                      "--monomer-radius", "2um", "--duration", "1e-9", "--particles", "1000", "--out-of-range", "extrapolate", "--json")
+            self.assertAlmostEqual(r.json["volume_fraction"] / share, 1, delta=1e-3)
+            self.assertEqual("warning: the particles fill 3.35e+03 % of the volume" in r.err, share > 1, r.err)
 
     def test_physical_kernels_name_what_is_missing(self):
         wanted = [(["--kernel", "brown"], "'brown'"), (["--kernel", "brownian"], "radius column or --monomer-radius"),

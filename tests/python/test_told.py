@@ -140,7 +140,7 @@ class Words(Case):
             grains = clast.Assembly.read(BED)
             getattr(grains, member)[2] = value
             for use in (lambda: clast.render(grains, width=64), lambda: grains.write(os.path.join(FOLDER.name, "x.vtu")), grains._copy):
-                self.refused(f"^assembly: grain 2 of {len(grains)}: ", use)
+                self.refused(f"^assembly: grain 3 of {len(grains)}: ", use)
 
     def test_a_number_is_metres_where_a_size_is_a_text(self):
         self.assertEqual(clast.Grading(0.004).size(0.5), clast.Grading("4mm").size(0.5))
