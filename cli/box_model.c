@@ -243,9 +243,11 @@ done:
     return clast_run_folder_end(folder, status);
 }
 
-static clast_status evolve(const cli_box *box, const clast_agglomerate_config *agglomerate,
-                           clast_spectrum *result)
+static clast_status evolve(const cli_box_job *job, clast_spectrum *result)
 {
+    const cli_box *box = job->box;
+    const clast_agglomerate_config *agglomerate = job->agglomerate;
+    const clast_monitor monitor = cli_monitor(job->common);
     clast_table table = {0};
     clast_spectrum_start start = {0};
     clast_spectrum_config c = box->spectrum;
@@ -259,7 +261,7 @@ static clast_status evolve(const cli_box *box, const clast_agglomerate_config *a
     if (c.initial == CLAST_INITIAL_TABLE) {
         CLI_TRY(read_start(box, &table, &start));
     }
-    status = clast_spectrum_evolve(&start, &c, &collide, result);
+    status = clast_spectrum_evolve(&start, &c, &collide, &monitor, result);
     if (status == CLAST_E_FORMAT && start.n > 0) {
         char words[1024];
         (void)snprintf(words, sizeof words, "%s", clast_error_detail());
@@ -298,7 +300,7 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     const double begun = cli_clock();
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, force, &folder));
-    CLI_TRY(evolve(job->box, job->agglomerate, &r));
+    CLI_TRY(evolve(job, &r));
     out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
     cli_range_warn(common, &r.range);
     cli_dense_warn(common, r.volume_fraction);

@@ -405,6 +405,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_domain domain = {0};
     json_t *out = NULL;
     clast_run_folder *folder = NULL;
+    const clast_monitor monitor = cli_monitor(common);
     const double begun = cli_clock();
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
@@ -414,7 +415,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(load(common, c, &l));
     l.input.domain = &domain;
     cli_warn_of_units(common, &domain, &l.cloud[0]);
-    status = clast_agglomerate(&l.input, &c->agglomerate, &result);
+    status = clast_agglomerate(&l.input, &c->agglomerate, &monitor, &result);
     CLI_TRY(cli_points_status(status, &c->points, &domain, &l.cloud[0]));
     out = summary(c, &result, cli_clock() - begun);
     cli_json_count(out, "n_snapshot", common->n_argument);

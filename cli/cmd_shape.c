@@ -319,12 +319,13 @@ static clast_status run(const cli_common *common, void *config_bytes)
         .columns = c->columns[0] != '\0' ? c->columns : NULL,
         .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
     };
+    const clast_monitor monitor = cli_monitor(common);
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, c->statistics, &c->force, &folder));
     CLI_TRY(unit_factor(c, &unit_m));
     CLI_TRY(volume_options(c, &options));
     CLI_TRY(clast_grains_read(common->n_argument, (const char *const *)common->argument, &options,
-                              &shape.grains));
+                              &monitor, &shape.grains));
     CLI_TRY(check_read(c, &shape.grains));
     if (all_have_unit(&shape.grains, unit_m)) {
         clast_grains_to_metres(&shape.grains, unit_m);

@@ -58,7 +58,7 @@ static clast_status measure_grains(char *const path[], const char *table_path)
     clast_grains grains = {0};
     clast_table table = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_grains_read(N_FILE, (const char *const *)path, &options, &grains));
+    CLI_TRY(clast_grains_read(N_FILE, (const char *const *)path, &options, NULL, &grains));
     CLI_CHECK(grains.n_fault <= 0, grains.fault[0].status, "%s", grains.fault[0].text);
     CLI_TRY(clast_grains_table(&grains, CLAST_AXES_ELLIPSOID, false, &table));
     CLI_TRY(clast_table_write_csv(&table, table_path));

@@ -180,13 +180,14 @@ CLAST_API bool clast_spectrum_has_sectional(void);
 ///
 /// @param collide  kernel, medium, alpha, radius law, seed
 /// @param start    for CLAST_INITIAL_TABLE, else NULL
+/// @param monitor  may be NULL; asked between steps, a stop request returns CLAST_E_STOPPED
 /// @return CLAST_E_CONFIG for what does not go together (Monte Carlo breaks particles into a whole
 /// number of fragments alone; a kernel of velocities has no spectrum; no sectional solver in this
 /// build), CLAST_E_LIMIT where breakage and sources make over 2e7 particles of a run
 CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_start *start,
                                              const clast_spectrum_config *config,
                                              const clast_collide_config *collide,
-                                             clast_spectrum *result);
+                                             const clast_monitor *monitor, clast_spectrum *result);
 CLAST_API void clast_spectrum_free(clast_spectrum *result);
 
 // Agglomeration in time: cells by decomposition, collisions in them, again at each snapshot.
@@ -259,11 +260,12 @@ typedef struct clast_agglomeration {
 
 /// Evolves the cloud; see docs/theory/agglomeration.md.
 ///
+/// @param monitor  may be NULL; asked between steps, a stop request returns CLAST_E_STOPPED
 /// @return as clast_decompose and clast_collide; CLAST_E_CONFIG for missing columns or
 /// parameters, CLAST_E_FORMAT for values that cannot be (with the particle's number)
 CLAST_API clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                          const clast_agglomerate_config *config,
-                                         clast_agglomeration *result);
+                                         const clast_monitor *monitor, clast_agglomeration *result);
 CLAST_API void clast_agglomeration_free(clast_agglomeration *result);
 
 /// Whether two samples of n points of the unit cube have the same density: chi-square of their

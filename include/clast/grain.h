@@ -163,9 +163,11 @@ typedef struct clast_grains {
 
 /// Measures every grain of n files, in parallel, whatever becomes of the others.
 ///
+/// @param monitor  may be NULL; asked between files, a stop request returns CLAST_E_STOPPED
 /// @return CLAST_E_MEMORY, CLAST_E_STOPPED; a file's own trouble is a fault of the result
 CLAST_API clast_status clast_grains_read(int32_t n_file, const char *const *path,
-                                         const clast_grains_options *options, clast_grains *grains);
+                                         const clast_grains_options *options,
+                                         const clast_monitor *monitor, clast_grains *grains);
 CLAST_API void clast_grains_free(clast_grains *grains);
 
 /// "surface", "series", "voxels", "points", "table", "clump".

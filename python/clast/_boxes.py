@@ -9,7 +9,7 @@ from typing import Any, Iterable
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, html_last, nearest, numbers, refuse, single, warn
+from ._core import Config, Error, Monitor, Owner, Progress, call, check, html_last, nearest, numbers, refuse, single, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
@@ -69,11 +69,11 @@ class Spectrum:
         return html_last(self.history, "time_s", "M0", "M1", "M2", "exact_M0", "exact_M2")
 
 
-def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spectrum:
+def box_model(*, sizes: Any = None, seed: int | None = None, progress: Progress = None, **keys: Any) -> Spectrum:
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". A call cannot be interrupted: Ctrl-C waits.
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". Ctrl-C ends it between steps.
     """
     solver = "monte-carlo" if keys.get("solver") is None else str(single("solver", keys["solver"]))
     own = set(_FIELDS["clast_spectrum_fields"])
@@ -93,7 +93,7 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
             raise refuse("sizes: needs the columns size and number")
         columns = [numbers(f"sizes: {name}", held[name], None) for name in ("size", "number")]
         start.n, (start.size, start.number) = len(held), (ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double)) for x in columns)
-    result = Owner(c.clast_spectrum(), "clast_spectrum_free")
+    result, monitor = Owner(c.clast_spectrum(), "clast_spectrum_free"), Monitor(progress)
     parts = [{name: value for name, value in keys.items() if (name in own) == is_own} for is_own in (True, False)]
     with Config(c.clast_spectrum_config(), "clast_spectrum_fields", parts[0]) as box, \
             Config(c.clast_agglomerate_config(), ("clast_agglomerate_fields", "clast_decompose_fields"), {**parts[1], "seed": seed}) as rest:
@@ -101,8 +101,8 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
         check_used(a, parts[1], s.settling_depth > 0)
         a.collide.seed = a.decompose.seed
         s.duration, s.n_step, s.repeats = a.duration, a.n_step, a.repeats
-        check(call("clast_spectrum_evolve")(ctypes.byref(start) if held is not None else None, ctypes.byref(s), ctypes.byref(a.collide),
-                                            ctypes.byref(result.struct)))
+        check(monitor.run(lambda m: call("clast_spectrum_evolve")(ctypes.byref(start) if held is not None else None, ctypes.byref(s),
+                                                                  ctypes.byref(a.collide), m, ctypes.byref(result.struct))))
     r = result.struct
     warn_of_range(r.range)
     warn_of_dense(r.volume_fraction)

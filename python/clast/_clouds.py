@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._boxes import check_used, warn_of_dense, warn_of_range
-from ._core import (Config, Fixed, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, items, numbers,
+from ._core import (Config, Fixed, Floats, Monitor, Owner, Progress, call, check, choice, encoded, fixed, html_last, html_members, html_table, items, numbers,
                     people_write, refuse, settled, view, warn, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
@@ -291,13 +291,13 @@ class Agglomeration:
 
 def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
                 monomers: Any = None, speed_rms: Any = None, temperature: Any = None, shear: Any = None, dissipation: Any = None,
-                **keys: Any) -> Agglomeration:
+                progress: Progress = None, **keys: Any) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
     radius, mass, weight, velocity and monomers are those of the first snapshot (a Cloud has its own velocities in each); speed_rms, temperature,
     shear and dissipation are numbers, texts with a unit ("300 K"), or arrays of one value a particle, of all snapshots (n,) or of each
     (snapshots, n). Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
-    duration="10s", n_step=100, seed=1). A call cannot be interrupted: Ctrl-C waits for its end.
+    duration="10s", n_step=100, seed=1). Ctrl-C ends it between steps; nothing is kept.
     """
     if not snapshots:
         raise refuse("snapshots: none is given")
@@ -315,10 +315,10 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
             held.append(_column(name, value, made[0].positions) if name == "monomers" else _flow(name, value, made))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
-    owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
+    owner, monitor = Owner(c.clast_agglomeration(), "clast_agglomeration_free"), Monitor(progress)
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check_used(config.struct, [*keys, *given_columns])
-        check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
+        check(monitor.run(lambda m: call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), m, ctypes.byref(owner.struct))))
         _warn_of_units(config.struct.decompose, made[0])
     r = owner.struct
     warn_of_range(r.range)

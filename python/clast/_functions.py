@@ -209,6 +209,7 @@ def agglomerate(
         temperature: Any = None,
         shear: Any = None,
         dissipation: Any = None,
+        progress: Progress = None,
         kernel: Text | None = None,
         duration: Quantity | None = None,
         n_step: int | None = None,
@@ -279,7 +280,7 @@ def agglomerate(
     radius, mass, weight, velocity and monomers are those of the first snapshot (a Cloud has its own velocities in each); speed_rms, temperature,
     shear and dissipation are numbers, texts with a unit ("300 K"), or arrays of one value a particle, of all snapshots (n,) or of each
     (snapshots, n). Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
-    duration="10s", n_step=100, seed=1). A call cannot be interrupted: Ctrl-C waits for its end.
+    duration="10s", n_step=100, seed=1). Ctrl-C ends it between steps; nothing is kept.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
@@ -360,6 +361,7 @@ def box_model(
         *,
         sizes: Any = None,
         seed: int | None = None,
+        progress: Progress = None,
         solver: Literal["monte-carlo", "sectional"] | None = None,
         initial: Literal["mono", "exponential", "lognormal", "table"] | None = None,
         concentration: Quantity | None = None,
@@ -419,7 +421,7 @@ def box_model(
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". A call cannot be interrupted: Ctrl-C waits.
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". Ctrl-C ends it between steps.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         seed: seed of the ghost points (default 1)
@@ -1433,11 +1435,12 @@ def shapes(
         least_voxels: int = 1,
         columns: str = '',
         surfaces: Path | None = None,
+        progress: Progress = None,
 ) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
     What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
-    A call cannot be interrupted: Ctrl-C waits for its end.
+    Ctrl-C ends it between files; nothing is kept but surfaces written by then.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         axes: definition of L, I and S behind D and the form factors (ellipsoid, box, fitted, feret, principal; default ellipsoid)

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, choice, encoded, html_table, items, note, quantity, refuse, settled, status_name, view, warn
+from ._core import (Error, Floats, Monitor, Owner, Progress, call, check, choice, encoded, html_table, items, note, quantity, refuse, settled,
+                    status_name, view, warn)
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
@@ -103,11 +104,11 @@ def _numbers(name: str, value: Any, counts: tuple[int, ...]) -> list[float]:
 def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str = "", kind: str = "auto", degree: int = -1, level: int = 5,
            spacing: float = 0.0, voxels: Any = None, voxel_type: str = "u8", big_endian: bool = False, skip: int = 0, voxel_edge: Any = None,
            dataset: str = "", threshold: float | None = None, least_voxels: int = 1, columns: str = "",
-           surfaces: Path | None = None) -> Grains:
+           surfaces: Path | None = None, progress: Progress = None) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
     What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
-    A call cannot be interrupted: Ctrl-C waits for its end.
+    Ctrl-C ends it between files; nothing is kept but surfaces written by then.
     """
     if not files:
         raise refuse("files: none is given")
@@ -133,13 +134,13 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
     metres = ctypes.c_double()
     if given["unit"]:
         check(call("clast_unit_factor")(encoded("unit", given["unit"]), b"m", ctypes.byref(metres)))
-    return _measure(files, options, metres.value, choice("axes", given["axes"], words["axes"][5] or ""))
+    return _measure(files, options, metres.value, Monitor(progress), choice("axes", given["axes"], words["axes"][5] or ""))
 
 
-def _measure(files: tuple[Path, ...], options: Any, metres: float, axes: int) -> Grains:
+def _measure(files: tuple[Path, ...], options: Any, metres: float, monitor: Monitor, axes: int) -> Grains:
     owner, table = Owner(c.clast_grains(), "clast_grains_free"), Owner(c.clast_table(), "clast_table_free")
     names = (ctypes.c_char_p * len(files))(*(encoded("files", file) for file in files))
-    check(call("clast_grains_read")(len(files), names, ctypes.byref(options), ctypes.byref(owner.struct)))
+    check(monitor.run(lambda m: call("clast_grains_read")(len(files), names, ctypes.byref(options), m, ctypes.byref(owner.struct))))
     g = owner.struct
     records = [g.record[k] for k in range(g.n)]
     in_metres = metres > 0 or (g.n > 0 and records[0].unit_m > 0)

@@ -2,6 +2,7 @@
 #include "aggregate/fit.h"
 
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include <clast/assembly.h>
 #include <clast/settling.h>
@@ -123,11 +124,8 @@ static int32_t expected_runs(const clx_fit *fit, int32_t level)
 
 static clast_status report(clx_fit *fit, int32_t level)
 {
-    const clast_monitor *m = fit->monitor;
-    if (m != NULL && m->report != NULL) {
-        m->report(m->context, PHASE, fit->n_run, expected_runs(fit, level));
-    }
-    if (m != NULL && m->stop != NULL && m->stop(m->context)) {
+    clx_monitor_report(fit->monitor, PHASE, fit->n_run, expected_runs(fit, level));
+    if (clx_monitor_stops(fit->monitor)) {
         return clx_fail(CLAST_E_STOPPED, "stopped after %d aggregates of the fit", fit->n_run);
     }
     return CLAST_OK;
@@ -266,9 +264,7 @@ clast_status clx_fit_grow(clx_fit *fit)
             break;
         }
     }
-    if (fit->monitor != NULL && fit->monitor->report != NULL) {
-        fit->monitor->report(fit->monitor->context, PHASE, fit->n_run, fit->n_run);
-    }
+    clx_monitor_report(fit->monitor, PHASE, fit->n_run, fit->n_run);
 done:
     return status;
 }

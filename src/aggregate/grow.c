@@ -8,6 +8,7 @@
 #include "aggregate/sizes.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/monitor.h"
 #include "math/rng.h"
 #include <clast/shape.h>
 #include <math.h>
@@ -189,12 +190,10 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
     clast_status settled = CLAST_OK;
     const double begun = clx_clock();
     for (int32_t i = 0; i < n && a->stop == CLAST_STOP_NOT; ++i) {
-        CLX_CHECK(monitor == NULL || monitor->stop == NULL || !monitor->stop(monitor->context),
-                  CLAST_E_STOPPED, "stopped after %d of %d steps", a->n_placed, a->n_step);
+        CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED, "stopped after %d of %d steps",
+                  a->n_placed, a->n_step);
         CLX_TRY(step(a));
-        if (monitor != NULL && monitor->report != NULL) {
-            monitor->report(monitor->context, "grow", a->n_placed, a->n_step);
-        }
+        clx_monitor_report(monitor, "grow", a->n_placed, a->n_step);
     }
 done:
     settled = settle(a);

@@ -5,6 +5,7 @@
 #include "assembly/distance_field.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "base/status.h"
 #include "geom/isosurface.h"
 #include "math/vec3.h"
@@ -205,13 +206,6 @@ static clast_status check_input(const clast_assembly *a)
     return CLAST_OK;
 }
 
-static void tell(const clast_monitor *monitor, int64_t done)
-{
-    if (monitor != NULL && monitor->report != NULL) {
-        monitor->report(monitor->context, "printable surface", done, 3);
-    }
-}
-
 clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
                                            const clast_printable_config *config,
                                            clast_printable_report *report)
@@ -254,13 +248,13 @@ clast_status clast_assembly_printable(const clast_assembly *assembly,
     clx_distance_field_sample(&field, &grid);
     clx_distance_field_balls((const double(*)[3])assembly->contact_point, assembly->n_contact,
                              0.5 * made.neck, &grid);
-    tell(monitor, 1);
+    clx_monitor_report(monitor, "printable surface", 1, 3);
     CLX_TRY(make_solid(&grid, config->keep_voids, &made));
-    tell(monitor, 2);
+    clx_monitor_report(monitor, "printable surface", 2, 3);
     CLX_TRY(clx_isosurface(&grid, 0.0, APART, mesh));
     made.volume = clast_mesh_volume(mesh);
     *report = made;
-    tell(monitor, 3);
+    clx_monitor_report(monitor, "printable surface", 3, 3);
 done:
     clx_grid_free(&grid);
     clx_distance_field_free(&field);

@@ -2,6 +2,7 @@
 #include "cloud/agglomerate.h"
 
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "cloud/contract.h"
 #include "cloud/exact_counts.h"
 #include "cloud/kernel_range.h"
@@ -112,8 +113,10 @@ const clast_field clast_agglomerate_fields[] = {
 
 enum { M1, M2, M3, N_MOMENT };
 
-/// Columns of the history.
+/// Columns of the history, and how far it is.
 typedef struct {
+    const clast_monitor *monitor;
+    int64_t n_done, n_to_do; ///< steps of all runs
     double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt, *n_parcel;
     double *fixed_n, *fixed_events, *exact_n, *exact_m2, *gel, *gelled;
     int64_t gel_row;             ///< of this run, the first that has gelled; -1 before
@@ -250,9 +253,13 @@ static clast_status one_run(clx_evolution *run, int32_t repeat, int64_t n_row, c
             ++row;
             const uint64_t number =
                 2 * ((uint64_t)repeat * (uint64_t)n_row + (uint64_t)row) + (run->is_fixed ? 1 : 0);
+            CLX_CHECK(!clx_monitor_stops(c->monitor), CLAST_E_STOPPED,
+                      "stopped after %lld of %lld steps; nothing is kept", (long long)c->n_done,
+                      (long long)c->n_to_do);
             CLX_TRY(clx_evolution_step(run, config->duration / config->n_step, number));
             record(run, c, row);
             run->is_rebuilt = false;
+            clx_monitor_report(c->monitor, "steps", ++c->n_done, c->n_to_do);
         }
     }
 done:
@@ -459,20 +466,22 @@ done:
 }
 
 clast_status clast_agglomerate(const clast_agglomerate_input *input,
-                               const clast_agglomerate_config *config, clast_agglomeration *result)
+                               const clast_agglomerate_config *config, const clast_monitor *monitor,
+                               clast_agglomeration *result)
 {
     CLX_ARGUMENTS(input, config, result);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {.range = clx_range_begin()};
     clast_decomposition first = {0};
     clx_evolution run = {.first = &first};
-    columns c = {0};
+    columns c = {.monitor = monitor};
     CLX_TRY(check_arguments(input, config, result));
     const int64_t n_row = input->n_snapshot * config->n_step + 1;
     made.has_fixed = config->fixed > 0 || input->fixed_cell != NULL;
     CLX_CHECK((double)n_row * config->repeats < 0x1p31, CLAST_E_LIMIT,
               "%lld times in each of %d repeats are beyond 2^31", (long long)n_row,
               config->repeats);
+    c.n_to_do = (n_row - 1) * config->repeats * (made.has_fixed ? 2 : 1);
     CLX_TRY(make_history(&made, n_row, input->snapshot[0].weight != NULL, &c));
     CLX_TRY(clx_size_classes_begin(n_row, &c.classes));
     CLX_TRY(all_runs(input, config, &c, &run, &made));

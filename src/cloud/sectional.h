@@ -56,7 +56,7 @@ void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *con
 /// Integrates from y; rows [n_step + 1][n + CLX_N_BESIDE], the first given. *gel_time: when 1e-3
 /// had left the grid, else NaN.
 clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *config,
-                                 double *rows, double *gel_time);
+                                 const clast_monitor *monitor, double *rows, double *gel_time);
 
 /// Rate of collisions at y [1/(m^3 s)] against the ranges, times a weight: added to `use`.
 void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *collide,

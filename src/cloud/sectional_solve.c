@@ -3,6 +3,7 @@
 #include "cloud/sectional.h"
 
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include <math.h>
 
 #if CLAST_HAVE_SUNDIALS
@@ -107,7 +108,7 @@ done:
 }
 
 clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *config,
-                                 double *rows, double *gel_time)
+                                 const clast_monitor *monitor, double *rows, double *gel_time)
 {
     clast_status status = CLAST_OK;
     integrator g = {.s = s};
@@ -117,6 +118,8 @@ clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *
     CLX_TRY(integrator_begin(&g, rows, config->tolerance));
     for (int32_t step = 1; step <= config->n_step; ++step) {
         const double end = config->duration / config->n_step * step;
+        CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED,
+                  "stopped after %d of %d steps; nothing is kept", step - 1, config->n_step);
         for (int code = CV_ROOT_RETURN; code == CV_ROOT_RETURN && time < end;) {
             code = CVode(g.cvode, end, g.y, &time, CV_NORMAL);
             CLX_CHECK(code >= 0, CLAST_E_CONVERGE, "the spectrum was integrated up to %s of %s: %s",
@@ -129,6 +132,7 @@ clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *
             const double share = N_VGetArrayPointer(g.y)[i];
             rows[(size_t)step * n + i] = fabs(share) < LEAST_SHARE ? fmax(0.0, share) : share;
         }
+        clx_monitor_report(monitor, "steps", step, config->n_step);
     }
 done:
     integrator_free(&g);
@@ -143,10 +147,11 @@ bool clast_spectrum_has_sectional(void)
 #else
 
 clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *config,
-                                 double *rows, double *gel_time)
+                                 const clast_monitor *monitor, double *rows, double *gel_time)
 {
     (void)s;
     (void)config;
+    (void)monitor;
     (void)rows;
     (void)gel_time;
     return clx_fail(CLAST_E_CONFIG,

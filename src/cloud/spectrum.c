@@ -232,7 +232,7 @@ static clast_status solve(const clx_start *start, const clast_collide_config *co
     }
     CLX_TRY(clx_sectional_rates(config, collide, g));
     CLX_TRY(look_at_start(collide, g, rows, &made->range));
-    CLX_TRY(clx_sectional_solve(g, config, rows, &made->gel_time));
+    CLX_TRY(clx_sectional_solve(g, config, start->monitor, rows, &made->gel_time));
     CLX_TRY(look_at_rows(start, collide, g, rows, &made->range));
     for (int32_t row = 0; row < sums->n_row; ++row) {
         const double time = config->duration / config->n_step * row;
@@ -436,7 +436,8 @@ done:
 
 clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
                                    const clast_spectrum_config *config,
-                                   const clast_collide_config *collide, clast_spectrum *result)
+                                   const clast_collide_config *collide,
+                                   const clast_monitor *monitor, clast_spectrum *result)
 {
     clast_status status = CLAST_OK;
     clx_start start = {0};
@@ -446,6 +447,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
         .gel_time = (double)NAN, .exact_gel_time = (double)NAN, .range = clx_range_begin()};
     CLX_TRY(check(config, collide, result));
     CLX_TRY(clx_start_begin(config, start_table, &start));
+    start.monitor = monitor;
     made.law_M1 = clx_start_moment(&start, 1);
     made.law_M2 = clx_start_moment(&start, 2);
     made.volume_fraction = collide->monomer_radius > 0.0 ? made.law_M1 * 4.0 / 3.0 * CLAST_PI *

@@ -5,6 +5,7 @@
 /// Sizes at the start: a law, or a table's rows.
 typedef struct clx_start {
     const clast_spectrum_config *config;
+    const clast_monitor *monitor;      ///< the caller's, or NULL
     const clast_spectrum_start *table; ///< NULL but for CLAST_INITIAL_TABLE
     double concentration;              ///< N0 [1/m^3]
     double low, high;                  ///< sizes that hold all but 1e-9 of the mass [monomers]

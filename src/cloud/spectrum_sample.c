@@ -2,6 +2,7 @@
 #include "cloud/spectrum.h"
 
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include "math/rng.h"
@@ -174,9 +175,14 @@ static clast_status one_run(sampling *s, const clast_collide_config *collide, in
     for (int32_t row = 1; row < sums->n_row; ++row) {
         const double end = config->duration / config->n_step * row;
         const uint64_t step = (uint64_t)run * (uint64_t)config->n_step + (uint64_t)row;
+        const int64_t n_step = (int64_t)config->n_step * config->repeats;
+        CLX_CHECK(!clx_monitor_stops(s->start->monitor), CLAST_E_STOPPED,
+                  "stopped after %lld of %lld steps; nothing is kept", (long long)step - 1,
+                  (long long)n_step);
         CLX_TRY(clx_box_step(&s->box, end, step, &made->range.collisions));
         CLX_TRY(clx_range_up_to(collide, end, &made->range));
         count(s, row, sums, made);
+        clx_monitor_report(s->start->monitor, "steps", (int64_t)step, n_step);
     }
     if (isfinite(s->box.gel_time)) {
         s->gel_sum += s->box.gel_time;

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include "base/path.h"
 #include "io/spheres_table.h"
@@ -16,6 +17,7 @@
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/volume.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -490,19 +492,35 @@ done:
     return status;
 }
 
-static void work(int64_t begin, int64_t end, int32_t worker, void *context)
+typedef struct {
+    clx_grains_task *task;
+    int64_t n;
+    const clast_monitor *monitor; ///< the caller's: of worker 0 alone
+    _Atomic int64_t n_done;
+} reading;
+
+static clast_status read_files(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    clx_grains_task *task = context;
-    (void)worker;
+    reading *r = context;
+    clast_status status = CLAST_OK;
     for (int64_t i = begin; i < end; ++i) {
-        task[i].status = take_file(&task[i]);
-        if (task[i].status != CLAST_OK) {
-            task[i].status = clx_grains_fault(&task[i], task[i].status);
+        CLX_CHECK(worker != 0 || !clx_monitor_stops(r->monitor), CLAST_E_STOPPED,
+                  "stopped after %lld of %lld files; nothing is kept",
+                  (long long)atomic_load(&r->n_done), (long long)r->n);
+        status = take_file(&r->task[i]);
+        status = status != CLAST_OK ? clx_grains_fault(&r->task[i], status) : status;
+        if (status != CLAST_OK) {
+            char why[256];
+            (void)snprintf(why, sizeof why, "%s", clast_error_detail());
+            return clx_fail(status, "%s: %s", r->task[i].path, why);
         }
-        if (task[i].status != CLAST_OK) {
-            (void)snprintf(task[i].why, sizeof task[i].why, "%s", clast_error_detail());
+        const int64_t n_done = atomic_fetch_add(&r->n_done, 1) + 1;
+        if (worker == 0) {
+            clx_monitor_report(r->monitor, "files", n_done, r->n);
         }
     }
+done:
+    return status;
 }
 
 /// Moves the results of all tasks into one, in order.
@@ -513,7 +531,6 @@ static clast_status join(clx_grains_task *task, int32_t n_task, clast_grains *gr
     int64_t n_fault = 0;
     int64_t n_note = 0;
     for (int32_t i = 0; i < n_task; ++i) {
-        CLX_CHECK(task[i].status == CLAST_OK, task[i].status, "%s: %s", task[i].path, task[i].why);
         n += task[i].grains.n;
         n_fault += task[i].grains.n_fault;
         n_note += task[i].grains.n_note;
@@ -541,7 +558,8 @@ done:
 }
 
 clast_status clast_grains_read(int32_t n_file, const char *const *path,
-                               const clast_grains_options *options, clast_grains *grains)
+                               const clast_grains_options *options, const clast_monitor *monitor,
+                               clast_grains *grains)
 {
     CLX_ARGUMENTS(options, grains);
     CLX_ARRAY(path, n_file);
@@ -556,7 +574,8 @@ clast_status clast_grains_read(int32_t n_file, const char *const *path,
         task[i].path = path[i];
         task[i].options = options;
     }
-    clx_parallel_for(n_file, 1, work, task);
+    reading r = {.task = task, .n = n_file, .monitor = monitor};
+    CLX_TRY(clx_parallel_try(n_file, 1, read_files, &r));
     CLX_TRY(join(task, n_file, &made));
     *grains = made;
     made = (clast_grains){0};

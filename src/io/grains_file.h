@@ -11,8 +11,6 @@ typedef struct clx_grains_task {
     int64_t n_byte;
     clast_grains grains;
     int64_t record_room, fault_room, note_room;
-    clast_status status; ///< only of what stops everything (memory)
-    char why[256];       ///< text of that
 } clx_grains_task;
 
 /// A new record named after the file and a suffix, with a surface and a size.

@@ -2,6 +2,7 @@
 #include <clast/render.h>
 
 #include "assembly/whole.h"
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
 #include "render/label.h"
@@ -123,15 +124,13 @@ static clast_status draw(picture *p, const clast_monitor *monitor)
     const int32_t tiles_down = (p->image->height + TILE - 1) / TILE;
     for (int32_t row = 0; row < tiles_down; row += BAND) {
         const int32_t n_row = tiles_down - row < BAND ? tiles_down - row : BAND;
-        if (monitor != NULL && monitor->stop != NULL && monitor->stop(monitor->context)) {
+        if (clx_monitor_stops(monitor)) {
             return clx_fail(CLAST_E_STOPPED, "stopped at %d %% of the picture",
                             100 * row / tiles_down);
         }
         p->first_tile = row * p->tiles_across;
         clx_parallel_for((int64_t)n_row * p->tiles_across, 1, draw_tiles, p);
-        if (monitor != NULL && monitor->report != NULL) {
-            monitor->report(monitor->context, "draw", row + n_row, tiles_down);
-        }
+        clx_monitor_report(monitor, "draw", row + n_row, tiles_down);
     }
     return CLAST_OK;
 }

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/monitor.h"
 #include "base/number.h"
 #include "base/status.h"
 #include "geom/whole.h"
@@ -139,11 +140,8 @@ static const clx_fill_strategy *strategy_of(const clast_fill_config *c)
 
 static clast_status place(clx_fill *fill, const double ball[4], clx_fill_sums *sums)
 {
-    const clast_monitor *m = fill->monitor;
     clx_fill_sums_add(sums, ball, ball[3]);
-    if (m != NULL && m->report != NULL) {
-        m->report(m->context, "fill", fill->balls.n + 1, fill->config->spheres);
-    }
+    clx_monitor_report(fill->monitor, "fill", fill->balls.n + 1, fill->config->spheres);
     return clx_ball_set_add(&fill->balls, ball, ball[3]);
 }
 

@@ -1,6 +1,7 @@
 // A filling under way: the surface closed, checked and measured, before the first sphere.
 #include "shape/fill.h"
 
+#include "base/monitor.h"
 #include "base/status.h"
 #include <math.h>
 
@@ -14,8 +15,7 @@ static const double OPEN_LIMIT = 0.002;
 
 clast_status clx_fill_poll(const clx_fill *fill)
 {
-    const clast_monitor *m = fill->monitor;
-    if (m != NULL && m->stop != NULL && m->stop(m->context)) {
+    if (clx_monitor_stops(fill->monitor)) {
         return clx_fail(CLAST_E_STOPPED, "stopped after %d spheres; nothing is kept",
                         fill->balls.n);
     }

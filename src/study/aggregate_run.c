@@ -6,6 +6,7 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "base/queue.h"
 #include "io/config_files.h"
 #include "io/h5.h"
@@ -76,7 +77,7 @@ done:
 static bool asked_to_stop(void *context)
 {
     const run *r = context;
-    return r->monitor != NULL && r->monitor->stop != NULL && r->monitor->stop(r->monitor->context);
+    return clx_monitor_stops(r->monitor);
 }
 
 /// Asked while a repeat grows; other ranks are answered meanwhile.
@@ -96,9 +97,7 @@ static void tell(void *context, const char *phase, int64_t done, int64_t total)
     if (strcmp(phase, "grow") == 0 && total > 0) {
         r->grown = (double)done / (double)total;
     }
-    if (r->monitor != NULL && r->monitor->report != NULL) {
-        r->monitor->report(r->monitor->context, phase, done, total);
-    }
+    clx_monitor_report(r->monitor, phase, done, total);
 }
 
 /// Rank 0 keeps how much of all repeats is done; returns `status` when that went well.

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/monitor.h"
 #include "evolve/config.h"
 #include "io/config_files.h"
 #include "io/h5.h"
@@ -91,12 +92,10 @@ static clast_status frame(const run *r, int32_t row)
 /// Tells what time it is in the cloud; whether to stop.
 static bool talk(const run *r)
 {
-    const clast_monitor *m = r->monitor;
-    if (m != NULL && m->report != NULL) {
-        const double share = clast_evolve_time(r->evolve) / r->config->duration;
-        m->report(m->context, "evolve, in 1/1000 of the duration", (int64_t)(1e3 * share), 1000);
-    }
-    return m != NULL && m->stop != NULL && m->stop(m->context);
+    const double share = clast_evolve_time(r->evolve) / r->config->duration;
+    clx_monitor_report(r->monitor, "evolve, in 1/1000 of the duration", (int64_t)(1e3 * share),
+                       1000);
+    return clx_monitor_stops(r->monitor);
 }
 
 static clast_status go(run *r)

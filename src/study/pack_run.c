@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/comm.h"
+#include "base/monitor.h"
 #include "io/config_files.h"
 #include "io/h5.h"
 #include "pack/pack.h"
@@ -78,7 +79,7 @@ static bool talk(const run *r)
                   (int64_t)(1e6 * dt * (double)clast_dem_n_step(clast_pack_dem(r->pack))),
                   (int64_t)(1e6 * dt * (double)clast_pack_expected_steps(r->pack)));
     }
-    return m != NULL && m->stop != NULL && m->stop(m->context);
+    return clx_monitor_stops(m);
 }
 
 static double share_done(const run *r)

@@ -8,6 +8,7 @@
 #include "base/comm.h"
 #include "base/file.h"
 #include "base/lock.h"
+#include "base/monitor.h"
 #include "base/path.h"
 #include "base/queue.h"
 #include "run/checkpoint.h"
@@ -177,15 +178,12 @@ done:
 static bool asked_to_stop(void *context)
 {
     const scheduler *s = context;
-    return s->monitor != NULL && s->monitor->stop != NULL && s->monitor->stop(s->monitor->context);
+    return clx_monitor_stops(s->monitor);
 }
 
 static void tell(const scheduler *s)
 {
-    if (s->monitor != NULL && s->monitor->report != NULL) {
-        s->monitor->report(s->monitor->context, "runs", s->report->n_done + s->report->n_failed,
-                           s->n_mine);
-    }
+    clx_monitor_report(s->monitor, "runs", s->report->n_done + s->report->n_failed, s->n_mine);
 }
 
 /// A run of any rank has ended; rank 0 counts.

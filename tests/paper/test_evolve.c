@@ -113,7 +113,7 @@ static void brownian_cloud_is_the_sectional_balance(void **state)
     config.n_step = 3;
     config.repeats = 1;
     config.size_max = 1e4;
-    CHECK_OK(clast_spectrum_evolve(NULL, &config, &collide, &spectrum));
+    CHECK_OK(clast_spectrum_evolve(NULL, &config, &collide, NULL, &spectrum));
     (void)follow(option, &balance);
     for (int row = 1; row <= 3; ++row) {
         const double exact = clast_table_numbers(&spectrum.history, "M0")[row] * 1e-9;

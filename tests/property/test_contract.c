@@ -386,7 +386,7 @@ static void bad_collisions_are_refused(void **state)
 static void try_agglomerate(const void *config, void *context)
 {
     clast_agglomeration r;
-    REFUSED_INTO(r, clast_agglomerate(context, config, &r));
+    REFUSED_INTO(r, clast_agglomerate(context, config, NULL, &r));
 }
 
 static void bad_agglomerations_are_refused(void **state)
@@ -406,11 +406,11 @@ static void bad_agglomerations_are_refused(void **state)
     spoil_fields(clast_agglomerate_fields, &c, sizeof c, try_agglomerate, &good);
     spoil_fields(clast_decompose_fields, &c, sizeof c, try_agglomerate, &good);
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
-        REFUSED_INTO(r, clast_agglomerate(&bad[k], &c, &r));
+        REFUSED_INTO(r, clast_agglomerate(&bad[k], &c, NULL, &r));
     }
-    REFUSED_INTO(r, clast_agglomerate(NULL, &c, &r));
-    REFUSED_INTO(r, clast_agglomerate(&good, NULL, &r));
-    REFUSED(clast_agglomerate(&good, &c, NULL));
+    REFUSED_INTO(r, clast_agglomerate(NULL, &c, NULL, &r));
+    REFUSED_INTO(r, clast_agglomerate(&good, NULL, NULL, &r));
+    REFUSED(clast_agglomerate(&good, &c, NULL, NULL));
     clast_fields_free(clast_agglomerate_fields, &c);
     clast_fields_free(clast_decompose_fields, &c.decompose);
 }
@@ -418,7 +418,7 @@ static void bad_agglomerations_are_refused(void **state)
 static void try_spectrum(const void *config, void *context)
 {
     clast_spectrum r;
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, config, context, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, config, context, NULL, &r));
 }
 
 static void spectra_are_refused(void **state)
@@ -431,14 +431,14 @@ static void spectra_are_refused(void **state)
     c.concentration = c.duration = 1.0;
     c.n_step = c.repeats = 1;
     spoil_fields(clast_spectrum_fields, &c, sizeof c, try_spectrum, &good);
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, NULL, &good, &r));
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, NULL, &r));
-    REFUSED(clast_spectrum_evolve(NULL, &c, &good, NULL));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, NULL, &good, NULL, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, NULL, NULL, &r));
+    REFUSED(clast_spectrum_evolve(NULL, &c, &good, NULL, NULL));
     good.alpha = (double)NAN;
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, NULL, &r));
     c.duration = (double)NAN;
     good.alpha = 1.0;
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, NULL, &r));
 }
 
 /* --- surfaces --- */

@@ -300,6 +300,18 @@ class Lives(unittest.TestCase):
             self.assertGreater(clast.Mesh.read(GRAIN).volume, 0)
             self.assertIn("stopped", pathlib.Path(folder, "run/manifest.json").read_text())
 
+    def test_interrupt_ends_what_keeps_nothing(self):
+        points = np.random.default_rng(1).random((50, 3))
+        for work in (lambda p: clast.agglomerate(points, domain="box:0,0,0,1,1,1", n_step=50, progress=p),
+                     lambda p: clast.box_model(concentration=1e12, n_step=50, particles=100, repeats=4, progress=p),
+                     lambda p: clast.box_model(concentration=1e12, n_step=50, solver="sectional", progress=p),
+                     lambda p: clast.shapes(*[GRAIN] * 50, progress=p)):
+            told = []
+            work(lambda phase, done, total: told.append((done, total)))
+            self.assertEqual(told[-1][0], told[-1][1])
+            with self.assertRaises(KeyboardInterrupt):
+                work(lambda *_: os.kill(os.getpid(), 2))
+
     def test_without_the_library_the_cure_is_named(self):
         env = {k: v for k, v in os.environ.items() if k not in ("CLAST_LIBRARY", "LD_LIBRARY_PATH")}
         done = subprocess.run([sys.executable, "-c", "import clast"], env=env, stderr=subprocess.PIPE, text=True)

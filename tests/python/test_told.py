@@ -190,7 +190,7 @@ class Words(Case):
         page = re.sub(r"\s+", " ", (ROOT / "docs/python.md").read_text())
         stoppable = [name for name in clast._functions.__all__ if "progress" in inspect.signature(getattr(clast, name)).parameters]
         self.assertIn(f"Ctrl-C ends {', '.join(f'`{name}`' for name in sorted(stoppable))}", page)
-        for name in ("agglomerate", "box_model", "decompose", "fit", "shapes"):
+        for name in ("decompose", "fit"):
             self.assertIn("cannot be interrupted", getattr(clast, name).__doc__, name)
 
 

@@ -33,7 +33,7 @@ static void files_keep_their_order_and_bad_ones_are_faults(void **state)
                            put("p.xyz", POINTS)};
     const clast_grains_options options = plain();
     clast_grains grains = {0};
-    CHECK_OK(clast_grains_read(4, path, &options, &grains));
+    CHECK_OK(clast_grains_read(4, path, &options, NULL, &grains));
     assert_int_equal(grains.n, 3);
     assert_int_equal(grains.record[0].kind, CLAST_GRAINS_SERIES);
     assert_int_equal(grains.record[1].kind, CLAST_GRAINS_TABLE);
@@ -56,7 +56,7 @@ static void spheres_are_a_clump_and_not_the_hull_of_their_centres(void **state)
     clast_grains_options options = plain();
     clast_grains grains = {0};
     clast_table table = {0};
-    CHECK_OK(clast_grains_read(3, path, &options, &grains));
+    CHECK_OK(clast_grains_read(3, path, &options, NULL, &grains));
     assert_int_equal(grains.n, 3);
     assert_int_equal(grains.record[0].kind, CLAST_GRAINS_CLUMP);
     assert_int_equal(grains.record[2].kind, CLAST_GRAINS_POINTS);
@@ -69,7 +69,7 @@ static void spheres_are_a_clump_and_not_the_hull_of_their_centres(void **state)
     clast_table_free(&table);
     clast_grains_free(&grains);
     options.hull = true;
-    CHECK_OK(clast_grains_read(1, path, &options, &grains));
+    CHECK_OK(clast_grains_read(1, path, &options, NULL, &grains));
     assert_int_equal(grains.n_fault, 1);
     clast_grains_free(&grains);
 }
@@ -85,7 +85,7 @@ static void series_say_what_their_last_degrees_hold(void **state)
     for (int degree = 1; degree <= 4; ++degree) {
         clast_grains grains = {0};
         options.degree = degree;
-        CHECK_OK(clast_grains_read(1, path, &options, &grains));
+        CHECK_OK(clast_grains_read(1, path, &options, NULL, &grains));
         assert_int_equal(grains.record[0].degree, degree);
         CHECK_ABS(grains.record[0].power_last, degree == 2 || degree == 3 ? 1.0 : 0.0, 1e-15);
         CHECK_ABS(grains.record[0].power_cut, degree == 1 ? 1.0 : 0.0, 1e-15);
@@ -99,7 +99,7 @@ static void a_tables_own_unit_counts_before_the_given_one(void **state)
     const char *path[2] = {put("t.csv", TABLE), put("a.dat", SERIES)};
     const clast_grains_options options = plain();
     clast_grains grains = {0};
-    CHECK_OK(clast_grains_read(2, path, &options, &grains));
+    CHECK_OK(clast_grains_read(2, path, &options, NULL, &grains));
     const double volume = grains.record[1].grain.volume;
     clast_grains_to_metres(&grains, 1e-6);
     CHECK_REL(grains.record[0].grain.axes[CLAST_AXES_ELLIPSOID].lis[0], 3e-3, 1e-12);
@@ -114,7 +114,7 @@ static void the_table_has_nan_for_what_is_not_known(void **state)
     const clast_grains_options options = plain();
     clast_grains grains = {0};
     clast_table table = {0};
-    CHECK_OK(clast_grains_read(2, path, &options, &grains));
+    CHECK_OK(clast_grains_read(2, path, &options, NULL, &grains));
     CHECK_OK(clast_grains_table(&grains, CLAST_AXES_FITTED, false, &table));
     assert_int_equal(table.n_row, 2);
     assert_true(isnan(clast_table_numbers(&table, "volume")[0]));
@@ -132,7 +132,7 @@ static clast_status read_all(void *context)
     const clast_grains_options options = plain();
     clast_grains grains = {0};
     clast_table table = {0};
-    clast_status status = clast_grains_read(1, context, &options, &grains);
+    clast_status status = clast_grains_read(1, context, &options, NULL, &grains);
     if (status == CLAST_OK) {
         status = clast_grains_table(&grains, CLAST_AXES_BOX, true, &table);
     }

@@ -170,7 +170,7 @@ static clast_status brownian_box(int solver, double radius, int32_t out_of_range
     s.repeats = 1;
     c.monomer_radius = radius;
     c.out_of_range = out_of_range;
-    const clast_status status = clast_spectrum_evolve(NULL, &s, &c, &r);
+    const clast_status status = clast_spectrum_evolve(NULL, &s, &c, NULL, &r);
     if (status == CLAST_OK) {
         *report = r.range;
         clast_spectrum_free(&r);
@@ -230,7 +230,7 @@ static void a_run_tells_when_it_left_the_range(void **state)
             c.monomer_radius = 1e-4;
             c.medium = (clast_medium){.viscosity = 1e-3, .density = 1000.0, .shear = 13.0};
             c.out_of_range = mode;
-            const clast_status status = clast_spectrum_evolve(NULL, &s, &c, &r);
+            const clast_status status = clast_spectrum_evolve(NULL, &s, &c, NULL, &r);
             if (mode == CLAST_OUT_OF_RANGE_ERROR) {
                 assert_int_equal(status, CLAST_E_CONFIG);
                 assert_non_null(strstr(clast_error_detail(), "of the collisions up to t = "));

@@ -62,7 +62,7 @@ static void check_balance(const clast_spectrum_config *c, const clast_spectrum *
 static clast_spectrum evolve(const clast_spectrum_config *c, const clast_collide_config *k)
 {
     clast_spectrum r;
-    CHECK_OK(clast_spectrum_evolve(NULL, c, k, &r));
+    CHECK_OK(clast_spectrum_evolve(NULL, c, k, NULL, &r));
     check_balance(c, &r);
     return r;
 }
@@ -179,7 +179,7 @@ static void no_number_is_negative(void **state)
         c.initial = CLAST_INITIAL_TABLE;
         c.concentration = 0.0;
         c.size_max = 1e6;
-        CHECK_OK(clast_spectrum_evolve(&start, &c, &collide, &r));
+        CHECK_OK(clast_spectrum_evolve(&start, &c, &collide, NULL, &r));
         check_balance(&c, &r);
         const double *n = clast_table_numbers(&r.spectrum, "n");
         for (int64_t i = 0; i < r.spectrum.n_row; ++i) {
@@ -434,7 +434,7 @@ static void drawn_particles_settle_at_their_own_speed(void **state)
     for (int32_t mode = CLAST_COLLISIONS_NEXT; mode <= CLAST_COLLISIONS_POISSON; ++mode) {
         clast_spectrum r;
         k.collisions = mode;
-        CHECK_OK(clast_spectrum_evolve(&start, &c, &k, &r));
+        CHECK_OK(clast_spectrum_evolve(&start, &c, &k, NULL, &r));
         check_balance(&c, &r);
         const double p[2] = {exp(-rate * 60.0), exp(-4.0 * rate * 60.0)};
         assert_true(p[0] > 0.3 && p[1] < 0.1);
@@ -672,7 +672,7 @@ static void gel_by_a_collector_has_its_own_time(void **state)
     c.n_step = 1;
     k.block = 128;
     clast_spectrum r;
-    CHECK_OK(clast_spectrum_evolve(&start, &c, &k, &r));
+    CHECK_OK(clast_spectrum_evolve(&start, &c, &k, NULL, &r));
     double time = 0.0;
     double variance = 0.0;
     for (double x = size[N_SMALL]; x < gel; x += square / mean) {
@@ -695,7 +695,7 @@ static clast_status evolve_once(void *context)
     const double number[2] = {0.5, 0.5};
     const clast_spectrum_start start = {2, size, number};
     clast_spectrum r = {0};
-    const clast_status status = clast_spectrum_evolve(&start, c, &k, &r);
+    const clast_status status = clast_spectrum_evolve(&start, c, &k, NULL, &r);
     clast_spectrum_free(&r);
     return status;
 }
@@ -725,25 +725,25 @@ static void what_does_not_go_together_is_refused(void **state)
     const clast_collide_config moving = kernel("ballistic");
     clast_spectrum r = {0};
     clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
-    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &moving, &r), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &moving, NULL, &r), CLAST_E_CONFIG);
     c.breakage_rate = 1.0;
     c.fragment_exponent = -0.2; /* 2.25 fragments */
-    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, &r), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "sectional"));
     c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
     c.source = 1.0;
     c.source_size = 1e4; /* above the grid */
-    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, &r), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "source_size"));
     c = box(CLAST_SOLVER_SECTIONAL, 1.0);
     c.concentration = 0.0;
-    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, &r), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
     c.concentration = 1.0;
     c.size_max = 0.5;
-    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, &r), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
     if (!clast_spectrum_has_sectional()) {
         c.size_max = 0.0;
-        CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, &r), CLAST_E_CONFIG);
+        CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
         assert_non_null(strstr(clast_error_detail(), "without SUNDIALS"));
     }
 }

@@ -212,7 +212,7 @@ static void both_boxes_stick_alike(void **state)
                                       .stokes_exponent = 0.8};
         CHECK_OK(clast_kernel_parse("shear_turbulent", &c.kernel));
         c.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE;
-        CHECK_OK(clast_spectrum_evolve(NULL, &s, &c, &r));
+        CHECK_OK(clast_spectrum_evolve(NULL, &s, &c, NULL, &r));
         number[run] = clast_table_numbers(&r.history, "M0")[10];
         clast_spectrum_free(&r);
     }
