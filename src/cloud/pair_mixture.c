@@ -37,6 +37,18 @@ static double gauss_in_ball(int32_t d, double s, double r)
     return pow(4.0 * CLAST_PI * s * s, 0.5 * d) * clx_gamma_p(0.5 * d, r * r / (4.0 * s * s));
 }
 
+/// Integral over it of 1 - r / 2h, h / 2r beyond h.
+static double layer_in_ball(int32_t d, double h, double r)
+{
+    CLAST_ASSERT(d >= 1 && d <= 3 && h > 0.0);
+    const double t = fmin(r / h, 1.0);
+    const double b = fmax(r / h, 1.0);
+    return d == 1 ? 2.0 * h * (t - 0.25 * t * t + 0.5 * log(b))
+           : d == 2
+               ? CLAST_PI * h * h * (t * t - t * t * t / 3.0 + b - 1.0)
+               : CLAST_PI * h * h * h * (4.0 * t * t * t / 3.0 - 0.5 * t * t * t * t + b * b - 1.0);
+}
+
 /// Integral of exp(-r / length) over it.
 static double exp_in_ball(int32_t d, double length, double r)
 {
@@ -55,16 +67,18 @@ static double pole_in_ball(int32_t d, double length, double r)
 
 static double shape_in_ball(clx_shape_family family, int32_t d, double s, double r)
 {
-    return family == CLX_FAMILY_KINKED  ? exp_in_ball(d, kink * s, r)
-           : family == CLX_FAMILY_POLED ? pole_in_ball(d, pole * s, r)
-                                        : gauss_in_ball(d, s, r);
+    return family == CLX_FAMILY_KINKED    ? exp_in_ball(d, kink * s, r)
+           : family == CLX_FAMILY_POLED   ? pole_in_ball(d, pole * s, r)
+           : family == CLX_FAMILY_LAYERED ? layer_in_ball(d, s, r)
+                                          : gauss_in_ball(d, s, r);
 }
 
 static double shape_at(clx_shape_family family, double s, double r)
 {
-    return family == CLX_FAMILY_KINKED  ? exp(-r / (kink * s))
-           : family == CLX_FAMILY_POLED ? exp(-sqrt(r / (pole * s)))
-                                        : exp(-r * r / (4.0 * s * s));
+    return family == CLX_FAMILY_KINKED    ? exp(-r / (kink * s))
+           : family == CLX_FAMILY_POLED   ? exp(-sqrt(r / (pole * s)))
+           : family == CLX_FAMILY_LAYERED ? (r < s ? 1.0 - 0.5 * r / s : 0.5 * s / r)
+                                          : exp(-r * r / (4.0 * s * s));
 }
 
 /// Pairs within a ball for each unit of its integral of A.

@@ -9,11 +9,12 @@ enum {
 };
 
 /// What stands beside each Gaussian exp(-r^2 / (4 s^2)): nothing, exp(-r / (2 s)),
-/// exp(-sqrt(r / (3 s))).
+/// exp(-sqrt(r / (3 s))), that of layers of thickness s in all directions.
 typedef enum clx_shape_family {
     CLX_FAMILY_SMOOTH,
     CLX_FAMILY_KINKED,
-    CLX_FAMILY_POLED
+    CLX_FAMILY_POLED,
+    CLX_FAMILY_LAYERED
 } clx_shape_family;
 
 /// The shapes, in the order of levels: shape 0 is uniform, a level has its companion and its
