@@ -50,6 +50,12 @@ static double read_porosity(const clast_aggregate_result *r, int32_t k)
     return r->porosity[k];
 }
 
+/// With the union of the grains for their sum; NAN where that is not measured.
+static double read_porosity_union(const clast_aggregate_result *r, int32_t k)
+{
+    return 1.0 - r->solid_union / r->envelope[k].volume;
+}
+
 typedef struct {
     const char *name, *unit;
     double scale;
@@ -110,6 +116,26 @@ static void print_permeable(const clast_aggregate_report *report)
     print_line(report, &l);
 }
 
+/// Porosity by each envelope; of the union too, where grains overlap.
+static void print_porosity(const clast_aggregate_report *report)
+{
+    char name[64];
+    bool overlap = false;
+    for (int32_t i = 0; i < report->n; ++i) {
+        const clast_aggregate_result *r = &report->result[i];
+        overlap = overlap || r->solid_union < (1.0 - 1e-6) * r->solid_sum;
+    }
+    for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
+        const char *envelope = clast_envelope_name(report->result[0].envelope[k].kind);
+        (void)snprintf(name, sizeof name, "porosity, %s", envelope);
+        print_line(report, &(line){name, "", 1.0, read_porosity, k});
+        (void)snprintf(name, sizeof name, "porosity_union, %s", envelope);
+        if (overlap) {
+            print_line(report, &(line){name, "", 1.0, read_porosity_union, k});
+        }
+    }
+}
+
 void aggregate_report_print(const clast_aggregate_report *report)
 {
     const line lines[] = {{"grains", "", 1.0, read_n_grain, 0},
@@ -117,7 +143,7 @@ void aggregate_report_print(const clast_aggregate_report *report)
                           {"density", "kg/m^3", 1.0, read_density, 0},
                           {"radius of gyration", "um", 1e6, read_gyration, 0},
                           {"settling velocity in air", "m/s", 1.0, read_settling, 0}};
-    char name[64];
+    char scope[512];
     if (report->n > 1) {
         (void)printf("%d aggregates, intervals of the mean at level %g\n", report->n,
                      report->confidence);
@@ -126,9 +152,8 @@ void aggregate_report_print(const clast_aggregate_report *report)
         print_line(report, &lines[i]);
     }
     print_permeable(report);
-    for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
-        (void)snprintf(name, sizeof name, "porosity, %s",
-                       clast_envelope_name(report->result[0].envelope[k].kind));
-        print_line(report, &(line){name, "", 1.0, read_porosity, k});
+    print_porosity(report);
+    if (clast_aggregate_report_scope(report, sizeof scope, scope)[0] != '\0') {
+        (void)printf("%s\n", scope);
     }
 }

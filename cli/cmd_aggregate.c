@@ -4,14 +4,62 @@
 #include "aggregate_fit.h"
 #include "aggregate_report.h"
 #include "idle.h"
+#include "json.h"
 #include "resume.h"
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+static clast_status print_printable(const cli_common *common, const char *folder,
+                                    const clast_printable_report *report)
+{
+    if (!common->json) {
+        double factor = 1.0;
+        const char *unit = clast_unit_for(report->smallest_feature, "m", &factor);
+        (void)printf("surfaces in %s, in mm: printable.3mf, printable.stl\n", cli_name(folder));
+        (void)printf("smallest feature %.4g %s, %s\n", factor * report->smallest_feature, unit,
+                     report->resolved ? "resolved" : "below two spacings, may be lost");
+        return CLAST_OK;
+    }
+    json_t *object = json_object();
+    cli_json_number(object, "neck", report->neck);
+    cli_json_number(object, "spacing", report->spacing);
+    cli_json_number(object, "smallest_feature", report->smallest_feature);
+    cli_json_bool(object, "resolved", report->resolved);
+    cli_json_count(object, "n_void_filled", report->n_void);
+    cli_json_number(object, "solid_volume", report->solid_volume);
+    cli_json_number(object, "volume", report->volume);
+    return cli_print_json(object);
+}
+
+/// --resume RUN --printable of a run that has ended: its printable body alone.
+static clast_status make_printable(const cli_common *common, const clast_aggregate_config *config,
+                                   const clast_monitor *monitor)
+{
+    clast_status status = CLAST_OK;
+    clast_printable_report report = {0};
+    clast_aggregate_config others = *config; // all that may not stand beside them
+    const clast_printable_config wanted = {.neck = config->neck, .spacing = config->spacing};
+    const bool is_first = common->comm->rank == 0;
+    others.printable = false;
+    others.neck = 0.0;
+    others.spacing = 0.0;
+    CLI_TRY(cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields,
+                                               &others, sizeof others, NULL)));
+    status = is_first ? clast_aggregate_make_printable(config->resume, &wanted, monitor, &report)
+                      : CLAST_OK;
+    CLI_TRY(cli_agree(common, status));
+    status = is_first ? print_printable(common, config->resume, &report) : CLAST_OK;
+done:
+    return status;
+}
+
 static clast_status resume(const cli_common *common, const clast_aggregate_config *config,
                            const clast_monitor *monitor, clast_aggregate_report *report)
 {
+    if (config->printable && clast_run_folder_check(config->resume) == CLAST_OK) {
+        return make_printable(common, config, monitor);
+    }
     CLI_GUARD(cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields,
                                                  config, sizeof *config, NULL)));
     return clast_aggregate_resume(config->resume, common->comm, monitor, report);
@@ -32,8 +80,9 @@ done:
     return status;
 }
 
-/// The surfaces of a run's folder with their unit, what to print first.
-static void print_surfaces(const cli_common *common, const char *folder)
+/// The surfaces of a run's folder with their unit, what to print first. `is_asked`: a printable
+/// body was, so that nothing need be said about it when it is not there.
+static void print_surfaces(const cli_common *common, const char *folder, bool is_asked)
 {
     char path[4096];
     if (folder == NULL || common->json) {
@@ -43,7 +92,8 @@ static void print_surfaces(const cli_common *common, const char *folder)
     const bool is_printable = access(path, F_OK) == 0; // a resumed run's own option is not here
     (void)printf("surfaces in %s, in mm:%s aggregate.stl%s\n", folder,
                  is_printable ? " printable.3mf, printable.stl," : "",
-                 is_printable ? "" : "; for printing, --printable adds one closed body");
+                 is_printable || is_asked ? ""
+                                          : "; for printing, --printable adds one closed body");
 }
 
 /// Refuses what is for the folder of a run where there is none.
@@ -83,7 +133,7 @@ static clast_status run(const cli_common *common, void *context)
     if (report.n > 0) { // of a run that stopped or failed too
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;
-        print_surfaces(common, status == CLAST_OK ? report.folder : NULL);
+        print_surfaces(common, report.folder, status != CLAST_OK);
     }
     clast_aggregate_report_free(&report);
     return status;
@@ -105,12 +155,15 @@ static const char details[] =
     "manifest.json,\n"
     "charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and the page\n"
     "report.html. Of several repeats the first is the one in structure.csv, radial.csv,\n"
-    "aggregate.stl and picture.png. --printable adds one closed body for printers: printable.3mf\n"
-    "(names its unit, mm), printable.stl (mm) and its smallest feature (printable.json). A folder\n"
-    "that holds a run is refused: go on "
-    "with\n"
-    "--resume RUN if it has not ended, or replace it with --force (the new run is made in RUN.new\n"
-    "and takes its place when it has succeeded).";
+    "aggregate.stl and picture.png. Of several clusters the largest is the one in all numbers,\n"
+    "structure.csv and radial.csv; aggregate.stl and picture.png show all, side by side.\n"
+    "--printable adds one closed body for printers: printable.3mf (names its unit, mm),\n"
+    "printable.stl (mm) and its smallest feature (printable.json). When it cannot be made, the "
+    "run\n"
+    "is whole all the same (exit code 5); --resume RUN --printable --spacing S makes it then.\n"
+    "A folder that holds a run is refused: go on with --resume RUN if it has not ended, or "
+    "replace\n"
+    "it with --force (the new run is made in RUN.new and takes its place when it has succeeded).";
 
 const cli_command cli_aggregate = {
     .name = "aggregate",

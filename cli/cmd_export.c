@@ -2,6 +2,8 @@
 #include "command.h"
 #include "idle.h"
 #include "json.h"
+#include "lengths.h"
+#include "packing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +14,8 @@ typedef struct {
     bool points;
     int32_t colour;
     char *table, *unit;
+    double density;
+    char *columns, *diameter; ///< the second as typed: the file's unit says how to read it
 } export_config;
 
 #define FIELD(type, member) #member, .offset = offsetof(export_config, member), type
@@ -26,6 +30,13 @@ static const clast_field fields[] = {
      "write this table of the run (.csv or .json) instead of its grains", ""},
     {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-",
      "length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it", ""},
+    {FIELD(CLAST_FIELD_F64, density), 0, 0, 1e6, "kg/m^3",
+     "of all grains of another program's file that tells none; 0: not known, left out", NULL},
+    {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
+     "spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names",
+     ""},
+    {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
+     "spheres of another program: diameter of all, in place of the file's; 0: the file's", "0"},
     {0},
 };
 #undef FIELD
@@ -37,8 +48,14 @@ static clast_status check_idle(const cli_common *common, const export_config *c)
     const bool is_ply = format == CLAST_EXPORT_PLY;
     const bool has_surfaces = is_ply || format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
                               format == CLAST_EXPORT_3MF || format == CLAST_EXPORT_VTU;
+    const bool is_bare = format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
+                         format == CLAST_EXPORT_PLY || format == CLAST_EXPORT_3MF ||
+                         format == CLAST_EXPORT_TXT || format == CLAST_EXPORT_VORO ||
+                         format == CLAST_EXPORT_XYZD;
     const clast_idle rules[] = {
-        {c->table[0] != '\0', "level|points|colour|unit", "with --table"},
+        {c->table[0] != '\0', "level|points|colour|unit|density|columns|diameter", "with --table"},
+        {is_bare, "density",
+         "in a file without densities: .data, .dump, .conf, .csv, .json and .vtu have them"},
         {!has_surfaces, "level",
          "in a file without surfaces: .stl, .obj, .ply, .3mf and .vtu have them"},
         {c->points, "level", "with --points: they have no surfaces"},
@@ -106,9 +123,16 @@ static void tell_ratios(const clast_export_report *report)
     }
 }
 
-static clast_status report_assembly(const cli_common *common, const clast_assembly *assembly,
+/// What is exported.
+typedef struct {
+    clast_assembly assembly;
+    clast_packing_report read; ///< of another program's file; step and box of a run
+} bed;
+
+static clast_status report_assembly(const cli_common *common, const bed *b,
                                     const clast_export_report *report)
 {
+    const clast_assembly *assembly = &b->assembly;
     if (!common->json) {
         (void)printf("%s: %s of %d grain%s", cli_name(common->output),
                      clast_export_format_name(report->format), assembly->n_grain,
@@ -130,6 +154,7 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
     cli_json_count(object, "n_triangle", report->n_triangle);
     cli_json_number(object, "facet_ratio", report->facet_ratio);
     cli_json_number(object, "ellipsoid_ratio", report->ellipsoid_ratio);
+    cli_packing_json(object, &b->read);
     return cli_print_json(object);
 }
 
@@ -143,30 +168,59 @@ static const char *unit_of(const export_config *config, clast_export_format form
     return config->unit[0] != '\0' ? config->unit : is_bare && is_known ? "mm" : NULL;
 }
 
-/// A run's grains, or those of another program's file.
-static clast_status read_grains(const char *path, clast_assembly *assembly)
+/// Densities of grains that came without any.
+static clast_status set_density(double density, bool is_state, clast_assembly *a)
 {
+    if (density > 0.0 && !a->no_density) {
+        return cli_fail(CLAST_E_USAGE, "density is the %s's own; leave it out",
+                        is_state ? "state" : "file");
+    }
+    for (int32_t i = 0; i < a->n_grain && density > 0.0; ++i) {
+        a->density[i] = density;
+        a->no_density = false;
+    }
+    return CLAST_OK;
+}
+
+/// A run's grains, or those of another program's file.
+static clast_status read_grains(const cli_common *common, const char *path,
+                                const export_config *config, bed *b)
+{
+    clast_packing_options options = {.columns = config->columns};
     const size_t n = strlen(path);
     const bool is_state = n >= 3 && strcmp(path + n - 3, ".h5") == 0;
-    return is_state ? clast_state_read_assembly(path, assembly)
-                    : clast_packing_read(path, NULL, assembly);
+    if (is_state) {
+        const clast_idle rules[] = {
+            {true, "columns|diameter", "with a run, which knows its grains"}, {0}};
+        CLI_GUARD(cli_idle_check(fields, config, rules));
+        CLI_GUARD(clast_state_read_assembly(path, &b->assembly));
+        CLI_GUARD(clast_state_read_frame(path, &b->read.frame));
+    } else {
+        CLI_GUARD(clast_unit_parse(config->diameter, "m", &options.diameter));
+        CLI_GUARD(clast_packing_read(path, &options, &b->assembly, &b->read));
+        CLI_GUARD(cli_read_length("diameter", config->diameter, b->assembly.unit,
+                                  &options.diameter)); // of the file's unit, now that it is known
+        cli_packing_note(common, path, &b->read);
+    }
+    return set_density(config->density, is_state, &b->assembly);
 }
 
 static clast_status export_assembly(const cli_common *common, const char *state,
                                     const export_config *config)
 {
-    clast_assembly assembly = {0};
+    bed b = {.read = {.frame = {.step = -1}}};
     clast_export_report report = {0};
     clast_export_options options = {
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
     clast_status status = CLAST_OK;
-    CLI_TRY(read_grains(state, &assembly));
-    CLI_TRY(check_level(config, &assembly));
-    options.unit = unit_of(config, clast_export_format_of_path(common->output), &assembly);
-    CLI_TRY(clast_assembly_write(&assembly, common->output, &options, &report));
-    CLI_TRY(report_assembly(common, &assembly, &report));
+    CLI_TRY(read_grains(common, state, config, &b));
+    CLI_TRY(check_level(config, &b.assembly));
+    options.unit = unit_of(config, clast_export_format_of_path(common->output), &b.assembly);
+    options.frame = &b.read.frame;
+    CLI_TRY(clast_assembly_write(&b.assembly, common->output, &options, &report));
+    CLI_TRY(report_assembly(common, &b, &report));
 done:
-    clast_assembly_free(&assembly);
+    clast_assembly_free(&b.assembly);
     return status;
 }
 
@@ -210,7 +264,9 @@ const cli_command cli_export = {
         "input\n"
         "  .txt   YADE: x y z r, spheres and clumps; .voro voro++; .xyzd: spheres\n"
         "  .conf  Rockable: spheres and convex surfaces, whose shapes go into the .shp beside\n"
-        "Other lengths are in the run's unit (m); --table NAME writes a table of the run.",
+        "Other lengths are in the run's unit (m); --table NAME writes a table of the run. "
+        "Densities\n"
+        "that a file of another program does not tell are left out, or given by --density.",
     .fields = fields,
     .config_size = sizeof(export_config),
     .n_min = 1,

@@ -41,6 +41,7 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
     cli_json_count(o, "n_open_edge", found->n_open_edge);
     cli_json_number(o, "open_share", r->open_share);
     cli_json_count(o, "n_intersection", found->n_intersection);
+    cli_json_count(o, "n_doubled", found->n_doubled);
     cli_json_number(o, "solid_volume", r->solid_volume);
     cli_json_number(o, "sphere_volume", r->sphere_volume);
     cli_json_number(o, "filled_fraction", r->filled_fraction);
@@ -108,12 +109,7 @@ static clast_status show(const cli_common *common, const char *name,
                          const clast_mesh_check_result *found, const clast_fill_report *report)
 {
     const char *file = common->argument[0];
-    if (found->n_intersection > 0 && !common->quiet) {
-        (void)fprintf(stderr,
-                      "clast fill: note: %s cuts itself at %lld pairs of triangles; its volume "
-                      "counts overlaps twice, so shares of it come out low (clast mesh check)\n",
-                      file, (long long)found->n_intersection);
-    }
+    cli_note_doubles(common, found, ", so shares of it come out low");
     if (report->open_share > 1e-6 && !common->quiet) {
         (void)fprintf(stderr,
                       "clast fill: note: %s has %d open edges; their holes were capped, which "

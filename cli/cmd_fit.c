@@ -262,6 +262,57 @@ static void tell_left_out(const job *j)
     }
 }
 
+/// Columns of words where a fit of columns looks for candidates: what they say is lost to it.
+static void tell_words(const config *c, const job *j)
+{
+    char names[512] = "";
+    int n = 0;
+    const clast_table *t = &j->beds;
+    const int32_t code = clast_table_find(t, "exit_code");
+    const bool is_study = clast_table_find(t, "run") == 0 && code > 0;
+    const bool is_named = c->fit.columns[0] != '\0' || c->fit.use[0] != '\0';
+    if (j->data.kind != CLAST_MODEL_COLUMNS || is_named) {
+        return;
+    }
+    for (int32_t k = 0; k < (is_study ? code : t->n_column); ++k) {
+        const char *name = t->column[k].name;
+        if (t->column[k].text != NULL && clast_table_find(&j->data.beds, name) < 0) {
+            const size_t used = strlen(names);
+            (void)snprintf(names + used, sizeof names - used, "%s%s", n > 0 ? ", " : "", name);
+            ++n;
+        }
+    }
+    if (n > 0) {
+        (void)fprintf(stderr, "clast fit: %s: %d %s: %s\n", cli_name(t->name), n,
+                      n > 1 ? "columns of words are no candidates"
+                            : "column of words is no candidate",
+                      cli_name(names));
+    }
+}
+
+/// Why a selection has fewer features than it was asked for.
+static void tell_few(const config *c, const job *j)
+{
+    const clast_table *t = &j->fit.ranking;
+    const int32_t n = j->fit.model.n_term;
+    int n_kept = 0;
+    if (c->fit.use[0] != '\0' || n >= c->fit.n_term) {
+        return;
+    }
+    for (int64_t k = 0; k < t->n_row; ++k) {
+        n_kept += strcmp(t->column[3].text[k], "kept") == 0 ? 1 : 0;
+    }
+    (void)fprintf(stderr, "clast fit: %d of %d features: ", n, c->fit.n_term);
+    if (n_kept > 0) {
+        (void)fprintf(stderr, "with one more no candidate can be fitted to each training set\n");
+    } else {
+        (void)fprintf(stderr,
+                      "no candidate is left of %d (%d like a chosen one, %d constant or not finite "
+                      "in some row)\n",
+                      (int)t->n_row, j->fit.n_removed, (int)t->n_row - n - j->fit.n_removed);
+    }
+}
+
 static clast_status keep_results(const cli_common *common, const config *c, const job *j,
                                  clast_run_folder *folder)
 {
@@ -290,8 +341,10 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(gather(c, common->argument[0], &j));
     tell_left_out(&j);
+    tell_words(c, &j);
     (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(), j.beds.name);
     CLI_TRY(clast_porosity_fit_data(&j.data, c->name, source, &c->fit, &j.fit));
+    tell_few(c, &j);
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &j, folder));
     }

@@ -115,6 +115,21 @@ static double expected_count(const answer *a)
     return c->mass / (c->density * c->grain_volume * clast_grading_mean_cube(a->grading));
 }
 
+static double class_share(const answer *a, int32_t i)
+{
+    return clast_grading_share(a->grading, a->curve.sieve[i + 1]) -
+           clast_grading_share(a->grading, a->curve.sieve[i]);
+}
+
+/// Grains of a class in the mass: by equation 9, or so that the masses come out exactly.
+static double class_count(const answer *a, int32_t i)
+{
+    const grading_config *c = a->config;
+    return c->count == CLAST_COUNT_EXACT
+               ? class_share(a, i) * expected_count(a)
+               : clast_curve_count(&a->curve, i, c->mass, c->density, c->grain_volume);
+}
+
 static void sizes_json(json_t *o, const char *name, double (*size)(const clast_grading *, double),
                        const clast_grading *grading)
 {
@@ -147,12 +162,8 @@ static void classes_json(json_t *o, const answer *a)
         cli_json_number(row, "high", high);
         cli_json_number(row, "mean", clast_curve_class_size(&a->curve, i));
         cli_json_number(row, "mass", a->curve.mass[i]);
-        cli_json_number(row, "number",
-                        clast_grading_share(a->grading, high) -
-                            clast_grading_share(a->grading, low));
-        cli_json_number(row, "count",
-                        clast_curve_count(&a->curve, i, a->config->mass, a->config->density,
-                                          a->config->grain_volume));
+        cli_json_number(row, "number", class_share(a, i));
+        cli_json_number(row, "count", class_count(a, i));
         if (a->classes.n_row > 0) {
             cli_json_number(row, "achieved_mass",
                             clast_table_numbers(&a->classes, "achieved_mass")[i + 1]);
@@ -218,10 +229,9 @@ static void class_words(const answer *a)
         const double high = a->curve.sieve[i + 1];
         (void)printf("  %10.4g %10.4g %10.4g %8.4f %10.6f", 1e3 * low, 1e3 * high,
                      1e3 * clast_curve_class_size(&a->curve, i), a->curve.mass[i],
-                     clast_grading_share(a->grading, high) - clast_grading_share(a->grading, low));
+                     class_share(a, i));
         if (counted) {
-            (void)printf(" %10.1f", clast_curve_count(&a->curve, i, a->config->mass,
-                                                      a->config->density, a->config->grain_volume));
+            (void)printf(" %10.1f", class_count(a, i));
         }
         if (achieved) {
             (void)printf(" %10.4f %11.6f", clast_table_numbers(&a->classes, "achieved_mass")[i + 1],
@@ -327,16 +337,18 @@ const cli_command cli_grading = {
                 "clast grading lognormal:5mm,1mm --sample 100 -o sizes.csv"},
     .details =
         "CURVE is U1, U3, U5, U7, B30, B50 or B70 (Rettinger et al. 2022, table 3), the CSV file "
-        "of "
-        "a sieve\ncurve, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE "
-        "(counts),\nmasses:FILE or one "
-        "size (\"11 mm\").\nA file has a column sieve, size, diameter or phi with its unit "
-        "(sieve_mm) and a column retained (on\nthis sieve), or passing (% or share). Numbers "
-        "follow from masses by equations 8 and 9 of the paper;\nthe curve is straight over log "
+        "of a sieve\n"
+        "curve, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE (counts),\n"
+        "masses:FILE or one size (\"11 mm\").\n"
+        "A file has a column sieve, size, diameter or phi with its unit (sieve_mm) and a column "
+        "retained (on\n"
+        "this sieve), cumulative retained (on this and all coarser ones) or passing (% or share).\n"
+        "Numbers follow from masses by equations 8 and 9 of the paper; the curve is straight over "
+        "log\n"
         "size between sieves. Definitions: docs/theory/grading.md.\n"
         "list:FILE has sizes and a column count, n or n_grains (none: one grain a row), "
-        "masses:FILE a "
-        "column mass,\nretained or mass_g; weight, frequency and fraction are either.\n"
+        "masses:FILE a\n"
+        "column mass, retained or mass_g; weight, frequency and fraction are either.\n"
         "A draw depends on the seed and the grain's number alone.",
     .fields = grading_fields,
     .config_size = sizeof(grading_config),

@@ -137,6 +137,17 @@ static void report_words(const cli_common *common, const form_report *r)
     (void)printf("  volume  %.8g -> %.8g\n", r->volume_hull, r->volume_after);
 }
 
+/// Without a hull the surface itself is measured: it must bound a solid, and once.
+static clast_status check_surface(const cli_common *common, const clast_mesh *mesh)
+{
+    clast_mesh_check_result found = {0};
+    CLI_GUARD(clast_mesh_require_solid(mesh, common->argument[0], "take its hull with --hull N"));
+    CLI_GUARD(clast_mesh_check(mesh, &found));
+    cli_note_doubles(common, &found, ", so L, I and S are off");
+    clast_mesh_check_free(&found);
+    return CLAST_OK;
+}
+
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const form_config *config = config_bytes;
@@ -148,8 +159,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(check_config(config));
     CLI_TRY(cli_mesh_welded(common, &mesh));
     if (config->hull == 0) {
-        CLI_TRY(
-            clast_mesh_require_solid(&mesh, common->argument[0], "take its hull with --hull N"));
+        CLI_TRY(check_surface(common, &mesh));
     }
     CLI_TRY(reform(config, &mesh, &out, &report));
     CLI_TRY(measure_written(&out, &report));

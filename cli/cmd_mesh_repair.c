@@ -35,7 +35,7 @@ static json_t *report_json(const clast_mesh_repair_report *r)
 }
 
 /// One line for each step that changed something.
-static void print_changes(const clast_mesh_repair_report *r)
+static void print_changes(const clast_mesh_repair_report *r, bool keeps_all)
 {
     const struct {
         int32_t n;
@@ -52,7 +52,10 @@ static void print_changes(const clast_mesh_repair_report *r)
                  {r->n_fill_triangle, "triangles made for them"},
                  {r->n_hole_left, "larger holes left open"},
                  {r->n_separated, "vertices doubled where surfaces touch"},
-                 {r->n_part_dropped, "parts dropped"}};
+                 {r->n_part_dropped, keeps_all
+                                         ? "parts dropped that bound nothing (solid, or none, on "
+                                           "both sides)"
+                                         : "parts dropped"}};
     bool any = false;
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i) {
         if (lines[i].n > 0) {
@@ -83,7 +86,8 @@ static void warn_format(const cli_common *common, const clast_mesh_repair_report
     }
 }
 
-static clast_status tell(const cli_common *common, const clast_mesh_repair_report *report,
+static clast_status tell(const cli_common *common, const clast_mesh_repair_config *config,
+                         const clast_mesh_repair_report *report,
                          const clast_mesh_check_result *check)
 {
     if (common->json) {
@@ -95,7 +99,7 @@ static clast_status tell(const cli_common *common, const clast_mesh_repair_repor
         return cli_print_json(object);
     }
     (void)printf("%s (model units):\n", cli_name(common->argument[0]));
-    print_changes(report);
+    print_changes(report, config->keep == CLAST_KEEP_ALL);
     cli_check_words(common->output, check);
     return CLAST_OK;
 }
@@ -120,7 +124,7 @@ static clast_status run(const cli_common *common, void *config)
     CLI_TRY(clast_mesh_write(&repaired, common->output, NULL));
     CLI_TRY(clast_mesh_check(&repaired, &check));
     warn_format(common, &report);
-    CLI_TRY(tell(common, &report, &check));
+    CLI_TRY(tell(common, c, &report, &check));
     status = clast_mesh_check_passed(&check) ? CLAST_OK : CLAST_E_NO;
 done:
     clast_mesh_check_free(&check);
@@ -139,8 +143,9 @@ const cli_command cli_mesh_repair = {
     .details =
         "Merges near vertices, drops triangles without area, repeated and loose ones, splits "
         "edges at\nT-junctions, turns windings alike and outward, fills holes, parts "
-        "surfaces that touch; reports\neach change and the change of volume, then checks "
-        "the result. Vertices never move.\nExit code: 0 when the result is a solid, 1 when "
+        "surfaces that touch, drops parts in a\nsolid that are wound outward as it is (they would "
+        "count twice); reports each change and the change of\nvolume, then checks the result. "
+        "Vertices never move.\nExit code: 0 when the result is a solid, 1 when "
         "not (it is written all the same), 3 when unreadable.",
     .fields = clast_mesh_repair_fields,
     .config_size = sizeof(clast_mesh_repair_config),

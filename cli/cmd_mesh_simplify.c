@@ -18,7 +18,8 @@ static const clast_field simplify_fields[] = {{"faces", .offset = offsetof(simpl
                                                "number of triangles wanted", NULL},
                                               {0}};
 
-static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify_report *r)
+static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify_report *r,
+                             const clast_mesh_check_result *found)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", common->argument[0]);
@@ -38,6 +39,9 @@ static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify
     cli_json_number(o, "hausdorff_backward", r->deviation.backward);
     cli_json_number(o, "mean_distance", r->deviation.mean);
     cli_json_count(o, "n_sample", r->deviation.n_sample);
+    cli_json_bool(o, "is_solid", clast_mesh_check_passed(found));
+    cli_json_count(o, "n_intersection", found->n_intersection);
+    cli_json_count(o, "n_doubled", found->n_doubled);
     return o;
 }
 
@@ -55,12 +59,56 @@ static void simplify_words(const cli_common *common, const clast_mesh_simplify_r
                  r->deviation.mean, (long long)r->deviation.n_sample);
 }
 
+/// Edges collapse one by one and do not see other walls: whether the surface is still what it was.
+static clast_status check_simplified(const cli_common *common, const clast_mesh *mesh,
+                                     const clast_mesh *out, clast_mesh_check_result *found,
+                                     bool *is_lost)
+{
+    clast_mesh_check_result before = {0};
+    CLI_GUARD(clast_mesh_check(out, found));
+    const bool passed = clast_mesh_check_passed(found);
+    *is_lost = false;
+    if (passed && !cli_counts_twice(found)) {
+        return CLAST_OK;
+    }
+    CLI_GUARD(clast_mesh_check(mesh, &before));
+    *is_lost = !passed && clast_mesh_check_passed(&before);
+    const bool was_simple = !cli_counts_twice(&before);
+    clast_mesh_check_free(&before);
+    if (common->quiet || (!*is_lost && !was_simple)) {
+        return CLAST_OK;
+    }
+    if (*is_lost) {
+        (void)fprintf(stderr,
+                      "clast mesh simplify: %s is no solid any more: %d part%s inside out, %lld "
+                      "pair%s of triangles that cut each other; ask for more --faces\n",
+                      cli_name(common->output), found->n_inside_out,
+                      cli_plural(found->n_inside_out), (long long)found->n_intersection,
+                      cli_plural(found->n_intersection));
+    } else if (found->n_intersection > 0) {
+        (void)fprintf(stderr,
+                      "clast mesh simplify: note: %s now cuts itself at %lld pair%s of triangles; "
+                      "ask for more --faces\n",
+                      cli_name(common->output), (long long)found->n_intersection,
+                      cli_plural(found->n_intersection));
+    } else {
+        (void)fprintf(stderr,
+                      "clast mesh simplify: note: of %s %d part%s now count%s twice in its volume; "
+                      "ask for more --faces\n",
+                      cli_name(common->output), found->n_doubled, cli_plural(found->n_doubled),
+                      found->n_doubled == 1 ? "s" : "");
+    }
+    return CLAST_OK;
+}
+
 static clast_status run_simplify(const cli_common *common, void *config_bytes)
 {
     const simplify_config *config = config_bytes;
     clast_mesh mesh = {0};
     clast_mesh out = {0};
     clast_mesh_simplify_report report = {0};
+    clast_mesh_check_result found = {0};
+    bool is_lost = false;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(cli_mesh_welded(common, &mesh));
@@ -71,8 +119,9 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
         report.volume_after = clast_mesh_volume(&out);
     }
     CLI_TRY(clast_mesh_write(&out, common->output, NULL));
+    CLI_TRY(check_simplified(common, &mesh, &out, &found, &is_lost));
     if (common->json) {
-        CLI_TRY(cli_print_json(simplify_json(common, &report)));
+        CLI_TRY(cli_print_json(simplify_json(common, &report, &found)));
     } else {
         simplify_words(common, &report);
     }
@@ -80,14 +129,16 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
               "%s has %d triangles, not %d: no further edge can go without changing "
               "the topology or folding over",
               common->output, report.n_triangle_after, config->faces);
+    status = is_lost ? CLAST_E_NO : CLAST_OK;
 done:
+    clast_mesh_check_free(&found);
     clast_mesh_free(&out);
     clast_mesh_free(&mesh);
     return status;
 }
 
-/// Volume of the surface that the hull was taken of; NaN for points and open surfaces.
-static clast_status solid_volume(const clast_mesh *mesh, double *volume)
+/// Volume of the surface that the hull was taken of; NaN, and why, where it has none.
+static clast_status solid_volume(const clast_mesh *mesh, double *volume, const char **why)
 {
     clast_mesh welded = {0};
     clast_mesh_check_result found = {0};
@@ -98,7 +149,11 @@ static clast_status solid_volume(const clast_mesh *mesh, double *volume)
     if (welded.n_tri > 0) {
         CLI_TRY(clast_mesh_check(&welded, &found));
     }
-    if (found.closed && found.oriented) {
+    if (!found.closed || !found.oriented) {
+        *why = mesh->n_tri > 0 ? "is not closed (clast mesh check)" : "is points";
+    } else if (cli_counts_twice(&found)) {
+        *why = "counts volume twice (clast mesh check)";
+    } else {
         *volume = found.volume;
     }
 done:
@@ -108,7 +163,7 @@ done:
 }
 
 static void hull_words(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull,
-                       double volume)
+                       double volume, const char *why)
 {
     const double hull_volume = clast_mesh_volume(hull);
     (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles; model units\n",
@@ -116,8 +171,7 @@ static void hull_words(const cli_common *common, const clast_mesh *mesh, const c
                  hull->n_vert, hull->n_tri);
     (void)printf("  hull volume %.10g, area %.10g\n", hull_volume, clast_mesh_area(hull));
     if (isnan(volume)) {
-        (void)printf("  what it adds is not known: the input is %s\n",
-                     mesh->n_tri > 0 ? "not closed (clast mesh check)" : "points");
+        (void)printf("  what it adds is not known: the input %s\n", why);
         return;
     }
     (void)printf(
@@ -147,17 +201,18 @@ static clast_status run_hull(const cli_common *common, void *config)
     clast_mesh mesh = {0};
     clast_mesh hull = {0};
     double volume = 0.0;
+    const char *why = "";
     (void)config;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(clast_mesh_hull(&mesh, &hull));
-    CLI_TRY(solid_volume(&mesh, &volume));
+    CLI_TRY(solid_volume(&mesh, &volume, &why));
     CLI_TRY(clast_mesh_write(&hull, common->output, NULL));
     if (common->json) {
         CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, volume)));
     } else {
-        hull_words(common, &mesh, &hull, volume);
+        hull_words(common, &mesh, &hull, volume, why);
     }
 done:
     clast_mesh_free(&hull);
@@ -172,12 +227,14 @@ const cli_command cli_mesh_simplify = {
     .example = {"clast mesh simplify data/standin63/grain00.ply --faces 100 -o small.stl",
                 "clast mesh simplify data/standin63/grain01.ply --faces 50 -o smaller.ply",
                 "clast mesh simplify scan.stl --faces 5000 -o small.obj --json"},
-    .details = "Edges collapse, cheapest first, each to the point that keeps the volume and moves "
-               "the surface\nleast (Lindstrom and Turk 1998). Topology stays; no triangle folds "
-               "over. Reports how far the two\nsurfaces are apart. The volume is kept to 1e-12; in "
-               "an STL, which has "
-               "24 bits\nfor each coordinate, to about 1e-10.\nExit code 5 "
-               "when the number cannot be reached (the result is written all the same).",
+    .details =
+        "Edges collapse, cheapest first, each to the point that keeps the volume and moves "
+        "the surface\nleast (Lindstrom and Turk 1998). Topology stays; no triangle folds "
+        "over. Reports how far the two\nsurfaces are apart. The volume is kept to 1e-12; in "
+        "an STL, which has "
+        "24 bits\nfor each coordinate, to about 1e-10. Walls do not see each other: the result "
+        "is checked as by\nclast mesh check.\nExit code 1 when it is no solid any more, 5 "
+        "when the number cannot be reached (the result is written all the same).",
     .fields = simplify_fields,
     .config_size = sizeof(simplify_config),
     .n_min = 1,

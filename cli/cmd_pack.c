@@ -1,5 +1,6 @@
 // clast pack: pour, shake and damp a bed of grains by the discrete element method.
 #include "command.h"
+#include "packing.h"
 #include "quantity.h"
 #include "resume.h"
 
@@ -292,6 +293,10 @@ static clast_status run(const cli_common *common, void *context)
     if (status != CLAST_OK || common->comm->rank > 0) {
         return status;
     }
+    cli_packing_note(common, config->start[0] != '\0' ? config->start : "start",
+                     &(clast_packing_report){.snapshot = result.start_snapshot,
+                                             .n_snapshot = result.n_start_snapshot,
+                                             .frame = {.step = result.start_step}});
     if (!common->json) {
         print_text(&result);
         clast_pack_result_free(&result);

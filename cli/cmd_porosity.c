@@ -3,6 +3,7 @@
 #include "command.h"
 #include "json.h"
 #include "lengths.h"
+#include "packing.h"
 #include "porosity_measure.h"
 #include "results.h"
 
@@ -94,8 +95,8 @@ static bool ends_with(const char *text, const char *end)
 }
 
 /// The grains, and the run's own bed and contact forces where it has them.
-static clast_status read_input(const char *input, const porosity_config *config,
-                               cli_porosity_bed *s)
+static clast_status read_input(const cli_common *common, const char *input,
+                               const porosity_config *config, cli_porosity_bed *s)
 {
     char path[CLAST_RUN_PATH];
     double diameter = 0.0;
@@ -108,7 +109,15 @@ static clast_status read_input(const char *input, const porosity_config *config,
     }
     if (!ends_with(path, ".h5")) {
         const clast_packing_options options = {config->columns, diameter};
-        return clast_packing_read(path, &options, &s->assembly);
+        CLI_GUARD(clast_packing_read(path, &options, &s->assembly, &s->report));
+        cli_packing_note(common, path, &s->report);
+        if (s->assembly.no_density && strcmp(config->fields, "0") != 0) {
+            (void)fprintf(stderr,
+                          "clast porosity: %s: it tells no densities; the field of density is that "
+                          "of grains of 1 kg/m^3\n",
+                          cli_name(path));
+        }
+        return CLAST_OK;
     }
     if (config->columns[0] != '\0' || diameter > 0.0) {
         return cli_fail(CLAST_E_USAGE,
@@ -167,11 +176,12 @@ static clast_status read_lengths(const porosity_config *config, const char *unit
 }
 
 /// Reads a run and measures it.
-static clast_status measure_run(const char *input, const porosity_config *config,
-                                cli_porosity_bed *s, cli_porosity_findings *found)
+static clast_status measure_run(const cli_common *common, const char *input,
+                                const porosity_config *config, cli_porosity_bed *s,
+                                cli_porosity_findings *found)
 {
     lengths typed = {0};
-    CLI_GUARD(read_input(input, config, s));
+    CLI_GUARD(read_input(common, input, config, s));
     CLI_GUARD(read_lengths(config, s->assembly.unit, &typed));
     if (typed.gap > 0.0 && s->contacts.n_column > 0) {
         return cli_fail(CLAST_E_USAGE, "%s is a run, which knows its contacts: leave out --gap",
@@ -227,7 +237,7 @@ static clast_status gather_one(const cli_common *common, int32_t i, const porosi
     cli_porosity_bed s = {0};
     cli_porosity_findings found = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(input, config, &s, &found));
+    CLI_TRY(measure_run(common, input, config, &s, &found));
     CLI_CHECK(i == 0 || s.bed.kind == *kind, CLAST_E_USAGE,
               "%s and %s lie in containers of two kinds: they are no realisations of one bed",
               common->argument[0], input);
@@ -307,7 +317,9 @@ static clast_status write_one(const cli_common *common, const porosity_config *c
     clast_status status = CLAST_OK;
     CLI_TRY(open_results(common, config, run));
     CLI_TRY(cli_porosity_files(run, &s->assembly, found));
-    CLI_TRY(write_summary(run, cli_porosity_json(&s->assembly, found)));
+    json_t *object = cli_porosity_json(&s->assembly, found);
+    cli_packing_json(object, &found->report);
+    CLI_TRY(write_summary(run, object));
 done:
     return clast_run_folder_end(run, status);
 }
@@ -318,7 +330,7 @@ static clast_status run_one(const cli_common *common, const porosity_config *con
     cli_porosity_bed s = {0};
     cli_porosity_findings found = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(common->argument[0], config, &s, &found));
+    CLI_TRY(measure_run(common, common->argument[0], config, &s, &found));
     if (run != NULL) {
         CLI_TRY(write_one(common, config, &s, &found, run));
     }

@@ -71,6 +71,24 @@ static clast_status predict_columns(const config *c, cli_prediction *j)
     return CLAST_OK;
 }
 
+/// Every grain is a bed of its form.
+static clast_status predict_each(const config *c, cli_prediction *j)
+{
+    CLI_GUARD(cli_choose_model(c->model, c->grading, false, &j->model));
+    return clast_porosity_predict_each(&j->model, &j->set, &j->beds);
+}
+
+/// One bed of all grains: a mixture where their forms vary.
+static clast_status predict_set(const config *c, cli_prediction *j)
+{
+    const clast_bootstrap b = {.n_resample = c->resamples, .level = 0.95, .seed = c->seed};
+    CLI_GUARD(clast_form_inputs_of(&j->set, NULL, 0, &j->inputs));
+    CLI_GUARD(cli_choose_model(c->model, c->grading, j->inputs.has_deviation, &j->model));
+    j->has_one = true;
+    j->knows_spread = j->set.n > 1;
+    return clast_porosity_predict_set(&j->model, &j->set, &b, &j->inputs, &j->prediction);
+}
+
 static clast_status predict_table(const config *c, cli_prediction *j)
 {
     char complaint[512];
@@ -87,35 +105,21 @@ static clast_status predict_table(const config *c, cli_prediction *j)
     if (complaint[0] != '\0') {
         (void)fprintf(stderr, "clast predict: %s: %s\n", j->table.name, complaint);
     }
-    status = cli_choose_model(c->model, c->grading, !c->each && j->set.n > 1, &j->model);
-    if (status == CLAST_OK && c->each) {
-        return clast_porosity_predict_each(&j->model, &j->set, &j->beds);
-    }
-    const clast_bootstrap b = {.n_resample = c->resamples, .level = 0.95, .seed = c->seed};
-    j->has_one = true;
-    return status != CLAST_OK
-               ? status
-               : clast_porosity_predict_set(&j->model, &j->set, &b, &j->inputs, &j->prediction);
+    return c->each ? predict_each(c, j) : predict_set(c, j);
 }
 
 static clast_status predict_moments(const config *c, cli_prediction *j)
 {
     double mean[2];
     double deviation[2];
-    bool has_spread = false;
-    clast_status status =
-        cli_parse_moments(c->flatness, c->elongation, mean, deviation, &has_spread);
-    if (status == CLAST_OK) {
-        status = cli_choose_model(c->model, c->grading, has_spread, &j->model);
-    }
-    if (status == CLAST_OK) {
-        status = clast_form_inputs_from_moments(mean, has_spread ? deviation : NULL, c->grains,
-                                                &j->inputs);
-    }
+    bool has_deviation = false;
+    CLI_GUARD(cli_parse_moments(c->flatness, c->elongation, mean, deviation, &has_deviation));
+    CLI_GUARD(clast_form_inputs_from_moments(mean, has_deviation ? deviation : NULL, c->grains,
+                                             &j->inputs));
+    CLI_GUARD(cli_choose_model(c->model, c->grading, j->inputs.has_deviation, &j->model));
     j->has_one = true;
-    return status != CLAST_OK
-               ? status
-               : clast_porosity_predict_moments(&j->model, &j->inputs, &j->prediction);
+    j->knows_spread = has_deviation;
+    return clast_porosity_predict_moments(&j->model, &j->inputs, &j->prediction);
 }
 
 static clast_status write_folder(const cli_prediction *j, const char *folder)

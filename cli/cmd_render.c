@@ -31,15 +31,41 @@ static void name_of(const char *path, const clast_assembly *assembly, char *name
     }
 }
 
-/// The shape of a surface: measured when it is a solid, else bare (open surfaces can be drawn too).
-static clast_status shape_of(char *name, clast_mesh *mesh, clast_shape *shape)
+/// A picture needs no volume: one without (flat, of mixed windings) counts as large as it is long.
+static clast_status bare_shape(const char *path, char *name, clast_mesh *mesh, clast_shape *shape)
 {
-    const clast_status status = clast_shape_mesh(name, mesh, shape);
-    if (status != CLAST_E_GEOMETRY) {
-        return status;
+    static const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    double low[3];
+    double high[3];
+    double to_origin[3];
+    clast_shape bare = {.kind = CLAST_SHAPE_MESH, .name = name};
+    clast_mesh_bounds(mesh, low, high);
+    for (int k = 0; k < 3; ++k) {
+        bare.source_origin[k] = 0.5 * (low[k] + high[k]);
+        to_origin[k] = -bare.source_origin[k];
     }
-    const clast_shape bare = {.kind = CLAST_SHAPE_MESH, .name = name, .mesh = *mesh};
+    CLI_GUARD(clast_mesh_length(mesh, &bare.length));
+    if (!(bare.length > 0.0)) {
+        return cli_fail(CLAST_E_GEOMETRY, "%s is one point: there is nothing to draw", path);
+    }
+    clast_mesh_transform(mesh, 1.0, unturned, to_origin);
+    bare.mesh = *mesh;
+    bare.volume = CLAST_PI / 6.0 * bare.length * bare.length * bare.length;
     return clast_shape_copy(&bare, shape);
+}
+
+/// The shape of a surface: measured where it has a volume, inside out or not, else bare.
+static clast_status shape_of(const char *path, char *name, clast_mesh *mesh, clast_shape *shape)
+{
+    if (clast_mesh_volume(mesh) < 0.0) {
+        for (int32_t t = 0; t < mesh->n_tri; ++t) {
+            const int32_t swap = mesh->tri[t][1];
+            mesh->tri[t][1] = mesh->tri[t][2];
+            mesh->tri[t][2] = swap;
+        }
+    }
+    const clast_status status = clast_shape_mesh(name, mesh, shape);
+    return status == CLAST_E_GEOMETRY ? bare_shape(path, name, mesh, shape) : status;
 }
 
 /// A surface at the place it has in its file.
@@ -53,7 +79,9 @@ static clast_status add_surface(const char *path, clast_assembly *assembly)
     name_of(path, assembly, name, sizeof name);
     clast_status status = CLAST_OK;
     CLI_TRY(clast_mesh_read(path, &mesh, NULL));
-    CLI_TRY(shape_of(name, &mesh, &shape));
+    CLI_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles: %d points are no surface",
+              path, mesh.n_vert);
+    CLI_TRY(shape_of(path, name, &mesh, &shape));
     CLI_TRY(clast_assembly_add_shape(assembly, &shape, &id));
     CLI_TRY(clast_assembly_add_grain(assembly, id, shape.source_origin, upright, 1.0, 1.0));
 done:
@@ -194,8 +222,10 @@ const cli_command cli_render = {
     .details =
         "INPUT is a surface (STL, OBJ, PLY, OFF; several are drawn together, each at the place\n"
         "that its file gives it), a run's folder, or a state.h5. The output is a PNG file.\n"
-        "Colours by size mean the diameter of the sphere of equal volume. The picture is\n"
-        "framed so that nothing is cut off, and equal runs give equal bytes.",
+        "Colours by size mean the diameter of the sphere of equal volume (of a surface without\n"
+        "volume, flat say, its length). The picture is framed so that nothing is cut off, and "
+        "equal\n"
+        "runs give equal bytes.",
     .fields = clast_render_fields,
     .config_size = sizeof(clast_render_config),
     .n_min = 1,

@@ -273,7 +273,7 @@ static clast_status check_kinds(const config *c, unsigned may_be, const char *wh
                                 {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0,
                                  "voxels|voxel_edge|dataset|threshold|least_voxels", why},
                                 {(may_be & 1U << CLAST_GRAINS_TABLE) == 0, "columns", why},
-                                {may_be == 1U << CLAST_GRAINS_TABLE, "hull|surfaces", why},
+                                {may_be == 1U << CLAST_GRAINS_TABLE, "axes|hull|surfaces", why},
                                 {0}};
     return cli_idle_check(fields, c, rules);
 }

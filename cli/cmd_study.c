@@ -166,7 +166,13 @@ static const char details[] =
     "1.\n"
     "-o FOLDER holds plan.csv, runs/NNNNNN (result.json, messages.txt, out/), results.csv (a row "
     "a\n"
-    "run: what varied, seed, exit code, every number of its --json object) and times.csv.\n"
+    "run: what varied, seed, exit code, the numbers of its --json object: a.b for b within a, "
+    "a.0.b\n"
+    "for the only entry of a list; those of lists of more by --keep a.2.b) and times.csv. An "
+    "argument's\n"
+    "file, a configuration or a table that is not the one of the runs done is refused (study.json "
+    "has\n"
+    "their digests, and the versions of clast that worked on it).\n"
     "Exit code 1 when runs failed; they are tried again by the same call.";
 
 const cli_command cli_study = {

@@ -31,6 +31,7 @@ static json_t *part_list(const clast_mesh_check_result *r)
         cli_json_bool(part, "manifold", p->manifold);
         cli_json_count(part, "genus", p->genus);
         cli_json_count(part, "depth", p->depth);
+        cli_json_count(part, "winding", p->winding);
         cli_json_number(part, "volume", p->volume);
         cli_json_number(part, "area", p->area);
         (void)json_array_append_new(list, part);
@@ -68,6 +69,7 @@ json_t *cli_check_json(const char *file, const clast_mesh_check_result *r)
     cli_json_count(o, "n_misoriented_edge", r->n_misoriented_edge);
     cli_json_count(o, "n_inside_out", r->n_inside_out);
     cli_json_count(o, "n_nested", r->n_nested);
+    cli_json_count(o, "n_doubled", r->n_doubled);
     cli_json_count(o, "n_degenerate", r->n_degenerate);
     cli_json_count(o, "n_duplicate", r->n_duplicate);
     cli_json_count(o, "n_unused_vertex", r->n_unused_vertex);
@@ -146,6 +148,32 @@ clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
     CLI_GUARD(clast_mesh_weld_auto(mesh, &weld));
     note_weld(common, &weld);
     return CLAST_OK;
+}
+
+bool cli_counts_twice(const clast_mesh_check_result *found)
+{
+    return found->n_intersection > 0 || found->n_doubled > 0;
+}
+
+void cli_note_doubles(const cli_common *common, const clast_mesh_check_result *found,
+                      const char *effect)
+{
+    if (!cli_counts_twice(found) || common->quiet) {
+        return;
+    }
+    (void)fprintf(stderr, "clast %s: note: %s", common->command, cli_name(common->argument[0]));
+    if (found->n_intersection > 0) {
+        (void)fprintf(stderr,
+                      " cuts itself at %lld pair%s of triangles; its volume counts overlaps "
+                      "twice%s (clast mesh check)\n",
+                      (long long)found->n_intersection, cli_plural(found->n_intersection), effect);
+    } else {
+        (void)fprintf(stderr,
+                      ": %d of its %d parts count%s twice in its volume%s; clast mesh repair "
+                      "drops %s\n",
+                      found->n_doubled, found->n_part, found->n_doubled == 1 ? "s" : "", effect,
+                      found->n_doubled == 1 ? "it" : "them");
+    }
 }
 
 clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,

@@ -19,6 +19,13 @@ clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh);
 /// The same, then the weld that every command applies to a surface; what it joined goes to stderr.
 clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh);
 
+/// Whether its volume counts a region twice: parts in a solid, or cuts.
+bool cli_counts_twice(const clast_mesh_check_result *found);
+
+/// Says so on stderr, and what to run; `effect` (", so shares of it come out low") may be "".
+void cli_note_doubles(const cli_common *common, const clast_mesh_check_result *found,
+                      const char *effect);
+
 /// What a command answers that could not use a surface: when it is no solid, that, and the command
 /// that closes it; else the command's own status and message.
 clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,

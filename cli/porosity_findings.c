@@ -2,6 +2,7 @@
 #include "porosity_findings.h"
 
 #include "json.h"
+#include "packing.h"
 #include "quantity.h"
 #include "results.h"
 #include <clast/chart.h>
@@ -252,6 +253,7 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
     const char *unit = is_model ? "model units" : assembly->unit;
     if (common->json) {
         json_t *object = cli_porosity_json(assembly, f);
+        cli_packing_json(object, &f->report);
         (void)json_object_set_new(object, "profile", profile_json(f));
         return cli_print_json(object);
     }

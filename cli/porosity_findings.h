@@ -21,8 +21,9 @@ typedef struct cli_porosity_findings {
     double mean_coordination; ///< NAN where contacts are not known
     clast_overlaps overlaps;
     clast_porosity_method method;
-    double cut;        ///< the bed ends where its porosity rises through this
-    double core_depth; ///< asked for, in grain sizes, or 0
+    double cut;                  ///< the bed ends where its porosity rises through this
+    double core_depth;           ///< asked for, in grain sizes, or 0
+    clast_packing_report report; ///< of another program's file
 } cli_porosity_findings;
 
 void cli_porosity_free(cli_porosity_findings *f);

@@ -82,6 +82,7 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
     f->method = options->method;
     f->cut = options->cut;
     f->core_depth = wanted->core;
+    f->report = s->report;
     clast_bed_wrap(bed, assembly);
     CLI_GUARD(clast_porosity_profile(assembly, bed, options, &f->profile));
     CLI_GUARD(clast_porosity_measure(assembly, bed, &f->profile, options, &f->bulk));

@@ -6,9 +6,10 @@
 typedef struct cli_porosity_bed {
     clast_assembly assembly;
     clast_bed bed;
-    clast_mesh surface;     ///< of the bed, or empty
-    clast_table contacts;   ///< forces, without columns where the run does not know them
-    clast_table velocities; ///< likewise
+    clast_mesh surface;          ///< of the bed, or empty
+    clast_table contacts;        ///< forces, without columns where the run does not know them
+    clast_table velocities;      ///< likewise
+    clast_packing_report report; ///< of another program's file
     bool has_bed;
 } cli_porosity_bed;
 

@@ -61,7 +61,7 @@ static clast_status parse_one(const char *name, const char *text, double *mean, 
 }
 
 clast_status cli_parse_moments(const char *flatness, const char *elongation, double mean[2],
-                               double deviation[2], bool *has_spread)
+                               double deviation[2], bool *has_deviation)
 {
     if (flatness[0] == '\0' || elongation[0] == '\0') {
         return cli_fail(CLAST_E_USAGE, "--%s is missing: give both --flatness and --elongation",
@@ -74,6 +74,6 @@ clast_status cli_parse_moments(const char *flatness, const char *elongation, dou
                         deviation[0] < 0.0 ? "elongation" : "flatness",
                         deviation[0] < 0.0 ? "flatness" : "elongation");
     }
-    *has_spread = deviation[0] >= 0.0 && deviation[0] + deviation[1] > 0.0;
+    *has_deviation = deviation[0] >= 0.0;
     return CLAST_OK;
 }

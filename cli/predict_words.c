@@ -109,6 +109,23 @@ static void print_formula(const clast_porosity_model *m)
     (void)printf("\n");
 }
 
+/// Means of the form, with deviations where they are known, be they 0.
+static void print_form(const cli_prediction *j)
+{
+    const clast_form_inputs *v = &j->inputs;
+    if (j->knows_spread) {
+        (void)printf(
+            "flatness   %.4f +- %.4f\nelongation %.4f +- %.4f\nequancy    %.4f +- %.4f%s\n",
+            v->flatness_mean, v->flatness_deviation, v->elongation_mean, v->elongation_deviation,
+            v->equancy_mean, v->equancy_deviation,
+            v->is_independent ? " (flatness and elongation taken as independent)" : "");
+    } else {
+        (void)printf("flatness   %.4f\nelongation %.4f\nequancy    %.4f (%s)\n", v->flatness_mean,
+                     v->elongation_mean, v->equancy_mean,
+                     j->has_table ? "of one grain" : "of the means: no deviations were given");
+    }
+}
+
 static void print_one(const cli_prediction *j)
 {
     const clast_form_inputs *v = &j->inputs;
@@ -122,18 +139,7 @@ static void print_one(const cli_prediction *j)
     if (v->n_grain > 0) {
         (void)printf("grains     %lld\n", (long long)v->n_grain);
     }
-    if (v->has_deviation) {
-        (void)printf(
-            "flatness   %.4f +- %.4f\nelongation %.4f +- %.4f\nequancy    %.4f +- %.4f%s\n",
-            v->flatness_mean, v->flatness_deviation, v->elongation_mean, v->elongation_deviation,
-            v->equancy_mean, v->equancy_deviation,
-            v->is_independent ? " (flatness and elongation taken as independent)" : "");
-    } else {
-        (void)printf(
-            "flatness   %.4f\nelongation %.4f\nequancy    %.4f (of the means: no deviations "
-            "were given)\n",
-            v->flatness_mean, v->elongation_mean, v->equancy_mean);
-    }
+    print_form(j);
     if (j->model.kind == CLAST_MODEL_SINGLE && v->has_deviation) {
         (void)printf("note       a single-form model at the mean form: it leaves the spread of the "
                      "forms out\n");

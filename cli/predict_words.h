@@ -11,6 +11,7 @@ typedef struct cli_prediction {
     clast_form_inputs inputs;
     clast_prediction prediction;
     bool has_table, has_one; ///< has_one: `prediction` is the answer for one bed
+    bool knows_spread;       ///< deviations were given, or two grains or more
 } cli_prediction;
 
 json_t *cli_prediction_json(const cli_prediction *prediction);

@@ -112,10 +112,31 @@ static json_t *grain_json(const cli_shape_result *shape, const clast_grain_recor
     return object;
 }
 
-static json_t *lines_json(const clast_grain_fault *line, int64_t n)
+static int64_t count_surfaces(const cli_shape_result *shape)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < shape->grains.n; ++i) {
+        n += shape->grains.record[i].has_surface;
+    }
+    return n;
+}
+
+/// The definition behind L, I and S: rows of tables have their own.
+static const char *axes_name(const cli_shape_result *shape)
+{
+    return shape->grains.n > 0 && count_surfaces(shape) == 0
+               ? "table"
+               : clast_axes_name((int32_t)shape->axes);
+}
+
+/// The lines of rows left out (status OK), or the others.
+static json_t *lines_json(const clast_grain_fault *line, int64_t n, bool left_out)
 {
     json_t *list = json_array();
     for (int64_t i = 0; i < n; ++i) {
+        if ((line[i].status == CLAST_OK) != left_out) {
+            continue;
+        }
         json_t *object = json_object();
         cli_json_text(object, "text", line[i].text);
         (void)json_array_append_new(list, object);
@@ -131,14 +152,16 @@ json_t *cli_shape_json(const cli_shape_result *shape)
         (void)json_array_append_new(grains, grain_json(shape, &shape->grains.record[i]));
     }
     cli_json_text(object, "unit", shape->in_metres ? "m" : "model");
-    cli_json_text(object, "axes", clast_axes_name((int32_t)shape->axes));
+    cli_json_text(object, "axes", axes_name(shape));
     cli_json_bool(object, "hull", shape->is_hull);
     cli_json_count(object, "n_grain", shape->grains.n);
     (void)json_object_set_new(object, "grains", grains);
     (void)json_object_set_new(object, "faults",
-                              lines_json(shape->grains.fault, shape->grains.n_fault));
+                              lines_json(shape->grains.fault, shape->grains.n_fault, false));
     (void)json_object_set_new(object, "left_out",
-                              lines_json(shape->grains.note, shape->grains.n_note));
+                              lines_json(shape->grains.note, shape->grains.n_note, true));
+    (void)json_object_set_new(object, "warnings",
+                              lines_json(shape->grains.note, shape->grains.n_note, false));
     return object;
 }
 
@@ -297,8 +320,10 @@ void cli_shape_words(const cli_shape_result *shape)
         grain_words(shape, &shape->grains.record[0]);
         return;
     }
-    (void)printf("%lld grains; L, I, S by %s; %s\n", (long long)shape->grains.n,
-                 clast_axes_name((int32_t)shape->axes),
+    const int64_t n_surface = count_surfaces(shape);
+    (void)printf("%lld grains; L, I, S by %s%s%s; %s\n", (long long)shape->grains.n,
+                 n_surface > 0 ? "" : "the ", axes_name(shape),
+                 n_surface > 0 && n_surface < shape->grains.n ? ", of rows by their table" : "",
                  shape->in_metres ? "volume in m3, area in m2, lengths in m"
                                   : "the files' units (give --unit for SI)");
     (void)printf("%11s %11s %10s %10s %10s %10s %6s %6s %6s %6s %6s %-6s %s\n", "volume", "area",

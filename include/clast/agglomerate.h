@@ -89,7 +89,9 @@ typedef struct clast_collide_cells {
 /// NULL, volumes not > 0, cells that there are not; nothing is then changed. CLAST_E_CONFIG too
 /// after the step where over 0.1 % of its collisions (of those of cells->range, if given) lie out
 /// of a range of kernel_range.h, but for CLAST_OUT_OF_RANGE_EXTRAPOLATE. CLAST_E_LIMIT beyond
-/// 50000 kinds in a cell with block = 0
+/// 50000 kinds in a cell with block = 0; where the particles of a cell have 2^63 monomers together,
+/// nothing then being changed; and after the step where a parcel (weight) has come to have 2^63,
+/// INT64_MAX standing for as many
 /// @note a cell of n particles of s kinds: O(s) per event; the same bytes for any thread count
 CLAST_API clast_status clast_collide(clast_population *population, const clast_collide_cells *cells,
                                      double dt, uint64_t step, const clast_collide_config *config,

@@ -27,7 +27,7 @@ typedef enum {
 typedef enum {
     CLAST_SIZE_LENGTH, ///< maximum length of the solid
     CLAST_SIZE_VOLUME, ///< diameter of the sphere of equal volume
-    CLAST_SIZE_MEAN    ///< (L I S)^(1/3), the geometric mean of the three form dimensions
+    CLAST_SIZE_MEAN    ///< (L I S)^(1/3), the geometric mean of the fitted axes (CLAST_AXES_FITTED)
 } clast_size_meaning;
 
 typedef enum {
@@ -155,6 +155,8 @@ typedef struct clast_aggregate_result {
     int32_t n_grain;    ///< core included
     int32_t n_contact;
     int32_t n_cluster;
+    int32_t n_grain_all; ///< of all clusters
+    int32_t contact;     ///< clast_contact_method: between the bodies that max_overlap is of
     double mass;
     double solid_sum;         ///< sum of the grains' volumes
     double solid_union;       ///< of the space that they fill: less where they overlap; NAN when
@@ -174,7 +176,8 @@ typedef struct clast_aggregate_result {
     double coat_grain;           ///< Sauter's mean size of the placed grains [m]
     double permeability;         ///< of the coat [m2]; NAN outside of the law
     double drag_permeable;       ///< Stokes drag over that of the solid body; NAN as that
-    double max_overlap;          ///< greatest step back that frees a particle; 0 within rounding
+    double max_overlap;          ///< greatest step back that frees a particle, of the bodies of
+                                 ///< `contact`; 0 within rounding; NAN: not looked for (march)
     double max_overlap_relative; ///< the same by the particle's size
     int32_t n_lost;              ///< particles that the published march left at a step limit
     clast_aggregate_stop stop;
@@ -196,7 +199,8 @@ CLAST_API void clast_aggregate_destroy(clast_aggregate *aggregate); ///< NULL is
 
 /// Places up to n more particles, fewer when a stop criterion is met or the list ends.
 ///
-/// @return CLAST_E_STOPPED when the monitor asks: what is placed stays and growing may go on;
+/// @return CLAST_E_ARGUMENT for n below 0;
+///         CLAST_E_STOPPED when the monitor asks: what is placed stays and growing may go on;
 ///         CLAST_E_CONVERGE when max_tries axes in a row miss the aggregate
 CLAST_API clast_status clast_aggregate_grow(clast_aggregate *aggregate, int32_t n,
                                             const clast_monitor *monitor);
@@ -233,7 +237,9 @@ typedef struct clast_aggregate_saved {
 
 /// Goes on from there: the same particles follow, to the last bit.
 ///
-/// @return CLAST_E_FORMAT when it does not belong to these parameters
+/// @return CLAST_E_FORMAT when it does not belong to these parameters: another repeat in the rows,
+/// other shapes, sizes or densities of the grains than are drawn, or a first step that, made anew,
+/// ends otherwise (another seed); CLAST_E_ARGUMENT for a repeat below 0
 CLAST_API clast_status clast_aggregate_restore(const clast_aggregate_params *params,
                                                const clast_aggregate_input *input,
                                                const clast_aggregate_saved *saved,
@@ -247,11 +253,16 @@ typedef struct clast_interval {
     double low, high; ///< mean -+ t deviation / sqrt(n); infinite for n = 1
 } clast_interval;
 
-/// Mean of n values and its interval at this confidence (0 to 1), in the unit of the values.
+/// Mean of n values and its interval at this confidence, in the unit of the values. NaN throughout,
+/// and n 0, where there is no value; low and high are NaN for a confidence that is not above 0 and
+/// below 1.
 CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, double confidence);
 
 /// Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, ...
 /// particles, from the histories of several repeats one below the other.
+///
+/// @return CLAST_E_ARGUMENT for a confidence that is not above 0 and below 1; CLAST_E_USAGE without
+/// a column n
 CLAST_API clast_status clast_aggregate_band(const clast_table *history, double confidence,
                                             clast_table *band);
 

@@ -1,7 +1,8 @@
 #pragma once
 // What an aggregation reads: sizes, surfaces and composites named in its configuration.
 // A whole run of an aggregation: all repeats, their folder, checkpoints and going on
-// (clast_aggregate_run and clast_aggregate_resume are of libclast_view).
+// (clast_aggregate_run, clast_aggregate_resume and clast_aggregate_make_printable are of
+// libclast_view).
 #include <clast/aggregate.h>
 #include <clast/grading.h>
 
@@ -82,6 +83,14 @@ CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);
 CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report *report, bool times,
                                                    char **text);
 
+/// What the numbers are of, where that is not all grains in their true surfaces, in `size` bytes:
+/// "largest of 10 clusters, 24 of 40 grains (...)", or that porosity is by the sum of the grains'
+/// volumes, by how much these overlap, and which bodies max_overlap is of; else "".
+///
+/// @return text
+CLAST_API const char *clast_aggregate_report_scope(const clast_aggregate_report *report,
+                                                   size_t size, char *text);
+
 /// Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and
 /// manifest.json into it, and checkpoints on the way.
 ///
@@ -94,12 +103,26 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 /// @param folder   NULL for no files    @param comm  NULL for one rank
 /// @param monitor  may be NULL          @param report  filled on rank 0 only
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
-///         CLAST_E_CONVERGE when a stop criterion was not reached (all files are written);
+///         CLAST_E_CONVERGE when a stop criterion was not reached, or the printable body could not
+///         be made (the run is whole all the same, and the report filled); CLAST_E_CONFIG for a
+///         printable body that cannot be;
 ///         CLAST_E_USAGE when the folder holds a run, finished or not, and config->force is not
 ///         set (run_folder.h)
 CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
                                            const clast_comm *comm, const clast_monitor *monitor,
                                            clast_aggregate_report *report);
+
+/// Makes the printable body of a whole run from its state.h5, anew or for the first time:
+/// printable.3mf, printable.stl (mm) and printable.json, which manifest.json then lists. The body
+/// is that of the first repeat, of clusters left apart the largest. Nothing else changes.
+///
+/// @param monitor  may be NULL    @param report  may be NULL
+/// @return CLAST_E_IO when the folder holds no whole run, CLAST_E_USAGE when it is one of another
+///         command, CLAST_E_CONFIG for a neck below two spacings; as clast_assembly_printable
+CLAST_API clast_status clast_aggregate_make_printable(const char *folder,
+                                                      const clast_printable_config *config,
+                                                      const clast_monitor *monitor,
+                                                      clast_printable_report *report);
 
 /// Goes on from the newest checkpoints of a folder, with any number of ranks; ends in the same
 /// bytes as an uninterrupted run.

@@ -22,6 +22,7 @@ struct clast_assembly {
     char unit[16]; ///< length unit of the coordinates: "m", or "model" when the input had none
     int32_t grain_capacity;   ///< grains the arrays have room for; 0 if made by hand
     int32_t contact_capacity; ///< the same for contacts
+    bool no_density; ///< the grains came without densities: they are 1 until they are set to others
 };
 
 /// Frees all arrays and shapes; may be called twice.
@@ -108,7 +109,7 @@ typedef struct clast_union {
     double sum;         ///< of the grains' volumes
     bool is_exact;      ///< nothing was sampled
     int32_t n_overlap;  ///< pairs that overlap by more than 1e-9 of the smaller grain's radius
-    double max_overlap; ///< greatest depth of those: the least shift found that parts the pair
+    double max_overlap; ///< greatest depth of those (clast_overlaps)
     double max_overlap_share; ///< greatest depth by the smaller grain's volume-equivalent radius
 } clast_union;
 
@@ -127,25 +128,31 @@ CLAST_API clast_status clast_assembly_union(const clast_assembly *assembly,
 
 /// Fills assembly->contact with all pairs of grains that come within `gap` of each other, in rising
 /// order; the contact point lies halfway between the closest points. What was there is replaced.
+///
+/// @return CLAST_E_USAGE for a gap that is negative or not finite
 CLAST_API clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap);
 
-/// A box that repeats: its corner and its periods in x, y and z, 0 for none [m].
+/// A box that repeats: its corner and its periods in x, y and z, 0 for none [m]; all are finite,
+/// periods not negative (else CLAST_E_ARGUMENT).
 typedef struct clast_period {
     double low[3];
     double length[3];
 } clast_period;
 
 /// The same across the borders of a periodic box too, in which every grain's centroid lies; of each
-/// contact across a border the point is on the side of the grain of lower number.
+/// contact across a border the point is on the side of the grain of lower number. A grain's contact
+/// with its own image is none.
 ///
 /// @param period  NULL: none
 CLAST_API clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
                                                              const clast_period *period);
 
-/// How many grains overlap, and by how much.
+/// How many grains overlap, and by how much. A grain's overlap with its own image, where it is
+/// wider than the period, is not looked at.
 typedef struct clast_overlaps {
     int32_t n;    ///< pairs that overlap by more than 1e-9 of the smaller grain's radius
-    double depth; ///< greatest of them: the least shift found that parts the pair [m]
+    double depth; ///< greatest of them: a shift that parts the pair, exact for two round grains;
+                  ///< else along the line of centres, x, y or z, at most 1e-3 above the least [m]
     double share; ///< greatest depth by the smaller grain's volume-equivalent radius
 } clast_overlaps;
 
@@ -181,7 +188,8 @@ typedef struct clast_printable_report {
 /// What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and
 /// n_triangle_expected (50 bytes each in an STL) of the report, at no cost.
 ///
-/// @return CLAST_E_USAGE for an assembly that cannot be printed or a spacing beyond its extent
+/// @return CLAST_E_USAGE for an assembly that cannot be printed or a spacing beyond its extent;
+///         CLAST_E_LIMIT when the grid would pass 2^31 nodes
 CLAST_API clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
                                                      const clast_printable_config *config,
                                                      clast_printable_report *report);
@@ -361,8 +369,9 @@ CLAST_API clast_structure_options clast_structure_options_default(void);
 
 /// Everything above in one table: columns name, value, error, unit, meaning.
 ///
-/// One row per measure; for each envelope that the shapes allow its volume, porosity, packing,
-/// density, D_agg and terminal velocity. Measures that do not exist here (a fractal dimension of
+/// One row per measure; for each envelope that the shapes allow its volume, porosity and packing
+/// (by the sum of the grains' volumes; porosity_union by their union), density, D_agg and terminal
+/// velocity. Measures that do not exist here (a fractal dimension of
 /// two grains, contacts that are not known) have no row. `table` must be empty.
 CLAST_API clast_status clast_structure(const clast_assembly *assembly,
                                        const clast_structure_options *options, clast_table *table);

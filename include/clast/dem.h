@@ -274,7 +274,8 @@ CLAST_API int32_t clast_dem_n_wall(const clast_dem *dem); ///< 0 while none are 
 
 /// How a wall moves, before it does.
 ///
-/// @return CLAST_E_CONFIG where a plane or cylinder of the domain would not stay one
+/// @return CLAST_E_CONFIG where a plane or cylinder of the domain would not stay one; CLAST_E_USAGE
+/// for a wall that is not there, numbers that are not finite or a period below 0
 CLAST_API clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
                                                  const clast_dem_wall_motion *motion);
 
@@ -284,8 +285,9 @@ CLAST_API clast_status clast_dem_drive_wall(clast_dem *dem, int32_t wall, bool r
 
 /// Takes a wall away: an orifice opens.
 CLAST_API clast_status clast_dem_open_wall(clast_dem *dem, int32_t wall);
-CLAST_API void clast_dem_read_wall(const clast_dem *dem, int32_t wall,
-                                   clast_dem_wall *out); ///< as it is now
+
+/// A wall as it is now; untouched where there is no such wall.
+CLAST_API void clast_dem_read_wall(const clast_dem *dem, int32_t wall, clast_dem_wall *out);
 
 /// Takes grains out; those after them move up in number. Contacts of the others stay.
 ///
@@ -327,12 +329,17 @@ CLAST_API clast_status clast_dem_add_grains(clast_dem *dem, int32_t n,
                                             const clast_dem_grain *grain);
 
 /// Sets what acts from the next step on. `drive` is copied.
-CLAST_API void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive);
+///
+/// @return CLAST_E_ARGUMENT for a number that is not finite or negative, a damping above 1, or a
+/// period of 0 beside an amplitude above 0
+CLAST_API clast_status clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive);
 
 /// Goes on by n_step time steps.
 ///
 /// @return CLAST_E_CONVERGE when a run explodes (a grain is so fast that its contact would overlap
-/// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause
+/// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause;
+/// CLAST_E_GEOMETRY where grains that were just added lie inside of each other or of a wall, or a
+/// cell has become narrower than its grains allow; CLAST_E_ARGUMENT for a negative n_step
 CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
 
 /// From now on the work of all forces is booked, which changes no bit of the run; begins anew if it
@@ -359,7 +366,7 @@ CLAST_API int32_t clast_dem_n_grain(const clast_dem *dem);
 CLAST_API int64_t clast_dem_n_step(const clast_dem *dem); ///< steps so far
 CLAST_API double clast_dem_time(const clast_dem *dem);    ///< [s]
 
-/// Grain i as it is now; position not wrapped into the period.
+/// Grain i as it is now; position not wrapped into the period. Untouched where there is no grain i.
 CLAST_API void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain);
 
 /// Energies, contacts and overlaps of the moment, SI.

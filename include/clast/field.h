@@ -84,8 +84,10 @@ CLAST_API clast_status clast_field_set_si(const clast_field *field, void *config
 /// Empties a list field.
 CLAST_API void clast_field_clear(const clast_field *field, void *config);
 
-/// Value as text, as clast_field_set_si reads it (17 digits, SI, no unit). Lists: item `index`;
-/// returns length or -1.
+/// Value as text, as clast_field_set_si reads it (17 digits, SI, no unit). Lists: item `index`.
+///
+/// @return its length as snprintf counts it; -1 for an item that there is not, a text that is NULL
+/// or a choice outside of the list, `text` then being untouched
 CLAST_API int clast_field_format(const clast_field *field, const void *config, int32_t index,
                                  size_t size, char *text);
 
@@ -132,12 +134,12 @@ CLAST_API const char *clast_unit_for(double value, const char *si_unit, double *
 /// Scalars are texts, typed by the field table (YAML 1.1 has no say). Lists replace the field's
 /// list. A bare length or angle is refused, as by clast_field_set.
 /// @return CLAST_E_CONFIG for an unknown key (with file, line and the nearest known key), a value
-/// out of range, a
-///         duplicate key or nested mapping; CLAST_E_IO if unreadable; files over 16 MiB are refused
+/// out of range, a duplicate key or nested mapping: keys before it, and items of a list, are then
+/// set, what follows is not; CLAST_E_IO if unreadable; files over 16 MiB are refused
 CLAST_API clast_status clast_fields_read(const char *path, const clast_field *fields, void *config);
 
 /// The same from a text, YAML or JSON (what clast_fields_json writes: every bare number is SI);
-/// `name` stands for the path.
+/// `name` stands for the path. What fails leaves the keys before it set, too.
 CLAST_API clast_status clast_fields_parse(const char *name, const char *text,
                                           const clast_field *fields, void *config);
 

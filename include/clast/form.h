@@ -226,7 +226,7 @@ CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double li
 /// Convex hull of at most this many triangles: the hull, simplified at constant volume where it has
 /// more, and the hull of that, for simplifying leaves faces that bend inwards by little.
 ///
-/// @param mesh    any vertices; triangles are not looked at
+/// @param mesh    any vertices; triangles, if there are some, must be of them but change nothing
 /// @param n_face  >= 4
 /// @return as clast_mesh_hull and clast_mesh_simplify
 CLAST_API clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out);

@@ -172,15 +172,18 @@ CLAST_API clast_status clast_grading_compare(const clast_grading *grading, const
 /// phi). A second column holds either
 ///
 /// - retained, mass, weight or fraction: what stays on this sieve and passes the next larger one,
-///   in any unit; 0 on the largest sieve; or
+///   in any unit; 0 on the largest sieve;
+/// - cumulative retained: what stays on this sieve and all coarser ones, in %, as a share of 1 or
+///   (unit g, kg) as a mass; 0 on the largest sieve, all on the smallest; or
 /// - passing, finer or undersize: what passes this sieve, in %, as a share of 1 or (unit g, kg) as
 ///   a mass; 0 at the smallest sieve, all at the largest.
 ///
 /// A pan may be a row of size 0 if nothing is in it.
 ///
-/// @return CLAST_E_FORMAT with the row and what to do: no such columns, cells that are not finite,
-///         sieves that repeat, negative masses, passing that falls as sieves grow, mass that is
-///         finer or coarser than all sieves
+/// @return CLAST_E_FORMAT with the row and what to do: no such columns, a word in the column's name
+///         that is not understood (mass above), cells that are not finite, sieves that repeat,
+///         negative masses, passing that falls as sieves grow, mass that is finer or coarser than
+///         all sieves
 CLAST_API clast_status clast_curve_read(const char *path, clast_curve *curve);
 
 /// The same from memory; `name` stands for the path in messages.

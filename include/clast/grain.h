@@ -158,13 +158,16 @@ typedef struct clast_grains {
     int64_t n_fault;
     clast_grain_fault *fault; ///< [n_fault] files and labels that could not be measured
     int64_t n_note;
-    clast_grain_fault *note; ///< [n_note] tables with rows left out; status CLAST_OK
+    clast_grain_fault *note; ///< [n_note] tables with rows left out (status CLAST_OK), surfaces
+                             ///< whose volume counts a region twice (CLAST_E_GEOMETRY)
 } clast_grains;
 
 /// Measures every grain of n files, in parallel, whatever becomes of the others.
 ///
 /// @param monitor  may be NULL; asked between files, a stop request returns CLAST_E_STOPPED
-/// @return CLAST_E_MEMORY, CLAST_E_STOPPED; a file's own trouble is a fault of the result
+/// @return CLAST_E_MEMORY, CLAST_E_STOPPED, CLAST_E_USAGE for two files whose surfaces would have
+/// one
+///         name in the folder; a file's own trouble is a fault of the result
 CLAST_API clast_status clast_grains_read(int32_t n_file, const char *const *path,
                                          const clast_grains_options *options,
                                          const clast_monitor *monitor, clast_grains *grains);

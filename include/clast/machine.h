@@ -22,7 +22,8 @@ CLAST_API clast_status clast_memory_set_limit(int64_t bytes);
 /// The limit in bytes; 0: none.
 CLAST_API int64_t clast_memory_limit(void);
 
-/// Bytes that the library's blocks take now.
+/// Bytes that the library's blocks take now. What a caller has allocated and the library frees
+/// counts as gone all the same; 0 is the least.
 CLAST_API int64_t clast_memory_taken(void);
 
 /// Threads for all later work of the calling thread; 0 means OMP_NUM_THREADS where it is set, else

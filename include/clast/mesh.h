@@ -97,6 +97,8 @@ CLAST_API void clast_bvh_destroy(clast_bvh *bvh); ///< NULL is allowed
 ///   parity of the same crossings.
 /// - Open: the generalised winding number exceeds 1/2 in size [Jacobson2013, Barill2018], which
 ///   closes holes smoothly; computed to about 0.01, so only points at a hole are in doubt.
+///
+/// A point that is not finite is not inside.
 CLAST_API bool clast_bvh_inside(const clast_bvh *bvh, const double point[3]);
 
 /// Distance to the nearest point of the surface if that is at most max_distance (INFINITY: any),
@@ -106,7 +108,7 @@ CLAST_API bool clast_bvh_inside(const clast_bvh *bvh, const double point[3]);
 CLAST_API double clast_bvh_closest(const clast_bvh *bvh, const double point[3], double max_distance,
                                    double closest[3], int32_t *tri);
 
-/// Distance to the surface, negative inside (clast_bvh_inside).
+/// Distance to the surface, negative inside (clast_bvh_inside); NaN of a point with a NaN.
 CLAST_API double clast_bvh_signed_distance(const clast_bvh *bvh, const double point[3]);
 
 /// First hit with t_low <= t <= t_high of the ray origin + t direction, from either side.
@@ -122,7 +124,8 @@ CLAST_API bool clast_bvh_ray(const clast_bvh *bvh, const double origin[3],
 ///
 /// Quickhull [Barber1996] by qhull_r. The result does not depend on the order of the triangles.
 ///
-/// @param mesh  vert [n_vert], finite; triangles are not looked at, so a point set will do
+/// @param mesh  vert [n_vert], finite; without triangles a point set will do, those that there are
+///              must be of its vertices but change nothing
 /// @param hull  empty; filled on success
 /// @return CLAST_E_GEOMETRY if a coordinate is not finite, or all points lie within 1e-13 of their
 ///         extent from one point, line or plane (the message says which)

@@ -14,6 +14,9 @@ typedef struct clast_mesh_part {
     int32_t genus;     ///< handles of a closed, oriented manifold; -1 otherwise
     int32_t depth;     ///< closed parts that this part lies in
     int32_t outermost; ///< the part that contains it and lies in no other itself, or -1
+    int32_t winding;   ///< how often the space just inside counts in the volume: 1 for each closed
+                       ///< part around it and for itself, -1 for those that run against the
+                       ///< outermost. 1: solid, 0: cavity, else wrong; 0 of an open part
     double volume;     ///< signed, about a vertex of the part
     double area;
     double low[3], high[3];
@@ -36,6 +39,8 @@ typedef struct clast_mesh_check_result {
     bool manifold; ///< no edge has more than two triangles, and each vertex has one fan
     int32_t n_edge;
     int32_t n_part;
+    int32_t n_doubled;          ///< nested parts that count twice in the volume: outward in a solid
+                                ///< (winding above 1), or inward outside of one (below 0)
     clast_mesh_part *part;      ///< [n_part] by first triangle
     int64_t euler;              ///< used vertices - edges + triangles, collapsed triangles left out
     int32_t genus;              ///< sum over the parts where it is known
@@ -115,6 +120,7 @@ typedef struct clast_mesh_repair_config {
     bool fill;              ///< holes
     double fill_size;       ///< largest hole's box diagonal, times the extent
     bool separate;          ///< surfaces that touch in an edge or vertex get their own vertices
+    bool unite;             ///< drop nested parts that bound nothing: solid, or none, on both sides
     int32_t keep;           ///< clast_keep_mode
 } clast_mesh_repair_config;
 
@@ -135,9 +141,9 @@ typedef struct clast_mesh_repair_report {
     int32_t n_conflict;   ///< edges where no choice of sides fits (one-sided surface)
     int32_t n_hole_filled;
     int32_t n_fill_triangle;
-    int32_t n_hole_left; ///< loops larger than fill_size
-    int32_t n_separated; ///< vertices doubled to part touching surfaces
-    int32_t n_part_dropped;
+    int32_t n_hole_left;    ///< loops larger than fill_size
+    int32_t n_separated;    ///< vertices doubled to part touching surfaces
+    int32_t n_part_dropped; ///< by unite and by keep
     int32_t n_triangle_before, n_triangle_after;
     double volume_before, volume_after;
     double area_before, area_after;

@@ -71,6 +71,7 @@ typedef struct clast_pack_config {
     char *start_unit;      ///< of its lengths, where it does not say
     char *start_columns;   ///< of spheres from another program (clast_packing_options)
     double start_diameter; ///< of all of them; 0: the file's [m]
+    int64_t start_frame;   ///< snapshot of a dump or .xyz, from 0; negative: from the end
     char *container;       ///< surface that holds the grains in place of domain; "": none
     char *container_unit;  ///< of its coordinates
 
@@ -134,7 +135,9 @@ typedef struct clast_pack_input {
     const clast_mesh *container; ///< walls [m], or NULL
     const clast_mesh *container_closed; ///< the same with its holes covered (clast_bed_close)
     int32_t n_wall;
-    const clast_pack_wall *wall; ///< [n_wall] of option `wall`, in its order
+    const clast_pack_wall *wall;              ///< [n_wall] of option `wall`, in its order
+    int64_t start_snapshot, n_start_snapshot; ///< that `start` is, from 1, of so many; 0: none
+    int64_t start_step;                       ///< its TIMESTEP; -1: it tells none
 } clast_pack_input;
 
 /// A packing under way. Opaque.
@@ -234,10 +237,12 @@ typedef struct clast_pack_result {
     double frame_interval;  ///< from one to the next: whole steps; 0: none asked for [s]
     int64_t n_overlap;      ///< of grains that a start brought
     double deepest_start;   ///< of those, over the smaller one's radius
-    int32_t n_stage;        ///< stages that were gone through; 0: none were given
-    int64_t n_left;         ///< grains that left by outlets
-    double mass_left;       ///< [kg]
-    clast_dem_cell cell;    ///< zeros in other domains
+    int64_t start_snapshot, n_start_snapshot; ///< that the start was, from 1, of so many; 0: none
+    int64_t start_step;                       ///< its TIMESTEP; -1: it told none
+    int32_t n_stage;                          ///< stages that were gone through; 0: none were given
+    int64_t n_left;                           ///< grains that left by outlets
+    double mass_left;                         ///< [kg]
+    clast_dem_cell cell;                      ///< zeros in other domains
     clast_dem_load load;
     clast_dem_energy energy; ///< zeros where none is booked
     clast_pack_ranks ranks;  ///< of a run (clast_pack_run)

@@ -96,7 +96,8 @@ CLAST_API clast_porosity_options clast_porosity_options_default(void);
 ///
 /// @param edge   [n + 1] rising; the first may be -INFINITY, the last INFINITY [m]
 /// @param solid  [n] m3
-/// @return CLAST_E_MEMORY for clumps only; all others allocate nothing
+/// @return CLAST_E_ARGUMENT for edges that do not rise or another method; CLAST_E_MEMORY for clumps
+/// only: all others allocate nothing
 CLAST_API clast_status clast_porosity_grain_slabs(const clast_assembly *assembly, int32_t i,
                                                   clast_porosity_method method, int32_t n,
                                                   const double *edge, double *solid);
@@ -109,8 +110,8 @@ CLAST_API clast_status clast_porosity_grain_slabs(const clast_assembly *assembly
 ///     n(z) = 1 - V_solid / (A h_p)                               [Rettinger et al. sec. 4.4]
 ///
 /// @param table  must be empty; written only on success
-/// @return CLAST_E_USAGE without grains, for a layer or an area not above 0, CLAST_E_LIMIT beyond
-///         1e7 slices
+/// @return CLAST_E_USAGE without grains, for a layer or an area not above 0, CLAST_E_ARGUMENT for
+///         another method, or a cut or trim that cannot be, CLAST_E_LIMIT beyond 1e7 slices
 /// @note the same bytes for any thread count; overlaps of grains count twice
 CLAST_API clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
                                               const clast_porosity_options *options,
@@ -128,7 +129,8 @@ typedef struct clast_porosity_bulk {
 /// a trim is CLAST_E_USAGE.
 ///
 /// @param profile  of clast_porosity_profile with the same options
-/// @return CLAST_E_GEOMETRY when no slice is denser than the cut, or trimming leaves nothing
+/// @return CLAST_E_GEOMETRY when no slice is denser than the cut, or trimming leaves nothing;
+/// options are refused as by clast_porosity_profile
 CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_bed *bed,
                                               const clast_table *profile,
                                               const clast_porosity_options *options,
@@ -247,7 +249,8 @@ CLAST_API void clast_pores_free(clast_pores *pores);
 ///
 /// @param z      [2] lower and upper height [m]
 /// @param pores  must be empty; written only on success
-/// @return CLAST_E_USAGE without grains or heights, CLAST_E_GEOMETRY when no point is in a pore
+/// @return CLAST_E_USAGE without grains or heights, CLAST_E_ARGUMENT for a period below 0 or not
+///         finite, CLAST_E_GEOMETRY when no point is in a pore
 CLAST_API clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed *bed,
                                            const double z[2], const clast_pore_options *options,
                                            clast_pores *pores);
@@ -260,7 +263,8 @@ typedef struct clast_mean {
     double low, high; ///< 95 % interval of the mean by Student's t; NAN for one
 } clast_mean;
 
-/// Mean of n values with its interval, in the unit of the values.
+/// Mean of n values with its interval, in the unit of the values. NaN throughout, and n 0, where
+/// there is no value.
 CLAST_API clast_mean clast_mean_of(int32_t n, const double *value);
 
 /// Mean porosity profile of n beds: z_low_m, z_high_m, porosity, deviation, low, high (95 % of the

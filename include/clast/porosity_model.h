@@ -35,7 +35,7 @@ CLAST_API int32_t clast_form_feature_find(const char *name); ///< 0 .. 25, or -1
 /// What is known about the grains of a bed. Features that are not known are NaN.
 typedef struct clast_form_inputs {
     int64_t n_grain;     ///< 0: unknown
-    bool has_deviation;  ///< the spread of the forms is known
+    bool has_deviation;  ///< the spread of the forms is known, and there is one
     bool is_independent; ///< equancy's moments come from independence of flatness and elongation
     double flatness_mean, flatness_deviation;
     double elongation_mean, elongation_deviation;
@@ -227,7 +227,9 @@ CLAST_API clast_status clast_fit_data_mixture(const clast_table *beds, const cla
 
 /// Any other table: candidates are the columns of numbers that `columns` names; without names all
 /// but the target, and in the results of a study (columns run, ..., exit_code, ...) those between
-/// run and exit_code, that is what was varied, unless `use` names features.
+/// run and exit_code but the seed, that is what was varied, and those that `use` names. Texts that
+/// are all numbers with a unit of one dimension are SI numbers; with `use` only the named ones and
+/// the target cost a row.
 ///
 /// @return CLAST_E_FORMAT for a name without a column of numbers, or when there is no candidate
 CLAST_API clast_status clast_fit_data_columns(const clast_table *beds,

@@ -69,23 +69,45 @@ typedef struct clast_packing_options {
     double diameter;     ///< of all spheres, in place of the file's; 0: the file's
 } clast_packing_options;
 
-/// Reads a packing that another program made; densities are 1 where the file does not tell them.
+/// Step and box of a packing, as LAMMPS's files have them.
+typedef struct clast_packing_frame {
+    int64_t step;           ///< TIMESTEP; -1: not known
+    bool has_box[3];        ///< in x, y, z; else the box is that of the grains
+    bool is_periodic[3];    ///< the packing repeats there
+    double low[3], high[3]; ///< of the box, in the assembly's unit
+    double tilt[3]; ///< xy, xz, yz: how far the next image in y is along x, in z along x, along y
+} clast_packing_frame;
+
+/// What a packing's file told beside its grains.
+typedef struct clast_packing_report {
+    int64_t snapshot, n_snapshot; ///< which one was read, from 1, of so many: the last; else 1, 1
+    clast_packing_frame frame;    ///< of a dump or data file
+} clast_packing_report;
+
+/// Reads a packing that another program made; densities are 1 where the file does not tell them,
+/// and assembly->no_density is set.
 ///
 /// LAMMPS and LIGGGHTS data files and dumps: spheres and ellipsoids (shapex .. quatk) with their
-/// densities, shapes named after their types. Rockable's .conf and the library of shapes that it
-/// names: convex polyhedra. YADE's text, "#format x_y_z_r" above it: spheres, and clumps by
-/// clumpId. Else spheres: Delimited text (CSV, blanks), LAMMPS dumps, VTK points and .xyz (a count,
-/// a comment, then element x y z and perhaps a radius) by the names of their columns: x, y, z and
-/// radius, r, diameter or d, with or without a unit (x_mm). Without names by place: x y z r, id x y
-/// z (voro++; give the diameter) or id x y z r, where the ids are the whole numbers from 0 or 1 on.
-/// `.xyzd` holds little-endian doubles x, y, z, diameter (packing-generation).
+/// densities, shapes named after their types; a dump's ITEM: UNITS counts (then a column mass,
+/// too). Rockable's .conf and the library of shapes that it names: convex polyhedra. YADE's text,
+/// "#format x_y_z_r" above it: spheres, and clumps by clumpId. Else spheres: Delimited text (CSV,
+/// blanks), LAMMPS dumps, VTK points and .xyz (a count, a comment, then element x y z and perhaps a
+/// radius) by the names of their columns: x, y, z and radius, r, diameter or d, with or without a
+/// unit (x_mm); density or rho [kg/m3] or with its unit (density_g/cm3), or mass with its unit
+/// (mass_g). Without names by place: x y z r, id x y z (voro++; give the diameter) or id x y z r,
+/// where the ids are the whole numbers from 0 or 1 on. `.xyzd` holds little-endian doubles x, y, z,
+/// diameter (packing-generation). Of several snapshots of a dump or .xyz the last is read.
 ///
-/// @param assembly  empty; filled on success; in metres where all four columns say their unit, else
-///                  "model"
+/// @param assembly  empty; filled on success; in metres where the dump or all four columns say
+///                  their unit, else "model"
+/// @param report    may be NULL
 /// @return CLAST_E_FORMAT for missing columns, units of some columns alone, numbers that are not
 ///         finite, radii not above 0; CLAST_E_CONFIG for `columns` that name no x, y or z
 CLAST_API clast_status clast_packing_read(const char *path, const clast_packing_options *options,
-                                          clast_assembly *assembly);
+                                          clast_assembly *assembly, clast_packing_report *report);
+
+/// Step of a run of clast pack, and the box of one that is periodic; of other states none.
+CLAST_API clast_status clast_state_read_frame(const char *path, clast_packing_frame *frame);
 
 // Assemblies to the files that other programs read.
 
@@ -122,6 +144,7 @@ typedef struct clast_export_options {
     clast_colour colour; ///< PLY
     const char *unit;    ///< of the coordinates in STL, OBJ and PLY ("mm"); NULL: the assembly's
     const clast_table *values; ///< VTU: further numbers of the grains, a row each; NULL: none
+    const clast_packing_frame *frame; ///< LAMMPS: step and box; NULL: 0, that of the grains
 } clast_export_options;
 
 /// What was written.
@@ -144,17 +167,21 @@ CLAST_API clast_export_format clast_export_format_of_path(const char *path);
 /// Writes an assembly. Grains are written one after the other, so memory holds each shape's surface
 /// once (VTU: and its compressed arrays). The file appears whole or not at all.
 ///
+/// Densities that are not known (assembly->no_density, and all are 1) are left out with the masses;
+/// a LAMMPS data file or configuration of Rockable, which needs them, is refused.
+///
 /// @param options  may be NULL: {.level = 3}
 /// @param report   may be NULL
-/// @return CLAST_E_USAGE for an unknown extension, 3MF in model units, or a unit for another
-/// format; CLAST_E_GEOMETRY for coordinates beyond STL's 32-bit numbers; CLAST_E_LIMIT beyond the
-/// format's counts; CLAST_E_DISK
+/// @return CLAST_E_USAGE for an unknown extension, 3MF in model units, a unit for another format,
+/// or densities that are not known and needed; CLAST_E_GEOMETRY for coordinates beyond STL's 32-bit
+/// numbers; CLAST_E_LIMIT beyond the format's counts; CLAST_E_DISK
 CLAST_API clast_status clast_assembly_write(const clast_assembly *assembly, const char *path,
                                             const clast_export_options *options,
                                             clast_export_report *report);
 
 /// One row a grain, in the order of placing: id, shape, position, quaternion, scale, maximum
-/// length, volume, density, mass (unless in model units), n_contact (if contacts are known).
+/// length, volume, density (if known), mass (unless in model units), n_contact (if contacts are
+/// known).
 /// Lengths are in the assembly's unit, which ends their names.
 CLAST_API clast_status clast_assembly_table(const clast_assembly *assembly, clast_table *table);
 

@@ -21,7 +21,7 @@ CLAST_API clast_status clast_shapiro_wilk(const double *x, int64_t n, double *w,
 /// [Efron1993 ch. 13]
 struct clast_bootstrap {
     int32_t n_resample; ///< 0: no intervals
-    double level;       ///< 0.95: from the 2.5 % to the 97.5 % quantile
+    double level;       ///< above 0 and below 1; 0.95: from the 2.5 % to the 97.5 % quantile
     uint64_t seed;      ///< resample b is a function of (seed, b) alone
 };
 
@@ -56,7 +56,8 @@ typedef struct clast_statistics {
     clast_sample_summary *summary; ///< [n]
     double *r;   ///< [n][n] Pearson, over the rows where both are finite; NaN for constant columns
     double *r_p; ///< [n][n] two-sided p of r = 0
-    int32_t n_pca;       ///< columns in the principal components: neither constant nor with gaps
+    int32_t n_pca; ///< columns in the principal components: neither constant nor with gaps; 0 where
+                   ///< only one is so
     int32_t *pca_column; ///< [n_pca]
     double *variance;    ///< [n_pca] eigenvalues of their correlation matrix, falling
     double *explained;   ///< [n_pca] cumulative share of the variance
@@ -67,7 +68,8 @@ typedef struct clast_statistics {
 /// column's summary and of their pairs.
 ///
 /// @param bootstrap  NULL: the default
-/// @return CLAST_E_FORMAT for a table without number columns or rows; CLAST_E_MEMORY
+/// @return CLAST_E_FORMAT for a table without number columns or rows; CLAST_E_ARGUMENT for a level
+/// or a number of resamples that cannot be; CLAST_E_MEMORY
 /// @note O(resamples rows columns); the same bytes for any thread count
 CLAST_API clast_status clast_statistics_of(const clast_table *table,
                                            const clast_bootstrap *bootstrap,
@@ -75,6 +77,7 @@ CLAST_API clast_status clast_statistics_of(const clast_table *table,
 CLAST_API void clast_statistics_free(clast_statistics *statistics);
 
 /// Takes the principal components of the first n_column columns alone (form factors without sizes).
+/// CLAST_E_ARGUMENT for n_column below 0.
 CLAST_API clast_status clast_statistics_limit_pca(clast_statistics *statistics, int32_t n_column);
 
 /// One row a column: column, n, mean, mean_low, mean_high, deviation, ... shapiro_w, shapiro_p.
@@ -89,7 +92,7 @@ CLAST_API clast_status clast_statistics_correlation_table(const clast_statistics
 CLAST_API clast_status clast_statistics_pca_table(const clast_statistics *statistics,
                                                   clast_table *table);
 
-/// Components needed to explain this share of the variance; 0 without components.
+/// Components needed to explain this share of the variance; 0 without components, or of NaN.
 CLAST_API int32_t clast_statistics_n_component(const clast_statistics *statistics, double share);
 
 /// Counts of a sample in equal bins, with the normal law of maximum likelihood beside them.
@@ -102,10 +105,11 @@ typedef struct clast_histogram {
 } clast_histogram;
 
 /// Bins of width 2 IQR n^(-1/3) [Freedman1981], rounded to the nearest of 1, 2 or 5 times a power
-/// of ten, with edges at its multiples; at most 200. A constant sample gets one bin. Values that
-/// are not finite are left out.
+/// of ten, with edges at its multiples; at most 200. A sample that is constant, or so even that
+/// doubles have no edges between, gets one bin. Values that are not finite are left out.
 ///
-/// @return CLAST_E_FORMAT without a finite value; CLAST_E_MEMORY
+/// @return CLAST_E_FORMAT without a finite value, or where mean, deviation or range are beyond what
+/// a double holds; CLAST_E_MEMORY
 CLAST_API clast_status clast_histogram_of(const double *x, int64_t n, clast_histogram *histogram);
 CLAST_API void clast_histogram_free(clast_histogram *histogram);
 

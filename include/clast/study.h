@@ -29,8 +29,9 @@ extern CLAST_API const clast_field clast_study_fields[];
 /// column `seed`. Rows of a CSV come first, each combined with the `vary` design, then seeds.
 ///
 /// @param plan  must be empty; written only on success
-/// @return CLAST_E_CONFIG for a malformed or repeated key, lists of unequal length in a zip design,
-///         CLAST_E_LIMIT beyond 1,000,000 runs; errors of the CSV reader
+/// @return CLAST_E_CONFIG for a malformed or repeated key ('-' is '_'), or lists of several lengths
+///         in a zip design; CLAST_E_FORMAT for a table without rows; CLAST_E_LIMIT beyond 1,000,000
+///         runs; errors of the CSV reader
 CLAST_API clast_status clast_study_plan(const clast_study_config *config, clast_table *plan);
 
 /// One run as its worker gets it. Borrowed for the call.
@@ -70,8 +71,10 @@ typedef struct clast_study_report {
 /// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.
 ///
 /// FOLDER/plan.csv names the runs, FOLDER/runs/NNNNNN holds each, FOLDER/results.csv the plan with
-/// exit codes and results, FOLDER/times.csv the results that differ from run to run (wall_s, ...).
-/// The same call again goes on: whole runs stay, runs that were cut off resume from their
+/// exit codes and results (of lists those of the only entry, a.0.b), FOLDER/times.csv the results
+/// that differ from run to run (wall_s, ...). FOLDER/study.json holds what the study is, the
+/// versions of clast that worked on it, and the digests of its configuration, table and arguments'
+/// files. The same call again goes on: whole runs stay, runs that were cut off resume from their
 /// checkpoint where the command can, and start anew where not. A run that fails is noted and the
 /// study goes on; it is tried again by the next call.
 /// A second call beside the first joins in: each run is done by one of them (a lock,
@@ -80,10 +83,10 @@ typedef struct clast_study_report {
 ///
 /// @param comm    NULL for one rank    @param monitor  may be NULL; rank 0's hears of all runs
 /// @param report  the same on all ranks
-/// @return CLAST_E_USAGE when the folder holds another plan, CLAST_E_CONFIG after the first run
-/// when
-///         its result shows that a name of `keep` is misspelt, CLAST_E_STOPPED after a stop,
-///         CLAST_E_NO when runs failed, and errors of the disk
+/// @return CLAST_E_USAGE when the folder holds another study, or an input file is not the one that
+///         a run of it was made with, CLAST_E_CONFIG after the first run when its result shows that
+///         a name of `keep` is misspelt, CLAST_E_STOPPED after a stop, CLAST_E_NO when runs failed,
+///         and errors of the disk
 CLAST_API clast_status clast_study_run(const clast_study_config *config, const char *folder,
                                        const clast_study_worker *worker, const clast_comm *comm,
                                        const clast_monitor *monitor, clast_study_report *report);

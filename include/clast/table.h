@@ -19,7 +19,8 @@ struct clast_table {
     clast_column *column; ///< [n_column]
 };
 
-/// Empty table of n_row rows with a name. `table` must be {0} or freed.
+/// Empty table of n_row rows with a name. `table` must be {0} or freed. CLAST_E_ARGUMENT for n_row
+/// below 0.
 CLAST_API clast_status clast_table_init(clast_table *table, const char *name, int64_t n_row);
 CLAST_API void clast_table_free(clast_table *table);
 
@@ -32,7 +33,8 @@ CLAST_API clast_status clast_table_add_text(clast_table *table, const char *name
 CLAST_API clast_status clast_table_set_text(clast_table *table, int32_t column, int64_t row,
                                             const char *text);
 
-/// Makes the table n_row long: new rows are zeros and empty texts.
+/// Makes the table n_row long: new rows are zeros and empty texts. CLAST_E_ARGUMENT for n_row below
+/// 0; the table is then as it was.
 CLAST_API clast_status clast_table_resize(clast_table *table, int64_t n_row);
 
 /// Index of the named column, or -1.

@@ -13,7 +13,7 @@ from . import _bindings as c
 from ._core import (Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, quantity, refuse,
                     settled, single, view, warn)
 from ._html import file_html
-from ._mesh import Mesh
+from ._mesh import Mesh, warn_of_doubles
 from ._runs import Assembly
 from ._tables import Path, Table, table_of
 
@@ -61,9 +61,7 @@ def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Sphere
         check(monitor.run(lambda m: call("clast_fill")(surface._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
                                                        ctypes.byref(report))))
     owner, found = Owner(spheres, "clast_spheres_free"), surface.check()
-    if found.n_intersection > 0:
-        warn(f"the surface cuts itself at {found.n_intersection} pairs of triangles; its volume counts overlaps twice, so shares of it come "
-             "out low (mesh_check)")
+    warn_of_doubles(found, "the surface", "; shares of its volume come out low")
     if report.open_share > 1e-6:
         warn(f"the surface has {found.n_open_edge} open edges; their holes were capped, which leaves {report.open_share:.2g} of the volume "
              "uncertain")

@@ -73,7 +73,7 @@ class clast_union(Structure):
 
 
 class clast_period(Structure):
-    """A box that repeats: its corner and its periods in x, y and z, 0 for none [m]."""
+    """A box that repeats: its corner and its periods in x, y and z, 0 for none [m]; all are finite, periods not negative (else CLAST_E_ARGUMENT)."""
 
 
 class clast_overlaps(Structure):
@@ -584,6 +584,14 @@ class clast_packing_options(Structure):
     """How to read a packing of spheres; {0} guesses everything."""
 
 
+class clast_packing_frame(Structure):
+    """Step and box of a packing, as LAMMPS's files have them."""
+
+
+class clast_packing_report(Structure):
+    """What a packing's file told beside its grains."""
+
+
 class clast_export_options(Structure):
     """{0} is valid: format by extension, icospheres as they are (20 triangles), surfaces, by grain."""
 
@@ -891,6 +899,7 @@ clast_assembly._fields_ = [
     ('unit', (c_char * 16)),
     ('grain_capacity', c_int32),
     ('contact_capacity', c_int32),
+    ('no_density', c_bool),
 ]
 clast_rigid_options._fields_ = [
     ('hull', c_bool),
@@ -1735,6 +1744,7 @@ clast_mesh_part._fields_ = [
     ('genus', c_int32),
     ('depth', c_int32),
     ('outermost', c_int32),
+    ('winding', c_int32),
     ('volume', c_double),
     ('area', c_double),
     ('low', (c_double * 3)),
@@ -1753,6 +1763,7 @@ clast_mesh_check_result._fields_ = [
     ('manifold', c_bool),
     ('n_edge', c_int32),
     ('n_part', c_int32),
+    ('n_doubled', c_int32),
     ('part', POINTER(clast_mesh_part)),
     ('euler', c_int64),
     ('genus', c_int32),
@@ -1794,6 +1805,7 @@ clast_mesh_repair_config._fields_ = [
     ('fill', c_bool),
     ('fill_size', c_double),
     ('separate', c_bool),
+    ('unite', c_bool),
     ('keep', c_int32),
 ]
 clast_mesh_repair_report._fields_ = [
@@ -1865,6 +1877,7 @@ clast_pack_config._fields_ = [
     ('start_unit', c_char_p),
     ('start_columns', c_char_p),
     ('start_diameter', c_double),
+    ('start_frame', c_int64),
     ('container', c_char_p),
     ('container_unit', c_char_p),
     ('generator', c_int32),
@@ -1922,6 +1935,9 @@ clast_pack_input._fields_ = [
     ('container_closed', POINTER(clast_mesh)),
     ('n_wall', c_int32),
     ('wall', POINTER(clast_pack_wall)),
+    ('start_snapshot', c_int64),
+    ('n_start_snapshot', c_int64),
+    ('start_step', c_int64),
 ]
 clast_pack_ranks._fields_ = [
     ('n', c_int32),
@@ -2205,6 +2221,19 @@ clast_packing_options._fields_ = [
     ('columns', c_char_p),
     ('diameter', c_double),
 ]
+clast_packing_frame._fields_ = [
+    ('step', c_int64),
+    ('has_box', (c_bool * 3)),
+    ('is_periodic', (c_bool * 3)),
+    ('low', (c_double * 3)),
+    ('high', (c_double * 3)),
+    ('tilt', (c_double * 3)),
+]
+clast_packing_report._fields_ = [
+    ('snapshot', c_int64),
+    ('n_snapshot', c_int64),
+    ('frame', clast_packing_frame),
+]
 clast_export_options._fields_ = [
     ('format', c_int),
     ('level', c_int),
@@ -2212,6 +2241,7 @@ clast_export_options._fields_ = [
     ('colour', c_int),
     ('unit', c_char_p),
     ('values', POINTER(clast_table)),
+    ('frame', POINTER(clast_packing_frame)),
 ]
 clast_export_report._fields_ = [
     ('format', c_int),
@@ -2518,6 +2548,8 @@ clast_aggregate_result._fields_ = [
     ('n_grain', c_int32),
     ('n_contact', c_int32),
     ('n_cluster', c_int32),
+    ('n_grain_all', c_int32),
+    ('contact', c_int32),
     ('mass', c_double),
     ('solid_sum', c_double),
     ('solid_union', c_double),
@@ -2739,6 +2771,9 @@ clast_pack_result._fields_ = [
     ('frame_interval', c_double),
     ('n_overlap', c_int64),
     ('deepest_start', c_double),
+    ('start_snapshot', c_int64),
+    ('n_start_snapshot', c_int64),
+    ('start_step', c_int64),
     ('n_stage', c_int32),
     ('n_left', c_int64),
     ('mass_left', c_double),
@@ -2830,7 +2865,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_report': (32, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8)}),
     'clast_fit_estimate': (40, {'best': (0, 8), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_aggregate_fit': (1472, {'cone': (0, 8), 'rays': (8, 4), 'orientations': (12, 4), 'replicate': (16, 4), 'trials': (24, 40), 'n_replica': (64, 40), 'model': (104, 120), 'porosity': (224, 40), 'observed': (264, 24), 'error': (288, 24), 'pull': (312, 24), 'least': (336, 24), 'most': (360, 24), 'chi2': (384, 8), 'n_observed': (392, 4), 'n_choice': (396, 4), 'n_freedom': (400, 4), 'p_value': (408, 8), 'verdict': (416, 4), 'packing_edge': (420, 4), 'replicate_edge': (424, 4), 'n_level': (428, 4), 'cut_short': (432, 1), 'n_run': (436, 4), 'at_level': (440, 4), 'words': (444, 1024)}),
-    'clast_assembly': (120, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4)}),
+    'clast_assembly': (128, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4), 'no_density': (120, 1)}),
     'clast_rigid_options': (8, {'hull': (0, 1), 'faces': (4, 4)}),
     'clast_union_options': (32, {'tolerance': (0, 8), 'n_sample': (8, 8), 'seed': (16, 8), 'find_depth': (24, 1)}),
     'clast_union': (48, {'volume': (0, 8), 'error': (8, 8), 'sum': (16, 8), 'is_exact': (24, 1), 'n_overlap': (28, 4), 'max_overlap': (32, 8), 'max_overlap_share': (40, 8)}),
@@ -2917,19 +2952,19 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_hit': (40, {'t': (0, 8), 'tri': (8, 4), 'bary': (16, 24)}),
     'clast_mesh_read_report': (1368, {'format': (0, 4), 'is_binary': (4, 1), 'is_big_endian': (5, 1), 'n_byte': (8, 8), 'n_trailing': (16, 8), 'n_part': (24, 4), 'n_facet': (32, 8), 'n_polygon': (40, 4), 'n_concave': (44, 4), 'n_crossing': (48, 4), 'n_short': (52, 4), 'n_repeated': (56, 4), 'n_zero_normal': (60, 4), 'n_wrong_normal': (64, 4), 'n_ignored': (72, 8), 'n_warning': (80, 4), 'warning': (84, 1280)}),
     'clast_mesh_write_options': (24, {'format': (0, 4), 'unit': (8, 8), 'name': (16, 8)}),
-    'clast_mesh_part': (88, {'n_triangle': (0, 4), 'n_open_edge': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'inside_out': (11, 1), 'genus': (12, 4), 'depth': (16, 4), 'outermost': (20, 4), 'volume': (24, 8), 'area': (32, 8), 'low': (40, 24), 'high': (64, 24)}),
+    'clast_mesh_part': (96, {'n_triangle': (0, 4), 'n_open_edge': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'inside_out': (11, 1), 'genus': (12, 4), 'depth': (16, 4), 'outermost': (20, 4), 'winding': (24, 4), 'volume': (32, 8), 'area': (40, 8), 'low': (48, 24), 'high': (72, 24)}),
     'clast_mesh_fault': (385, {'blocking': (0, 1), 'code': (1, 24), 'text': (25, 360)}),
-    'clast_mesh_check_result': (6360, {'n_vertex': (0, 4), 'n_triangle': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'n_edge': (12, 4), 'n_part': (16, 4), 'part': (24, 8), 'euler': (32, 8), 'genus': (40, 4), 'n_open_edge': (44, 4), 'n_open_loop': (48, 4), 'largest_hole': (56, 8), 'n_nonmanifold_edge': (64, 4), 'n_nonmanifold_vertex': (68, 4), 'n_misoriented_edge': (72, 4), 'n_inside_out': (76, 4), 'n_nested': (80, 4), 'n_degenerate': (84, 4), 'n_duplicate': (88, 4), 'n_unused_vertex': (92, 4), 'n_intersection': (96, 8), 'n_touch': (104, 8), 'intersection_complete': (112, 1), 'intersection': (116, 8), 'extent': (128, 8), 'volume': (136, 8), 'volume_divergence': (144, 8), 'volume_spread': (152, 8), 'area': (160, 8), 'area_heron': (168, 8), 'hull_volume': (176, 8), 'weld_tolerance': (184, 8), 'n_open_after_weld': (192, 4), 'n_fault': (196, 4), 'fault': (200, 6160)}),
-    'clast_mesh_repair_config': (56, {'weld': (0, 4), 'weld_tolerance': (8, 8), 'drop': (16, 1), 'split': (17, 1), 'split_tolerance': (24, 8), 'loose': (32, 1), 'orient': (33, 1), 'fill': (34, 1), 'fill_size': (40, 8), 'separate': (48, 1), 'keep': (52, 4)}),
+    'clast_mesh_check_result': (6360, {'n_vertex': (0, 4), 'n_triangle': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'n_edge': (12, 4), 'n_part': (16, 4), 'n_doubled': (20, 4), 'part': (24, 8), 'euler': (32, 8), 'genus': (40, 4), 'n_open_edge': (44, 4), 'n_open_loop': (48, 4), 'largest_hole': (56, 8), 'n_nonmanifold_edge': (64, 4), 'n_nonmanifold_vertex': (68, 4), 'n_misoriented_edge': (72, 4), 'n_inside_out': (76, 4), 'n_nested': (80, 4), 'n_degenerate': (84, 4), 'n_duplicate': (88, 4), 'n_unused_vertex': (92, 4), 'n_intersection': (96, 8), 'n_touch': (104, 8), 'intersection_complete': (112, 1), 'intersection': (116, 8), 'extent': (128, 8), 'volume': (136, 8), 'volume_divergence': (144, 8), 'volume_spread': (152, 8), 'area': (160, 8), 'area_heron': (168, 8), 'hull_volume': (176, 8), 'weld_tolerance': (184, 8), 'n_open_after_weld': (192, 4), 'n_fault': (196, 4), 'fault': (200, 6160)}),
+    'clast_mesh_repair_config': (56, {'weld': (0, 4), 'weld_tolerance': (8, 8), 'drop': (16, 1), 'split': (17, 1), 'split_tolerance': (24, 8), 'loose': (32, 1), 'orient': (33, 1), 'fill': (34, 1), 'fill_size': (40, 8), 'separate': (48, 1), 'unite': (49, 1), 'keep': (52, 4)}),
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
-    'clast_pack_config': (768, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'material': (360, 16), 'contacts': (376, 16), 'mass': (392, 8), 'seed': (400, 8), 'start': (408, 8), 'start_unit': (416, 8), 'start_columns': (424, 8), 'start_diameter': (432, 8), 'container': (440, 8), 'container_unit': (448, 8), 'generator': (456, 4), 'spacing': (464, 8), 'fill_low': (472, 8), 'fill_high': (480, 8), 'first_low': (488, 8), 'first_high': (496, 8), 'initial_speed': (504, 8), 'random_turn': (512, 1), 'shake_amplitude': (520, 8), 'shake_period': (528, 8), 'shaking_time': (536, 8), 'shake_from_start': (544, 1), 'damping': (552, 8), 'rule': (560, 4), 'height_change': (568, 8), 'check_time': (576, 8), 'still_speed': (584, 8), 'max_steps': (592, 8), 'max_damping_time': (600, 8), 'wall': (608, 16), 'outlet': (624, 16), 'wall_forces': (640, 1), 'stages': (648, 16), 'load_rate': (664, 8), 'load_tolerance': (672, 8), 'load_rest': (680, 8), 'max_load_time': (688, 8), 'energy': (696, 1), 'layer': (704, 8), 'cut': (712, 8), 'trim': (720, 8), 'series_time': (728, 8), 'frame_time': (736, 8), 'checkpoint_time': (744, 8), 'resume': (752, 8), 'force': (760, 1)}),
+    'clast_pack_config': (776, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'material': (360, 16), 'contacts': (376, 16), 'mass': (392, 8), 'seed': (400, 8), 'start': (408, 8), 'start_unit': (416, 8), 'start_columns': (424, 8), 'start_diameter': (432, 8), 'start_frame': (440, 8), 'container': (448, 8), 'container_unit': (456, 8), 'generator': (464, 4), 'spacing': (472, 8), 'fill_low': (480, 8), 'fill_high': (488, 8), 'first_low': (496, 8), 'first_high': (504, 8), 'initial_speed': (512, 8), 'random_turn': (520, 1), 'shake_amplitude': (528, 8), 'shake_period': (536, 8), 'shaking_time': (544, 8), 'shake_from_start': (552, 1), 'damping': (560, 8), 'rule': (568, 4), 'height_change': (576, 8), 'check_time': (584, 8), 'still_speed': (592, 8), 'max_steps': (600, 8), 'max_damping_time': (608, 8), 'wall': (616, 16), 'outlet': (632, 16), 'wall_forces': (648, 1), 'stages': (656, 16), 'load_rate': (672, 8), 'load_tolerance': (680, 8), 'load_rest': (688, 8), 'max_load_time': (696, 8), 'energy': (704, 1), 'layer': (712, 8), 'cut': (720, 8), 'trim': (728, 8), 'series_time': (736, 8), 'frame_time': (744, 8), 'checkpoint_time': (752, 8), 'resume': (760, 8), 'force': (768, 1)}),
     'clast_pack_wall': (240, {'name': (0, 32), 'number': (32, 4), 'mesh': (40, 24), 'motion': (64, 144), 'press': (208, 24), 'area': (232, 8)}),
-    'clast_pack_input': (72, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8), 'n_wall': (56, 4), 'wall': (64, 8)}),
+    'clast_pack_input': (96, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'start': (32, 8), 'container': (40, 8), 'container_closed': (48, 8), 'n_wall': (56, 4), 'wall': (64, 8), 'start_snapshot': (72, 8), 'n_start_snapshot': (80, 8), 'start_step': (88, 8)}),
     'clast_pack_ranks': (72, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'messages': (32, 8), 'step_bytes': (40, 8), 'list_bytes': (48, 8), 'imbalance': (56, 8), 'is_zoltan': (64, 1)}),
     'clast_pack_hull': (80, {'shape': (0, 64), 'n_triangle': (64, 4), 'volume_added': (72, 8)}),
-    'clast_pack_source': (320, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 120), 'n_wall': (232, 4), 'wall': (240, 8), 'input': (248, 72)}),
+    'clast_pack_source': (352, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'start': (112, 128), 'n_wall': (240, 4), 'wall': (248, 8), 'input': (256, 96)}),
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
@@ -2962,7 +2997,9 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_named_spheres': (32, {'name': (0, 8), 'spheres': (8, 24)}),
     'clast_state': (96, {'assembly': (0, 8), 'n_spheres': (8, 4), 'spheres': (16, 8), 'n_table': (24, 4), 'table': (32, 8), 'config': (40, 8), 'unit': (48, 16), 'version': (64, 32)}),
     'clast_packing_options': (16, {'columns': (0, 8), 'diameter': (8, 8)}),
-    'clast_export_options': (32, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8), 'values': (24, 8)}),
+    'clast_packing_frame': (88, {'step': (0, 8), 'has_box': (8, 3), 'is_periodic': (11, 3), 'low': (16, 24), 'high': (40, 24), 'tilt': (64, 24)}),
+    'clast_packing_report': (104, {'snapshot': (0, 8), 'n_snapshot': (8, 8), 'frame': (16, 88)}),
+    'clast_export_options': (40, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8), 'values': (24, 8), 'frame': (32, 8)}),
     'clast_export_report': (48, {'format': (0, 4), 'n_vertex': (8, 8), 'n_triangle': (16, 8), 'unit': (24, 8), 'facet_ratio': (32, 8), 'ellipsoid_ratio': (40, 8)}),
     'clast_bootstrap': (24, {'n_resample': (0, 4), 'level': (8, 8), 'seed': (16, 8)}),
     'clast_sample_summary': (184, {'n': (0, 8), 'n_left_out': (8, 8), 'mean': (16, 8), 'deviation': (24, 8), 'deviation_ml': (32, 8), 'skewness': (40, 8), 'kurtosis': (48, 8), 'low': (56, 8), 'high': (64, 8), 'quantile': (72, 56), 'mean_low': (128, 8), 'mean_high': (136, 8), 'deviation_low': (144, 8), 'deviation_high': (152, 8), 'shapiro_w': (160, 8), 'shapiro_p': (168, 8), 'is_constant': (176, 1)}),
@@ -2991,15 +3028,15 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_agglomerate_config': (488, {'decompose': (0, 144), 'collide': (144, 288), 'kernel': (432, 8), 'duration': (440, 8), 'n_step': (448, 4), 'repeats': (452, 4), 'rebuild': (456, 4), 'change_level': (464, 8), 'fixed': (472, 4), 'depth': (480, 8)}),
     'clast_agglomeration': (224, {'history': (0, 32), 'particles': (32, 32), 'spectrum': (64, 32), 'n_rebuilt': (96, 4), 'n_unresolved': (100, 4), 'n_cell': (104, 4), 'volume_fraction': (112, 8), 'has_exact': (120, 1), 'has_fixed': (121, 1), 'is_gelation': (122, 1), 'n_gelled': (124, 4), 'gel_time': (128, 8), 'range': (136, 88)}),
     'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'fall_speed': (289, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
-    'clast_aggregate_result': (520, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'mass': (16, 8), 'solid_sum': (24, 8), 'solid_union': (32, 8), 'solid_union_error': (40, 8), 'n_envelope': (48, 4), 'envelope': (56, 280), 'porosity': (336, 56), 'd_agg': (392, 8), 'density': (400, 8), 'radius_of_gyration': (408, 8), 'settling_velocity': (416, 8), 'settling_velocity_permeable': (424, 8), 'permeable': (432, 4), 'coat_porosity': (440, 8), 'coat_grain': (448, 8), 'permeability': (456, 8), 'drag_permeable': (464, 8), 'max_overlap': (472, 8), 'max_overlap_relative': (480, 8), 'n_lost': (488, 4), 'stop': (492, 4), 'contact_s': (496, 8), 'envelope_s': (504, 8), 'wall_s': (512, 8)}),
+    'clast_aggregate_result': (528, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'n_grain_all': (16, 4), 'contact': (20, 4), 'mass': (24, 8), 'solid_sum': (32, 8), 'solid_union': (40, 8), 'solid_union_error': (48, 8), 'n_envelope': (56, 4), 'envelope': (64, 280), 'porosity': (344, 56), 'd_agg': (400, 8), 'density': (408, 8), 'radius_of_gyration': (416, 8), 'settling_velocity': (424, 8), 'settling_velocity_permeable': (432, 8), 'permeable': (440, 4), 'coat_porosity': (448, 8), 'coat_grain': (456, 8), 'permeability': (464, 8), 'drag_permeable': (472, 8), 'max_overlap': (480, 8), 'max_overlap_relative': (488, 8), 'n_lost': (496, 4), 'stop': (500, 4), 'contact_s': (504, 8), 'envelope_s': (512, 8), 'wall_s': (520, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
-    'clast_aggregate_source': (208, {'core': (0, 120), 'coat': (120, 8), 'n_coat': (128, 4), 'sizes': (136, 40), 'input': (176, 32)}),
+    'clast_aggregate_source': (216, {'core': (0, 128), 'coat': (128, 8), 'n_coat': (136, 4), 'sizes': (144, 40), 'input': (184, 32)}),
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (544, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'columns': (320, 16), 'diameter_column': (336, 8), 'domain': (344, 8), 'floor': (352, 4), 'sides': (356, 4), 'open_top': (360, 1), 'wind': (368, 8), 'field': (376, 8), 'field_columns': (384, 8), 'wind_shear': (392, 8), 'eddy_diffusivity': (400, 8), 'brownian': (408, 1), 'fall': (412, 4), 'structure': (416, 1), 'collision_radius': (420, 4), 'meeting': (424, 4), 'walk_step': (432, 8), 'max_tries': (440, 4), 'even': (444, 4), 'change_level': (448, 8), 'duration': (456, 8), 'rows': (464, 4), 'step_error': (472, 8), 'time_step': (480, 8), 'seed': (488, 8), 'keep': (496, 4), 'bed_width': (504, 8), 'frames': (512, 4), 'checkpoint_time': (520, 8), 'resume': (528, 8), 'force': (536, 1)}),
     'clast_evolve_result': (304, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'n_unresolved': (120, 8), 'grains_most': (128, 8), 'deposit_diameter': (136, 8), 'deposit_porosity': (144, 8), 'deposit_speed': (152, 8), 'deposit_grains': (160, 8), 'volume_fraction': (168, 8), 'fall_reynolds': (176, 8), 'fall_reynolds_limit': (184, 8), 'fractal_dimension': (192, 8), 'fractal_error': (200, 8), 'range': (208, 40), 'hash': (248, 8), 'wall_s': (256, 8), 'n_frame': (264, 4), 'n_written': (268, 4), 'bed_width': (272, 8), 'bed_height': (280, 8), 'bed_mass': (288, 8), 'folder': (296, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
-    'clast_pack_result': (1120, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'n_stage': (480, 4), 'n_left': (488, 8), 'mass_left': (496, 8), 'cell': (504, 96), 'load': (600, 272), 'energy': (872, 176), 'ranks': (1048, 72)}),
+    'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
@@ -3456,7 +3493,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_measure': (c_int, [c_void_p, POINTER(clast_aggregate_result)], 'The numbers of what has grown so far, envelopes to a tighter bound than in the rows.'),
     'clast_aggregate_members': (c_int, [c_void_p, POINTER(clast_table)], 'Cluster mode: table with the cluster of every grain and its place in it, which restoring needs.'),
     'clast_aggregate_restore': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_aggregate_input), POINTER(clast_aggregate_saved), POINTER(c_void_p)], 'Goes on from there: the same particles follow, to the last bit.'),
-    'clast_interval_of': (clast_interval, [c_int32, POINTER(c_double), c_double], 'Mean of n values and its interval at this confidence (0 to 1), in the unit of the values.'),
+    'clast_interval_of': (clast_interval, [c_int32, POINTER(c_double), c_double], 'Mean of n values and its interval at this confidence, in the unit of the values.'),
     'clast_aggregate_band': (c_int, [POINTER(clast_table), c_double, POINTER(clast_table)], 'Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, .'),
     'clast_aggregate_achieved': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_sizes), POINTER(clast_table), POINTER(clast_table)], 'Sizes wanted beside those placed: a row for each distinct size or bin of the list, or for each of 12 classes of a law over what it drew.'),
     'clast_aggregate_config_check': (c_int, [POINTER(clast_aggregate_config)], "Combinations of options that a single field's range cannot see."),
@@ -3464,7 +3501,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_unload': (None, [POINTER(clast_aggregate_source)], 'may be called twice.'),
     'clast_aggregate_report_free': (None, [POINTER(clast_aggregate_report)], 'Frees what clast_aggregate_run filled; may be called twice.'),
     'clast_aggregate_report_json': (c_int, [POINTER(clast_aggregate_report), c_bool, POINTER(c_char_p)], 'The report as one JSON object: means over repeats under the names of DESIGN section 7, each repeat under `repeats`, intervals under `interval` when there are several.'),
+    'clast_aggregate_report_scope': (c_char_p, [POINTER(clast_aggregate_report), c_size_t, c_char_p], 'What the numbers are of, where that is not all grains in their true surfaces, in `size` bytes: "largest of 10 clusters, 24 of 40 grains (...)", or that porosity is by the sum of the grains\' volumes, by how much these overlap, and which bodies max_overlap is of; else "" .'),
     'clast_aggregate_run': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and manifest.json into it, and checkpoints on the way.'),
+    'clast_aggregate_make_printable': (c_int, [c_char_p, POINTER(clast_printable_config), POINTER(clast_monitor), POINTER(clast_printable_report)], 'Makes the printable body of a whole run from its state.h5, anew or for the first time: printable.3mf, printable.stl (mm) and printable.json, which manifest.json then lists.'),
     'clast_aggregate_resume': (c_int, [c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Goes on from the newest checkpoints of a folder, with any number of ranks; ends in the same bytes as an uninterrupted run.'),
     'clast_aggregate_fit_observable_name': (c_char_p, [c_int32], '"size", "density", "settling_velocity" and their SI units.'),
     'clast_aggregate_fit_observable_unit': (c_char_p, [c_int32], '.'),
@@ -3579,7 +3618,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_set_wall_motion': (c_int, [c_void_p, c_int32, POINTER(clast_dem_wall_motion)], 'How a wall moves, before it does.'),
     'clast_dem_drive_wall': (c_int, [c_void_p, c_int32, c_bool, POINTER(c_double)], "From the next step on the wall's own motion runs, or stands; a velocity is added to it [m/s]."),
     'clast_dem_open_wall': (c_int, [c_void_p, c_int32], 'Takes a wall away: an orifice opens.'),
-    'clast_dem_read_wall': (None, [c_void_p, c_int32, POINTER(clast_dem_wall)], '.'),
+    'clast_dem_read_wall': (None, [c_void_p, c_int32, POINTER(clast_dem_wall)], 'A wall as it is now; untouched where there is no such wall.'),
     'clast_dem_remove_grains': (c_int, [c_void_p, POINTER(c_uint8)], 'Takes grains out; those after them move up in number.'),
     'clast_dem_add_shape': (c_int, [c_void_p, POINTER(clast_shape), POINTER(c_int32)], 'Adds a copy of a shape; its number goes to *id.'),
     'clast_dem_contact_of': (clast_dem_contact, [POINTER(clast_dem_config), c_bool], 'The contact of a configuration, between grains or at walls.'),
@@ -3587,7 +3626,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_set_material': (c_int, [c_void_p, c_int32, c_int32], 'Material of a shape, before its first grain; of a wall (numbered as clast_dem_wall says).'),
     'clast_dem_set_wall_material': (c_int, [c_void_p, c_int32, c_int32], '.'),
     'clast_dem_add_grains': (c_int, [c_void_p, c_int32, POINTER(clast_dem_grain)], 'Adds grains; all or none.'),
-    'clast_dem_set_drive': (None, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
+    'clast_dem_set_drive': (c_int, [c_void_p, POINTER(clast_dem_drive)], 'Sets what acts from the next step on.'),
     'clast_dem_step': (c_int, [c_void_p, c_int64], 'Goes on by n_step time steps.'),
     'clast_dem_begin_energy': (c_int, [c_void_p], 'From now on the work of all forces is booked, which changes no bit of the run; begins anew if it was.'),
     'clast_dem_energy_measure': (None, [c_void_p, POINTER(clast_dem_energy)], 'Where the energy has gone; untouched when none was booked.'),
@@ -3758,7 +3797,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_bvh_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_bvh_inside': (c_bool, [c_void_p, POINTER(c_double)], 'True when the point is inside the surface, or exactly on a closed one.'),
     'clast_bvh_closest': (c_double, [c_void_p, POINTER(c_double), c_double, POINTER(c_double), POINTER(c_int32)], 'Distance to the nearest point of the surface if that is at most max_distance (INFINITY: any), else INFINITY, with closest and tri untouched.'),
-    'clast_bvh_signed_distance': (c_double, [c_void_p, POINTER(c_double)], 'Distance to the surface, negative inside (clast_bvh_inside).'),
+    'clast_bvh_signed_distance': (c_double, [c_void_p, POINTER(c_double)], 'Distance to the surface, negative inside (clast_bvh_inside); NaN of a point with a NaN.'),
     'clast_bvh_ray': (c_bool, [c_void_p, POINTER(c_double), POINTER(c_double), c_double, c_double, POINTER(clast_hit)], 'First hit with t_low <= t <= t_high of the ray origin + t direction, from either side.'),
     'clast_mesh_hull': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], "Convex hull of a mesh's vertices: a closed, outward triangle surface whose vertices are the mesh's own extreme points, unmoved."),
     'clast_mesh_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("stl").'),
@@ -3852,7 +3891,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_model_write': (c_int, [POINTER(clast_porosity_model), POINTER(c_char_p), c_int32, c_char_p], 'Writes the model as JSON that reads back as the same doubles; the file appears whole or not at all.'),
     'clast_fit_data_single': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of one form each: 26 features from each row's flatness and elongation or L, I, S."),
     'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
-    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code, that is what was varied, unless `use` names features.'),
+    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code but the seed, that is what was varied, and those that `use` names.'),
     'clast_fit_data_free': (None, [POINTER(clast_fit_data)], '.'),
     'clast_porosity_fit_data': (c_int, [POINTER(clast_fit_data), c_char_p, c_char_p, POINTER(clast_porosity_fit_config), POINTER(clast_porosity_fit)], 'Fits a model.'),
     'clast_porosity_fit_free': (None, [POINTER(clast_porosity_fit)], '.'),
@@ -3916,11 +3955,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_state_write_spheres': (c_int, [POINTER(clast_spheres), c_char_p, c_char_p, c_char_p], 'One set of spheres alone.'),
     'clast_state_read_spheres': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres)], 'The named spheres of a state file; `name` NULL: the only ones.'),
     'clast_state_read_table': (c_int, [c_char_p, c_char_p, POINTER(clast_table)], 'The named table of a state file.'),
-    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly)], 'Reads a packing that another program made; densities are 1 where the file does not tell them.'),
+    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly), POINTER(clast_packing_report)], 'Reads a packing that another program made; densities are 1 where the file does not tell them, and assembly->no_density is set.'),
+    'clast_state_read_frame': (c_int, [c_char_p, POINTER(clast_packing_frame)], 'Step of a run of clast pack, and the box of one that is periodic; of other states none.'),
     'clast_export_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("vtu").'),
     'clast_export_format_of_path': (c_int, [c_char_p], "Format by a path's extension (any case), or CLAST_EXPORT_ANY when it is none of ours."),
     'clast_assembly_write': (c_int, [POINTER(clast_assembly), c_char_p, POINTER(clast_export_options), POINTER(clast_export_report)], 'Writes an assembly.'),
-    'clast_assembly_table': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'One row a grain, in the order of placing: id, shape, position, quaternion, scale, maximum length, volume, density, mass (unless in model units), n_contact (if contacts are known).'),
+    'clast_assembly_table': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'One row a grain, in the order of placing: id, shape, position, quaternion, scale, maximum length, volume, density (if known), mass (unless in model units), n_contact (if contacts are known).'),
     'clast_pvd_write': (c_int, [c_char_p, c_int64, POINTER(c_double), POINTER(c_char_p)], 'ParaView collection: n VTU files (paths relative to the collection) and their times.'),
     'clast_shapiro_wilk': (c_int, [POINTER(c_double), c_int64, POINTER(c_double), POINTER(c_double)], "Shapiro and Wilk's W of a sample and the probability of a smaller W under a normal law."),
     'clast_bootstrap_default': (clast_bootstrap, [], '2000 resamples, 0.95, seed 1.'),
@@ -3931,7 +3971,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_statistics_summary_table': (c_int, [POINTER(clast_statistics), POINTER(clast_table)], 'One row a column: column, n, mean, mean_low, mean_high, deviation, .'),
     'clast_statistics_correlation_table': (c_int, [POINTER(clast_statistics), POINTER(clast_table)], 'One row a pair of columns: a, b, r, p.'),
     'clast_statistics_pca_table': (c_int, [POINTER(clast_statistics), POINTER(clast_table)], 'One row a component: component, variance, share, explained, then a loading per column.'),
-    'clast_statistics_n_component': (c_int32, [POINTER(clast_statistics), c_double], 'Components needed to explain this share of the variance; 0 without components.'),
+    'clast_statistics_n_component': (c_int32, [POINTER(clast_statistics), c_double], 'Components needed to explain this share of the variance; 0 without components, or of NaN.'),
     'clast_histogram_of': (c_int, [POINTER(c_double), c_int64, POINTER(clast_histogram)], 'Bins of width 2 IQR n^(-1/3) [Freedman1981], rounded to the nearest of 1, 2 or 5 times a power of ten, with edges at its multiples; at most 200.'),
     'clast_histogram_free': (None, [POINTER(clast_histogram)], '.'),
     'clast_histogram_table': (c_int, [POINTER(clast_histogram), c_char_p, POINTER(clast_table)], 'Columns low, high, count, density, normal (mean density of the fitted normal over the bin).'),
@@ -4015,6 +4055,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'fill': ('flag', True, '-', None, None, None, 'fill holes with the triangles of least area'),
         'fill_size': ('number', 1.0, '-', 0.0, 1.0, None, 'largest hole to fill, times the extent'),
         'separate': ('flag', True, '-', None, None, None, 'give surfaces that touch in an edge or vertex their own vertices'),
+        'unite': ('flag', True, '-', None, None, None, 'drop nested parts that bound nothing: outward ones in a solid, inward ones outside of it'),
         'keep': ('choice', 'all', '-', None, None, 'all|largest', 'parts to keep: all, or the one of the largest volume with its cavities'),
     },
     'mesh hull': {
@@ -4108,7 +4149,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'mode': ('choice', 'core', '-', None, None, 'core|cluster', 'grow on a core, or merge a population of grains cluster by cluster'),
         'core': ('text', '', '-', None, None, None, 'core: surface file, state.h5, sphere, or ellipsoid:a,b,c'),
         'core_size': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'size of the core; 0: as its file says'),
-        'core_meaning': ('choice', 'length', '-', None, None, 'length|volume|mean_diameter', 'what core_size measures'),
+        'core_meaning': ('choice', 'length', '-', None, None, 'length|volume|mean_diameter', 'what core_size measures, as size_meaning'),
         'core_density': ('number', 2500.0, 'kg/m^3', 1e-06, 1000000.0, None, 'density of the core'),
         'coat': ('texts', '', '-', None, None, None, 'coating shape: as core'),
         'coat_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each coating shape; none: all equal'),
@@ -4134,7 +4175,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'size_draw': ('flag', False, '-', None, None, None, 'draw n_particle sizes from the histogram at random'),
         'size_by_mass': ('flag', False, '-', None, None, None, 'rows of the histogram hold masses (a column mass, mass_g, weight ..), not numbers'),
         'replicate': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'how often the list is used (N_A of the paper)'),
-        'size_meaning': ('choice', 'length', '-', None, None, 'length|volume|mean_diameter', 'sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters'),
+        'size_meaning': ('choice', 'length', '-', None, None, 'length|volume|mean_diameter', 'sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters, by the L, I, S that clast shape --axes fitted prints'),
         'order': ('choice', 'given', '-', None, None, 'given|shuffled|descending', 'order of placement'),
         'cone': ('number', 0.017453292519943295, 'rad', 0.0, 3.141592653589793, None, 'half-angle of the cone of rays'),
         'rays': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'rays tried for each particle (N_r)'),
@@ -4209,12 +4250,13 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'material': ('texts', '', '-', None, None, None, "name of the grains' material, one for all shapes or one for each, for contacts"),
         'contacts': ('texts', '', '-', None, None, None, "what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; one number, or one of either side)"),
         'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
-        'start_unit': ('text', '', '-', None, None, None, 'length unit of the start, where it does not say'),
+        'start_unit': ('text', '', '-', None, None, None, "length unit of the start, where it does not say (a dump's ITEM: UNITS)"),
         'start_columns': ('text', '', '-', None, None, None, 'columns of its spheres in their order: id,x,y,z,d'),
         'start_diameter': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'of all its spheres; 0: as the file says'),
+        'start_frame': ('integer', -1.0, '-', -9000000000000000.0, 9000000000000000.0, None, 'snapshot of a LAMMPS dump or .xyz, from 0; negative: from the end'),
         'container': ('text', '', '-', None, None, None, 'surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it'),
         'container_unit': ('text', '', '-', None, None, None, 'length unit of its coordinates'),
-        'domain': ('choice', 'cylinder', '-', None, None, 'cylinder|periodic|box|open|cell', 'container, its sides; cell: periodic in x, y and z (height)'),
+        'domain': ('choice', 'cylinder', '-', None, None, 'cylinder|periodic|box|open|cell', 'container, its sides; cell: periodic in x, y and z (height); open: container alone'),
         'width': ('number', 0.104, 'm', 1e-09, 1000000.0, None, 'inside diameter of the cylinder, or width in x (L)'),
         'depth': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width in y; 0: as width'),
         'height': ('number', 1.0, 'm', 1e-09, 1000000.0, None, 'height of the lid and of generation (H)'),
@@ -4560,7 +4602,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'table': ('text', '', '-', None, None, None, 'CSV with a run a row, a key a column'),
         'seeds': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'realisations of each'),
         'seed': ('integer', 1.0, '-', 0.0, 9007199254740992.0, None, 'seed of the first realisation, then one more each'),
-        'keep': ('texts', '', '-', None, None, None, 'result to tabulate, a.b for b within a; none: every number'),
+        'keep': ('texts', '', '-', None, None, None, 'result to tabulate, a.b for b within a; none: every number but those of longer lists'),
         'shard': ('text', '', '-', None, None, None, 'K/N: do every N-th run from the K-th, for job arrays'),
     },
     'render': {
@@ -4604,6 +4646,9 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'colour': ('choice', 'grain', '-', None, None, 'grain|order|size|shape', 'what colours the grains of a PLY'),
         'table': ('text', '', '-', None, None, None, 'write this table of the run (.csv or .json) instead of its grains'),
         'unit': ('text', '', '-', None, None, None, 'length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it'),
+        'density': ('number', 0.0, 'kg/m^3', 0.0, 1000000.0, None, "of all grains of another program's file that tells none; 0: not known, left out"),
+        'columns': ('text', '', '-', None, None, None, 'spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names'),
+        'diameter': ('text', '0', '-', None, None, None, "spheres of another program: diameter of all, in place of the file's; 0: the file's"),
     },
     'bench': {
         'data': ('text', 'data/scarlet', '-', None, None, None, "folder of SCARLET-1.0's shapes and sizes (stl/, *.csv)"),
@@ -4629,8 +4674,8 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_evolve_fields': ('shapes', 'shape_weight', 'density', 'unit', 'curve', 'particles', 'weight', 'release', 'points', 'columns', 'diameter_column', 'domain', 'floor', 'sides', 'open_top', 'wind', 'field', 'field_columns', 'wind_shear', 'eddy_diffusivity', 'brownian', 'fall', 'temperature', 'viscosity', 'fluid_density', 'mean_free_path', 'gravity', 'kernel', 'shear', 'dissipation', 'speed_rms', 'efficiency', 'constant', 'additive', 'product', 'out_of_range', 'collision_radius', 'even', 'change_level', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'structure', 'meeting', 'walk_step', 'max_tries', 'duration', 'rows', 'step_error', 'time_step', 'seed', 'keep', 'bed_width', 'frames', 'checkpoint_time', 'resume', 'force'),
     'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
     'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
-    'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
-    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'material', 'contacts', 'start', 'start_unit', 'start_columns', 'start_diameter', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'unite', 'keep'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'material', 'contacts', 'start', 'start_unit', 'start_columns', 'start_diameter', 'start_frame', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'wall', 'outlet', 'wall_forces', 'stages', 'load_rate', 'load_tolerance', 'load_rest', 'max_load_time', 'energy', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
     'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
     'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),

@@ -110,13 +110,14 @@ def aggregate(
     """Grows virtual aggregates grain by grain: aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um").
 
     With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and aggregate(resume="run") goes on.
+    aggregate(resume="run", printable=True, spacing="5um") adds the printable body to a run that has ended, or makes another.
     fit=True finds what packing explains an observed size, density or settling velocity (`verdict`, `words`).
 
     Keywords (None: the default; a number is SI, a text has its unit):
         mode: grow on a core, or merge a population of grains cluster by cluster (core, cluster; default core)
         core: core: surface file, state.h5, sphere, or ellipsoid:a,b,c (no default)
         core_size: size of the core; 0: as its file says (m; 0 to 1e+06; default 0.0)
-        core_meaning: what core_size measures (length, volume, mean_diameter; default length)
+        core_meaning: what core_size measures, as size_meaning (length, volume, mean_diameter; default length)
         core_density: density of the core (kg/m^3; 1e-06 to 1e+06; default 2500.0)
         coat: coating shape: as core (no default)
         coat_weight: chance of each coating shape; none: all equal (at least 0; no default)
@@ -142,7 +143,7 @@ def aggregate(
         size_draw: draw n_particle sizes from the histogram at random (default False)
         size_by_mass: rows of the histogram hold masses (a column mass, mass_g, weight ..), not numbers (default False)
         replicate: how often the list is used (N_A of the paper) (1 to 1e+06; default 1)
-        size_meaning: sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters (length, volume, mean_diameter; default length)
+        size_meaning: sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters, by the L, I, S that clast shape --axes fitted prints (length, volume, mean_diameter; default length)
         order: order of placement (given, shuffled, descending; default given)
         cone: half-angle of the cone of rays (rad; 0 to 3.14159; default 0.017453292519943295)
         rays: rays tried for each particle (N_r) (1 to 1e+06; default 1)
@@ -719,8 +720,11 @@ def export(
         colour: str = 'grain',
         table: str = '',
         unit: str = '',
+        density: Quantity = 0.0,
+        columns: str = '',
+        diameter: Quantity = 0.0,
 ) -> dict[str, Any]:
-    """Writes a run's grains by the name's end, or one `table` of the run.
+    """Writes the grains of a run or of another program's file by the name's end, or one `table` of the run.
 
     Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
     name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
@@ -731,6 +735,9 @@ def export(
         colour: what colours the grains of a PLY (grain, order, size, shape; default grain)
         table: write this table of the run (.csv or .json) instead of its grains (no default)
         unit: length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it (no default)
+        density: of all grains of another program's file that tells none; 0: not known, left out (kg/m^3; 0 to 1e+06; default 0.0)
+        columns: spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names (no default)
+        diameter: spheres of another program: diameter of all, in place of the file's; 0: the file's (default 0)
     """
     return _runs.export(**given(locals()))
 
@@ -911,6 +918,7 @@ def mesh_repair(
         fill: bool | None = None,
         fill_size: float | None = None,
         separate: bool | None = None,
+        unite: bool | None = None,
         keep: Literal["all", "largest"] | None = None,
 ) -> SurfaceResult:
     """Makes a surface closed, oriented and manifold where it can; tells each change, and in `check` what it is now.
@@ -926,6 +934,7 @@ def mesh_repair(
         fill: fill holes with the triangles of least area (default True)
         fill_size: largest hole to fill, times the extent (0 to 1; default 1.0)
         separate: give surfaces that touch in an edge or vertex their own vertices (default True)
+        unite: drop nested parts that bound nothing: outward ones in a solid, inward ones outside of it (default True)
         keep: parts to keep: all, or the one of the largest volume with its cavities (all, largest; default all)
     """
     return _surfaces.mesh_repair(**given(locals()))
@@ -1018,6 +1027,7 @@ def pack(
         start_unit: Text | None = None,
         start_columns: Text | None = None,
         start_diameter: Quantity | None = None,
+        start_frame: int | None = None,
         container: Text | None = None,
         container_unit: Text | None = None,
         domain: Literal["cylinder", "periodic", "box", "open", "cell"] | None = None,
@@ -1117,12 +1127,13 @@ def pack(
         material: name of the grains' material, one for all shapes or one for each, for contacts (no default)
         contacts: what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; one number, or one of either side) (no default)
         start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
-        start_unit: length unit of the start, where it does not say (no default)
+        start_unit: length unit of the start, where it does not say (a dump's ITEM: UNITS) (no default)
         start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
         start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
+        start_frame: snapshot of a LAMMPS dump or .xyz, from 0; negative: from the end (at least -9e+15; default -1)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
         container_unit: length unit of its coordinates (no default)
-        domain: container, its sides; cell: periodic in x, y and z (height) (cylinder, periodic, box, open, cell; default cylinder)
+        domain: container, its sides; cell: periodic in x, y and z (height); open: container alone (cylinder, periodic, box, open, cell; default cylinder)
         width: inside diameter of the cylinder, or width in x (L) (m; 1e-09 to 1e+06; default 0.104)
         depth: width in y; 0: as width (m; 0 to 1e+06; default 0.0)
         height: height of the lid and of generation (H) (m; 1e-09 to 1e+06; default 1.0)
@@ -1498,7 +1509,7 @@ def study(
         table: CSV with a run a row, a key a column (no default)
         seeds: realisations of each (1 to 1e+06; default 1)
         seed: seed of the first realisation, then one more each (at least 0; default 1)
-        keep: result to tabulate, a.b for b within a; none: every number (no default)
+        keep: result to tabulate, a.b for b within a; none: every number but those of longer lists (no default)
         shard: K/N: do every N-th run from the K-th, for job arrays (no default)
     """
     return _studies.study(**given(locals()))

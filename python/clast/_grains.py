@@ -152,6 +152,7 @@ def _measure(files: tuple[Path, ...], options: Any, metres: float, monitor: Moni
     faults, notes = (tuple(lines[k].text.decode("utf-8", "replace") for k in range(n)) for lines, n in ((g.fault, g.n_fault), (g.note, g.n_note)))
     for line in notes:
         warn(line)
+    left_out = tuple(line for k, line in enumerate(notes) if status_name(g.note[k].status) == "CLAST_OK")
     n_mask = sum(one.is_smoothed and one.kind == c.VALUES["CLAST_GRAINS_VOXELS"] for one in records)
     if n_mask:
         note(f"{n_mask} of {g.n} grains are of a mask (one value inside, one outside, no grey levels at threshold): their surfaces are smoothed as "
@@ -160,4 +161,4 @@ def _measure(files: tuple[Path, ...], options: Any, metres: float, monitor: Moni
         raise Error(status_name(g.fault[g.n_fault - 1].status), faults[-1])
     if faults:
         warn(f"{len(faults)} file{'s' if len(faults) > 1 else ''} or grain{'s' if len(faults) > 1 else ''} could not be measured (first: {faults[0]})")
-    return Grains(table_of(table), faults, notes, "m" if in_metres else "model")
+    return Grains(table_of(table), faults, left_out, "m" if in_metres else "model")

@@ -17,16 +17,20 @@ def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: 
     """Grows virtual aggregates grain by grain: aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um").
 
     With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and aggregate(resume="run") goes on.
+    aggregate(resume="run", printable=True, spacing="5um") adds the printable body to a run that has ended, or makes another.
     fit=True finds what packing explains an observed size, density or settling velocity (`verdict`, `words`).
     """
     report = c.clast_aggregate_report()
     monitor = Monitor(progress)
     folder = None if output is None else encoded("output", output)
-    resumed = _resumed(output, keys)
+    adds_body = bool(keys.get("printable")) and _is_whole(keys)
+    resumed = _resumed(output, keys, ("printable", "neck", "spacing") if adds_body else ())
     try:
         with Config(c.clast_aggregate_config(), "clast_aggregate_fields", keys) as config:
             if config.struct.fit:
                 return _aggregate_fit(config, output, monitor)
+            if resumed and adds_body:
+                return _make_printable(config, resumed, monitor)
             check(monitor.run(lambda m: call("clast_aggregate_resume")(encoded("resumed", resumed), None, m, ctypes.byref(report)) if resumed else
                               call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
         values = json.loads(text_of(lambda text: call("clast_aggregate_report_json")(ctypes.byref(report), True, text)))
@@ -35,13 +39,27 @@ def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: 
         call("clast_aggregate_report_free")(ctypes.byref(report))
 
 
-def _resumed(output: Path | None, keys: dict[str, Any], free: str = "") -> str | None:
+def _is_whole(keys: dict[str, Any]) -> bool:
+    """Whether the folder to go on with holds a run that has ended."""
+    return bool(keys.get("resume")) and call("clast_run_folder_check")(encoded("resume", keys["resume"])) == c.VALUES["CLAST_OK"]
+
+
+def _make_printable(config: Config, folder: str, monitor: Monitor) -> Result:
+    """The printable body of a whole run, whose results are returned."""
+    wanted = c.clast_printable_config(neck=config.struct.neck, spacing=config.struct.spacing)
+    made = c.clast_printable_report()
+    check(monitor.run(lambda m: call("clast_aggregate_make_printable")(encoded("resumed", folder), ctypes.byref(wanted), m, ctypes.byref(made))))
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        return Result(json.load(file), folder)
+
+
+def _resumed(output: Path | None, keys: dict[str, Any], free: tuple[str, ...] = ()) -> str | None:
     """The folder to go on with; every other key is the folder's own."""
     resume = keys.get("resume")
     if resume is None or isinstance(resume, str) and not resume:
         return None
     folder = os.fsdecode(encoded("resume", resume))
-    others = [name for name, value in keys.items() if name not in ("resume", free) and value is not None]
+    others = [name for name, value in keys.items() if name not in ("resume", *free) and value is not None]
     if others or output is not None:
         raise refuse(f"resume: {folder} has every key; leave {(others or ['output'])[0]} out")
     return os.path.abspath(folder)
@@ -65,7 +83,7 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
     result = c.clast_pack_result()
     monitor = Monitor(progress)
     folder = None if output is None else encoded("output", output)
-    resumed = _resumed(output, keys, "max_steps")
+    resumed = _resumed(output, keys, ("max_steps",))
     try:
         with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
             most = config.struct.max_steps

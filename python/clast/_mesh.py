@@ -33,6 +33,8 @@ class MeshCheck:
     n_nonmanifold_vertex: int
     n_misoriented_edge: int
     n_inside_out: int
+    n_nested: int
+    n_doubled: int  #: nested parts that count twice in the volume
     n_degenerate: int
     n_duplicate: int
     n_intersection: int
@@ -44,6 +46,16 @@ class MeshCheck:
     @property
     def is_solid(self) -> bool:
         return self.closed and self.oriented and self.manifold
+
+    @property
+    def doubles(self) -> str:
+        """What counts twice in the volume, in words; "" where nothing does."""
+        if self.n_intersection > 0:
+            return f"cuts itself at {self.n_intersection} pair{'' if self.n_intersection == 1 else 's'} of triangles; its volume counts overlaps twice"
+        if self.n_doubled > 0:
+            return (f"has {self.n_doubled} of {self.n_part} parts that count twice in its volume (wound outward in a solid, or inward outside of "
+                    "one); mesh_repair drops what bounds nothing")
+        return ""
 
 
 @dataclass(frozen=True)
@@ -265,6 +277,8 @@ class Mesh:
         given, grain = settled("shape", dict(axes=axes, hull=hull)), c.clast_grain()
         kind = choice("axes", given["axes"], c.KEYS["shape"]["axes"][5] or "")
         check(call("clast_grain_measure_hull" if given["hull"] else "clast_grain_measure")(self._struct(), ctypes.byref(grain)))
+        if not given["hull"]:
+            warn_of_doubles(self.check(), "the surface")
         long, middle, least = grain.axes[kind].lis
         return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
                      sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,
@@ -273,6 +287,12 @@ class Mesh:
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
+
+
+def warn_of_doubles(found: MeshCheck, name: str, effect: str = "") -> None:
+    """Warns of what counts twice in a surface's volume."""
+    if found.doubles:
+        warn(f"{name} {found.doubles}{effect}")
 
 
 def mesh_check(path: Path) -> MeshCheck:

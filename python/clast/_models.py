@@ -147,8 +147,9 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
         raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
     warn_of_rows(owner.struct)
-    chosen = _choose(model, grading, owner.struct.n > 1)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
+    check(call("clast_form_inputs_of")(ctypes.byref(owner.struct), None, 0, ctypes.byref(inputs)))
+    chosen = _choose(model, grading, inputs.has_deviation)
     given = settled("predict", dict(resamples=resamples, seed=seed))
     bootstrap = c.clast_bootstrap(n_resample=given["resamples"], level=0.95, seed=given["seed"])
     check(call("clast_porosity_predict_set")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(bootstrap),
@@ -162,13 +163,12 @@ def _predict_moments(flatness: Moments | None, elongation: Moments | None, model
     pairs = [_moments("flatness", flatness), _moments("elongation", elongation)]
     if (pairs[0][1] is None) != (pairs[1][1] is None):
         raise refuse("flatness, elongation: one has a deviation and the other has none")
-    has_spread = sum(d or 0.0 for _, d in pairs) > 0
-    chosen = _choose(model, grading, has_spread)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     mean = (ctypes.c_double * 2)(*(m for m, _ in pairs))
-    deviation = (ctypes.c_double * 2)(*(d or 0.0 for _, d in pairs)) if has_spread else None
+    deviation = (ctypes.c_double * 2)(*(d or 0.0 for _, d in pairs)) if pairs[0][1] is not None else None
     count = settled("predict", dict(grains=grains))["grains"]
     check(call("clast_form_inputs_from_moments")(mean, deviation, count, ctypes.byref(inputs)))
+    chosen = _choose(model, grading, inputs.has_deviation)
     check(call("clast_porosity_predict_moments")(ctypes.byref(chosen._model), ctypes.byref(inputs), ctypes.byref(found)))
     return _prediction(chosen, found, inputs, "moments")
 
@@ -249,6 +249,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
             check(call("clast_fit_data_mixture")(ctypes.byref(beds.struct), ctypes.byref(rows.struct), *ends))
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
+        use, columns, n_term = config.struct.use.decode(), config.struct.columns.decode(), config.struct.n_term
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
         check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source),
                                               ctypes.byref(config.struct), ctypes.byref(made.struct)))
@@ -256,7 +257,31 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     if left_out.n_row > 0:
         warn(f"{left_out.n_row} of {beds.struct.n_row} rows left out (first: row {left_out.column[0].number[0]:.0f}, "
              f"{left_out.column[1].text[0].decode('utf-8', 'replace')})")
-    return _fit(data, made)
+    found = _fit(data, made)
+    if use == "":
+        _warn_of_words(table_of(beds), found, columns)
+        _warn_of_few(found, n_term)
+    return found
+
+
+def _warn_of_words(beds: Table, found: Fit, columns: str) -> None:
+    """Columns of words where a fit of columns looks for candidates."""
+    names = list(beds.columns)
+    if names[:1] == ["run"] and "exit_code" in names:
+        names = names[:names.index("exit_code")]
+    words = [name for name in names if beds[name].dtype.kind != "f" and name not in found.features.columns]
+    if found.model.kind == "columns" and columns == "" and words:
+        warn(f"{len(words)} {'columns of words are no candidates' if len(words) > 1 else 'column of words is no candidate'}: {', '.join(words)}")
+
+
+def _warn_of_few(found: Fit, n_term: int) -> None:
+    """Why a selection has fewer features than it was asked for."""
+    n, states = len(found.model.coefficients), list(found.ranking["state"])
+    n_useless = len(states) - n - found.n_removed
+    if n < n_term:
+        warn(f"{n} of {n_term} features: " + (
+            "with one more no candidate can be fitted to each training set" if "kept" in states else
+            f"no candidate is left of {len(states)} ({found.n_removed} like a chosen one, {n_useless} constant or not finite in some row)"))
 
 
 def _fit(data: Owner, made: Owner) -> Fit:

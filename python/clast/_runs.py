@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, check, choice, encoded, fixed, html_table, quantity, refuse, settled, view
+from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, check, choice, encoded, fixed, html_table, quantity, refuse, settled, single, view,
+                    warn)
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
@@ -79,10 +80,10 @@ class Assembly(Fixed):
     densities: Floats
     shape_ids: NDArray[np.int32]  #: which cannot be written either
 
-    def __init__(self, owner: Owner) -> None:
+    def __init__(self, owner: Owner, frame: Any = None) -> None:
         a = owner.struct
         n = a.n_grain
-        self._owner = owner
+        self._owner, self._frame = owner, frame  # step and box, for files of LAMMPS
         vars(self).update(unit=a.unit.decode(), positions=view(owner, a.position, (n, 3), np.float64),
                           orientations=view(owner, a.orientation, (n, 4), np.float64), scales=view(owner, a.scale, (n,), np.float64),
                           densities=view(owner, a.density, (n,), np.float64), shape_ids=fixed(owner, a.shape_id, (n,), np.int32))
@@ -92,22 +93,32 @@ class Assembly(Fixed):
         """The grains of a state file or a run's folder."""
         found = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
         check(call("clast_run_folder_state")(encoded("path", path), ctypes.cast(found, ctypes.c_char_p)))
-        struct = c.clast_assembly()
+        struct, frame = c.clast_assembly(), c.clast_packing_frame()
         check(call("clast_state_read_assembly")(found.value, ctypes.byref(struct)))
-        return cls(Owner(struct, "clast_assembly_free"))
+        check(call("clast_state_read_frame")(found.value, ctypes.byref(frame)))
+        return cls(Owner(struct, "clast_assembly_free"), frame)
 
     @classmethod
     def read_spheres(cls, path: Path, *, columns: str | None = "", diameter: Quantity | None = None) -> Assembly:
-        """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
+        """Grains that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all.
+
+        Of several snapshots the last. Where the file tells no densities they are 1 until they are written into, and `write` leaves them out.
+        """
         size = 0.0 if diameter is None else quantity("diameter", diameter, "m", 0, 1e9)
         options, struct = c.clast_packing_options(columns=encoded("columns", "" if columns is None else columns), diameter=size), c.clast_assembly()
-        check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct)))
-        return cls(Owner(struct, "clast_assembly_free"))
+        told = c.clast_packing_report()
+        check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct), ctypes.byref(told)))
+        if told.n_snapshot > 1:
+            warn(f"{os.fspath(path)}: snapshot {told.snapshot} of {told.n_snapshot}" + (f", TIMESTEP {told.frame.step}" if told.frame.step >= 0 else ""))
+        return cls(Owner(struct, "clast_assembly_free"), told.frame)
 
     def _copy(self) -> Assembly:
         struct = c.clast_assembly()
         check(call("clast_assembly_copy")(ctypes.byref(self._owner.struct), ctypes.byref(struct)))
-        return Assembly(Owner(struct, "clast_assembly_free"))
+        return Assembly(Owner(struct, "clast_assembly_free"), self._frame)
+
+    def _framed(self) -> Any:
+        return None if self._frame is None else ctypes.pointer(self._frame)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -122,7 +133,8 @@ class Assembly(Fixed):
 
     def write(self, path: Path) -> None:
         """Writes by the name's end, as `export`; lengths are in the assembly's own unit."""
-        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), None, None))
+        options = c.clast_export_options(level=3, frame=self._framed())
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), ctypes.byref(options), None))
 
     def view(self, triangles: int = 100_000, title: str = "clast") -> View:
         """The interactive 3-D view, grains simplified to so many triangles together."""
@@ -148,24 +160,40 @@ class Assembly(Fixed):
         return table_of(Owner(table, "clast_table_free"))
 
 
+def _placed(run: Path | Assembly, columns: str, diameter: Quantity, density: float) -> Assembly:
+    """The grains of a run, a file of another program, or an assembly; those that came without densities get `density`."""
+    is_other = not isinstance(run, Assembly) and os.path.isfile(run) and not os.fsdecode(run).endswith(".h5")
+    if (columns or diameter) and not is_other:
+        raise refuse("columns, diameter: a run or an assembly knows its grains")
+    grains = run if isinstance(run, Assembly) else Assembly.read_spheres(run, columns=columns, diameter=diameter) if is_other else Assembly.read(run)
+    if not density:
+        return grains
+    if not grains._owner.struct.no_density:
+        raise refuse("density: the grains have their own; leave it out")
+    made = grains._copy() if isinstance(run, Assembly) else grains
+    made.densities[:] = density
+    made._owner.struct.no_density = False
+    return made
+
+
 def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool = False, colour: str = "grain", table: str = "",
-           unit: str = "") -> dict[str, Any]:
-    """Writes a run's grains by the name's end, or one `table` of the run.
+           unit: str = "", density: Quantity = 0.0, columns: str = "", diameter: Quantity = 0.0) -> dict[str, Any]:
+    """Writes the grains of a run or of another program's file by the name's end, or one `table` of the run.
 
     Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
     name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
     """
-    given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit))
+    given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit, density=density, columns=columns))
     if table:
         if isinstance(run, Assembly):
             raise refuse("table: an assembly has none; give the run's folder")
         state_table(run, table).write(output)
         return {"file": os.fspath(output), "table": table}
-    grains = run if isinstance(run, Assembly) else Assembly.read(run)
+    grains = _placed(run, given["columns"], single("diameter", diameter), given["density"])
     bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
     chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
     options = c.clast_export_options(level=given["level"], points=given["points"], colour=choice("colour", given["colour"], "grain|order|size|shape"),
-                                     unit=None if chosen is None else encoded("chosen", chosen))
+                                     unit=None if chosen is None else encoded("chosen", chosen), frame=grains._framed())
     told = c.clast_export_report()
     check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
     return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),

@@ -30,7 +30,7 @@ class Study:
 
     @property
     def results(self) -> Table:
-        """A row a run: what varied, seed, exit code, every number of its results."""
+        """A row a run: what varied, seed, exit code, the numbers of its results (of lists, those of one entry: a.0.b)."""
         return read_table(os.path.join(self.folder, "results.csv"))
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import Config, Error, Owner, call, check, encoded, refuse, settled, warn, whole
-from ._mesh import Mesh, MeshCheck
+from ._mesh import Mesh, MeshCheck, warn_of_doubles
 from ._runs import Result
 from ._tables import Path
 
@@ -75,7 +75,7 @@ def _solid_volume(mesh: Mesh) -> float:
     owner = Owner(struct, "clast_mesh_free")
     check(call("clast_mesh_weld_auto")(ctypes.byref(struct), None))
     found = Mesh._own(struct, owner).check()
-    return found.volume if found.closed and found.oriented else float("nan")
+    return found.volume if found.closed and found.oriented and not found.doubles else float("nan")
 
 
 def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = None) -> SurfaceResult:
@@ -87,8 +87,17 @@ def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = N
     if output is not None and _is_stl(output):  # 24 bits
         check(call("clast_mesh_round_float")(ctypes.byref(struct)))
         volume = made.volume
+    found = made.check()
     values = {**_numbers(report), "volume": volume, "volume_change": volume / report.volume_before - 1.0, "hausdorff": apart.hausdorff,
-              "mean_distance": apart.mean}
+              "mean_distance": apart.mean, "is_solid": found.is_solid and found.hull_volume > 0, "n_intersection": found.n_intersection,
+              "n_doubled": found.n_doubled}
+    if not values["is_solid"] or found.doubles:
+        before = given.check()
+        if not values["is_solid"] and before.is_solid:
+            warn(f"the simpler surface is no solid any more: {found.n_inside_out} part{'' if found.n_inside_out == 1 else 's'} inside out, "
+                 f"{found.n_intersection} pair{'' if found.n_intersection == 1 else 's'} of triangles that cut each other; ask for more faces")
+        elif not before.doubles:
+            warn_of_doubles(found, "the simpler surface", "; ask for more faces")
     return _keep(made, values, output)
 
 
@@ -125,6 +134,7 @@ def _require_solid(mesh: Mesh) -> None:
     if not (found.closed and found.oriented):
         raise Error("CLAST_E_GEOMETRY", f"surface: {'not closed' if not found.closed else 'not oriented'}; call mesh_repair, "
                     "or take its hull with hull=N")
+    warn_of_doubles(found, "the surface", "; L, I and S are off")
 
 
 def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:

@@ -8,19 +8,22 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_banded(const char *name)
+static bool is_banded(const clast_column *column)
 {
-    return strncmp(name, "porosity_", 9) == 0 || strcmp(name, "d_agg_m") == 0 ||
-           strncmp(name, "density_", 8) == 0 || strcmp(name, "radius_of_gyration_m") == 0;
+    const char *name = column->name;
+    return column->number != NULL &&
+           (strncmp(name, "porosity_", 9) == 0 || strcmp(name, "d_agg_m") == 0 ||
+            strncmp(name, "density_", 8) == 0 || strcmp(name, "radius_of_gyration_m") == 0);
 }
 
+/// The greatest number of particles; a billion for more, which no memory holds.
 static int64_t greatest(const double *n, int64_t n_row)
 {
     double best = 0.0;
     for (int64_t i = 0; i < n_row; ++i) {
         best = fmax(best, n[i]);
     }
-    return (int64_t)best;
+    return (int64_t)fmin(best, 1e9);
 }
 
 /// Values of all repeats after `wanted` particles; rows that were not measured are left out.
@@ -54,7 +57,7 @@ static void fill(const clast_table *history, const double *n, double confidence,
 {
     int32_t at = 1;
     for (int32_t c = 0; c < history->n_column; ++c) {
-        if (!is_banded(history->column[c].name)) {
+        if (!is_banded(&history->column[c])) {
             continue;
         }
         for (int64_t row = 0; row < band->n_row; ++row) {
@@ -77,12 +80,15 @@ clast_status clast_aggregate_band(const clast_table *history, double confidence,
     clast_table made = {0};
     double *found = NULL;
     const double *n = clast_table_numbers(history, "n");
+    CLX_CHECK(confidence > 0.0 && confidence < 1.0, CLAST_E_ARGUMENT,
+              "%s: a confidence of %g; give one above 0 and below 1, as 0.95", __func__,
+              confidence);
     CLX_CHECK(n != NULL, CLAST_E_USAGE, "%s has no column n", history->name);
     CLX_TRY(clx_alloc(&found, history->n_row, sizeof *found));
     CLX_TRY(clast_table_init(&made, "band", greatest(n, history->n_row) + 1));
     CLX_TRY(clast_table_add_number(&made, "n", "-", NULL));
     for (int32_t c = 0; c < history->n_column; ++c) {
-        if (is_banded(history->column[c].name)) {
+        if (is_banded(&history->column[c])) {
             CLX_TRY(add_three(&made, &history->column[c]));
         }
     }

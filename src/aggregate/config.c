@@ -47,7 +47,8 @@ const clast_field clast_aggregate_fields[] = {
     TEXT(, core, "", "core: surface file, state.h5, sphere, or ellipsoid:a,b,c", .common = true),
     NUMBER(params., core_size, 0, 0, 1e6, "m", "size of the core; 0: as its file says",
            .common = true),
-    CHOICE(params., core_meaning, 0, "length|volume|mean_diameter", "what core_size measures"),
+    CHOICE(params., core_meaning, 0, "length|volume|mean_diameter",
+           "what core_size measures, as size_meaning"),
     NUMBER(params., core_density, 2500, 1e-6, 1e6, "kg/m^3", "density of the core"),
     TEXTS(, coat, "", "coating shape: as core", .common = true),
     LIST(params., coat_weight, 0, DBL_MAX, "-", "",
@@ -85,8 +86,10 @@ const clast_field clast_aggregate_fields[] = {
          "rows of the histogram hold masses (a column mass, mass_g, weight ..), not numbers"),
     COUNT(params., replicate, 1, 1, 1e6, "how often the list is used (N_A of the paper)",
           .common = true),
-    CHOICE(params., size_meaning, 0, "length|volume|mean_diameter",
-           "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters"),
+    CHOICE(
+        params., size_meaning, 0, "length|volume|mean_diameter",
+        "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters, by the L, I, S "
+        "that clast shape --axes fitted prints"),
     CHOICE(params., order, 0, "given|shuffled|descending", "order of placement"),
 
     NUMBER(params., cone, CLAST_PI / 180.0, 0, CLAST_PI, "rad", "half-angle of the cone of rays",
@@ -412,6 +415,29 @@ clast_status clast_aggregate_config_check(const clast_aggregate_config *config)
               "sizes and size both give sizes; keep one");
     CLX_CHECK(!config->fit || config->params.approach != CLAST_APPROACH_DIFFUSIVE, CLAST_E_CONFIG,
               "approach: diffusive has no packing to find; leave out fit");
+done:
+    return status;
+}
+
+clast_status clx_aggregate_check_printable(const clast_aggregate_config *config)
+{
+    clast_status status = CLAST_OK;
+    const double neck = config->neck;
+    const double spacing = config->spacing;
+    const bool is_cluster = config->params.mode == CLAST_AGGREGATE_CLUSTER;
+    if (!config->printable) {
+        return CLAST_OK;
+    }
+    CLX_CHECK(!is_cluster || config->params.n_final == 1, CLAST_E_CONFIG,
+              "printable: one body, and n_final leaves %d clusters apart; leave out n_final or "
+              "printable",
+              config->params.n_final);
+    CLX_CHECK(
+        !(neck > 0.0 && spacing > 0.0 && neck < 2.0 * spacing), CLAST_E_CONFIG,
+        "neck: %s is below two spacings of %s, which do not show it; give a spacing of a third "
+        "of the neck (%s), or a neck of three spacings (%s)",
+        clx_unit_text(neck, "m"), clx_unit_text(spacing, "m"), clx_unit_text(neck / 3.0, "m"),
+        clx_unit_text(3.0 * spacing, "m"));
 done:
     return status;
 }

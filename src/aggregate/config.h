@@ -25,3 +25,7 @@ clast_status clx_aggregate_params_check(const clast_aggregate_params *params,
 /// goes on has the options that it has. What a file brings for a run of another kind is noted.
 CLX_SHARED clast_status clx_aggregate_idle(const clast_aggregate_config *config,
                                            const clast_monitor *monitor);
+
+/// Refuses a printable body that cannot be: of clusters left apart, or of necks that the grid
+/// cannot show. Of bodies that are still to be made: a run that goes on keeps its options.
+CLX_SHARED clast_status clx_aggregate_check_printable(const clast_aggregate_config *config);

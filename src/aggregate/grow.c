@@ -108,6 +108,7 @@ clast_status clx_aggregate_begin(const clast_aggregate_params *params,
     clast_status status = CLAST_OK;
     const clx_aggregate_given given = {
         .core = input->core != NULL, .n_coat = input->n_coat, .sizes = input->sizes != NULL};
+    CLX_CHECK(repeat >= 0, CLAST_E_ARGUMENT, "repeat %d of an aggregate; the first is 0", repeat);
     CLX_TRY(clx_aggregate_params_check(params, &given));
     a->mode = MODE[params->mode];
     a->params = params;
@@ -188,6 +189,9 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
     CLX_ARGUMENTS(a);
     clast_status status = CLAST_OK;
     clast_status settled = CLAST_OK;
+    if (n < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: %d more particles", __func__, n);
+    }
     const double begun = clx_clock();
     for (int32_t i = 0; i < n && a->stop == CLAST_STOP_NOT; ++i) {
         CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED, "stopped after %d of %d steps",
@@ -231,14 +235,21 @@ clast_status clast_aggregate_history(const clast_aggregate *a, clast_table *hist
     return clx_history_table(&a->history, history);
 }
 
-/// The worst overlap and the lost ones, from the rows.
+/// The worst overlap and the lost ones, from the rows; the march puts no particle back.
 static void faults(const clast_aggregate *a, clast_aggregate_result *r)
 {
+    if (a->params->contact == CLAST_CONTACT_MARCH) {
+        r->max_overlap = (double)NAN;
+        r->max_overlap_relative = (double)NAN;
+    }
     for (int64_t i = 0; i < a->history.n_row; ++i) {
         const double *row = &a->history.value[i * a->history.n_column];
         const double overlap = row[CLX_HISTORY_OVERLAP];
-        r->max_overlap = fmax(r->max_overlap, overlap);
-        r->max_overlap_relative = fmax(r->max_overlap_relative, overlap / row[CLX_HISTORY_SIZE]);
+        if (!isnan(r->max_overlap)) {
+            r->max_overlap = fmax(r->max_overlap, overlap);
+            r->max_overlap_relative =
+                fmax(r->max_overlap_relative, overlap / row[CLX_HISTORY_SIZE]);
+        }
         r->n_lost += row[CLX_HISTORY_LOST] > 0.0 ? 1 : 0;
     }
 }

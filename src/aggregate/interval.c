@@ -6,8 +6,9 @@
 
 clast_interval clast_interval_of(int32_t n, const double *value, double confidence)
 {
-    if (value == NULL) {
-        return (clast_interval){0};
+    const double nan = (double)NAN;
+    if (n < 1 || value == NULL) {
+        return (clast_interval){.mean = nan, .deviation = nan, .low = nan, .high = nan};
     }
     clast_interval made = {.n = n, .low = -HUGE_VAL, .high = HUGE_VAL};
     double sum = 0.0;
@@ -25,6 +26,9 @@ clast_interval clast_interval_of(int32_t n, const double *value, double confiden
         const double half = t * made.deviation / sqrt(n);
         made.low = made.mean - half;
         made.high = made.mean + half;
+    }
+    if (!(confidence > 0.0 && confidence < 1.0)) {
+        made.low = made.high = nan;
     }
     return made;
 }

@@ -2,6 +2,7 @@
 #include "aggregate/kit.h"
 
 #include "aggregate/form.h"
+#include "assembly/pieces.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "geom/bvh.h"
@@ -178,12 +179,33 @@ done:
     return status;
 }
 
+/// A core or a coating "shape" is one rigid body: clusters that a run left side by side are not.
+/// Where no contact is known it is the caller's word.
+static clast_status check_one_piece(const clast_assembly *assembly, int32_t g)
+{
+    clast_status status = CLAST_OK;
+    int32_t *piece = NULL;
+    int32_t n_piece = 1;
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
+              "an aggregate of no grains cannot be thrown");
+    CLX_TRY(clx_alloc(&piece, assembly->n_grain, sizeof *piece));
+    if (assembly->n_contact > 0) {
+        CLX_TRY(clx_assembly_pieces(assembly, piece, &n_piece));
+    }
+    CLX_CHECK(
+        n_piece == 1, CLAST_E_GEOMETRY,
+        "%s: its %d grains are %d pieces that do not touch, no one rigid body; of clusters, let "
+        "the run that made them end in one (n_final 1)",
+        g == 0 ? "core" : "coat", assembly->n_grain, n_piece);
+done:
+    clx_free(piece);
+    return status;
+}
+
 static clast_status make_group(const clx_kit *kit, const clast_assembly *assembly,
                                int32_t first_shape, clx_kit_group *group)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
-              "an aggregate of no grains cannot be thrown");
     CLX_TRY(make_parts(kit, assembly, first_shape, group));
     CLX_TRY(copy_contacts(assembly, group));
 done:
@@ -262,6 +284,7 @@ static clast_status name_groups(const clast_aggregate_input *input, clx_kit *kit
     for (int32_t g = 0; g < kit->n_group; ++g) {
         const clast_assembly *from = assembly_of(input, g);
         if (from != NULL) {
+            CLX_TRY(check_one_piece(from, g));
             CLX_TRY(make_group(kit, from, first, &kit->group[g]));
             first += from->n_shape;
         }

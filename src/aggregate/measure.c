@@ -286,6 +286,8 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     result->n_grain = measured.n_grain;
     result->n_contact = measured.n_contact;
     result->n_cluster = measured.n_cluster;
+    result->n_grain_all = a->assembly.n_grain;
+    result->contact = a->params->contact;
     result->mass = measured.mass;
     result->solid_sum = measured.volume;
     result->radius_of_gyration = measured.gyration;

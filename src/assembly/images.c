@@ -91,10 +91,37 @@ done:
 }
 
 /// Of a pair across the border, seen from both sides, the one whose own grain has the lower number.
+/// Not a grain and its own image.
 static bool counts(const imaged *m, const int32_t pair[2])
 {
     return m->origin != NULL && pair[0] < m->n_own &&
            (pair[1] < m->n_own || m->origin[pair[0]] < m->origin[pair[1]]);
+}
+
+static void keep_counted(const imaged *m, clx_pairs *pairs)
+{
+    int32_t n = 0;
+    for (int32_t p = 0; p < pairs->n; ++p) {
+        if (counts(m, pairs->pair[p])) {
+            pairs->pair[n][0] = pairs->pair[p][0];
+            pairs->pair[n++][1] = pairs->pair[p][1];
+        }
+    }
+    pairs->n = n;
+}
+
+static clast_status check_period(const clast_period *period)
+{
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < 3 && period != NULL; ++k) {
+        CLX_CHECK(isfinite(period->low[k]) && isfinite(period->length[k]) &&
+                      period->length[k] >= 0.0,
+                  CLAST_E_ARGUMENT,
+                  "the period along %c is %g m from %g m; both must be finite, 0: no period",
+                  'x' + k, period->length[k], period->low[k]);
+    }
+done:
+    return status;
 }
 
 clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
@@ -108,8 +135,9 @@ clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, dou
     if (period == NULL) {
         return clast_assembly_find_contacts(assembly, gap);
     }
-    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE, "contacts: gap %g must not be negative",
-              gap);
+    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE,
+              "contacts: gap %g must be finite and not negative", gap);
+    CLX_TRY(check_period(period));
     CLX_TRY(make_images(assembly, period, gap, &m));
     CLX_TRY(clast_assembly_find_contacts(&m.all, gap));
     CLX_TRY(clx_alloc(&made.contact, m.all.n_contact + 1LL, sizeof *made.contact));
@@ -140,14 +168,14 @@ clast_status clast_assembly_overlaps(const clast_assembly *assembly, const clast
     clx_touch_set set = {0};
     clx_pairs pairs = {0};
     clast_union found = {0};
+    CLX_TRY(check_period(period));
     CLX_TRY(make_images(assembly, period, 0.0, &m));
     CLX_TRY(clx_touch_set_init(&m.all, &set));
     CLX_TRY(clx_touch_set_near(&set, &pairs));
+    keep_counted(&m, &pairs);
     CLX_TRY(clx_keep_overlaps(&m.all, &set, true, &pairs, &found));
-    *overlaps = (clast_overlaps){.depth = found.max_overlap, .share = found.max_overlap_share};
-    for (int32_t p = 0; p < pairs.n; ++p) {
-        overlaps->n += counts(&m, pairs.pair[p]);
-    }
+    *overlaps = (clast_overlaps){
+        .n = pairs.n, .depth = found.max_overlap, .share = found.max_overlap_share};
 done:
     clx_pairs_free(&pairs);
     clx_touch_set_free(&set);

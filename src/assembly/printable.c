@@ -3,6 +3,7 @@
 #include <clast/assembly.h>
 
 #include "assembly/distance_field.h"
+#include "assembly/pieces.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/monitor.h"
@@ -10,6 +11,13 @@
 #include "geom/isosurface.h"
 #include "math/vec3.h"
 #include <clast/shape.h>
+#include <string.h>
+
+/// A length of this assembly, for messages.
+static const char *length_text(const clast_assembly *a, double length)
+{
+    return clx_unit_text(length, strcmp(a->unit, "model") == 0 ? "-" : "m");
+}
 
 static double thinnest_grain(const clast_assembly *a)
 {
@@ -41,6 +49,8 @@ static const double TRIANGLES_A_SQUARE = 8.9;
 /// precision gives other normals, are no more (432 of 961,628 facets), and the volume moves by
 /// 6e-6.
 static const double APART = 0.05;
+/// Spacings of the grid beyond the body and its necks, and one node more.
+static const double MARGIN = 7.0;
 /// 50 MB of binary STL.
 static const double TRIANGLE_BUDGET = 1e6;
 
@@ -64,8 +74,18 @@ static clast_status choose(const clast_assembly *a, const clast_printable_config
     report->smallest_feature = fmin(report->neck, thinnest);
     report->resolved = report->smallest_feature >= 2.0 * report->spacing;
     if (report->spacing > 0.5 * extent) {
-        return clx_fail(CLAST_E_USAGE, "a spacing of %g cannot show a body of extent %g",
-                        report->spacing, extent);
+        return clx_fail(CLAST_E_USAGE, "a spacing of %s cannot show a body of extent %s",
+                        length_text(a, report->spacing), length_text(a, extent));
+    }
+    double nodes = 1.0;
+    for (int k = 0; k < 3; ++k) {
+        nodes *= (high[k] - low[k] + report->neck) / report->spacing + MARGIN;
+    }
+    if (nodes > 2147483647.0) {
+        return clx_fail(CLAST_E_LIMIT,
+                        "a spacing of %s on a body of extent %s needs more than 2^31 nodes; use a "
+                        "coarser one",
+                        length_text(a, report->spacing), length_text(a, extent));
     }
     return CLAST_OK;
 }
@@ -169,7 +189,32 @@ static clast_status fill_voids(flood *f, clx_grid *grid, const uint8_t *is_void)
     return status;
 }
 
-static clast_status make_solid(clx_grid *grid, bool keep_voids, clast_printable_report *report)
+/// Says why the union is in pieces: grains without a contact between them, or necks that the grid
+/// does not show.
+static clast_status fail_in_pieces(const clast_assembly *a, const clast_printable_report *report)
+{
+    clast_status status = CLAST_OK;
+    int32_t *piece = NULL;
+    int32_t n_piece = 0;
+    CLX_TRY(clx_alloc(&piece, a->n_grain, sizeof *piece));
+    CLX_TRY(clx_assembly_pieces(a, piece, &n_piece));
+    CLX_CHECK(
+        n_piece == 1, CLAST_E_GEOMETRY,
+        "the %d grains are %d groups without a contact between them, which no neck joins; the "
+        "union falls into %d pieces",
+        a->n_grain, n_piece, report->n_part);
+    status = clx_fail(
+        CLAST_E_GEOMETRY,
+        "the union falls into %d pieces with necks of %s sampled at %s; use a thicker neck "
+        "or a finer spacing",
+        report->n_part, length_text(a, report->neck), length_text(a, report->spacing));
+done:
+    clx_free(piece);
+    return status;
+}
+
+static clast_status make_solid(const clast_assembly *a, bool keep_voids, clx_grid *grid,
+                               clast_printable_report *report)
 {
     clast_status status = CLAST_OK;
     const int64_t total = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
@@ -178,11 +223,9 @@ static clast_status make_solid(clx_grid *grid, bool keep_voids, clast_printable_
     CLX_TRY(clx_alloc(&f.seen, total, 1));
     CLX_TRY(clx_alloc(&is_void, total, 1));
     CLX_TRY(survey(&f, report, is_void));
-    CLX_CHECK(
-        report->n_part == 1, CLAST_E_GEOMETRY,
-        "the union falls into %d pieces with necks of %g sampled at %g; use a thicker neck or "
-        "a finer spacing",
-        report->n_part, report->neck, report->spacing);
+    if (report->n_part != 1) {
+        CLX_TRY(fail_in_pieces(a, report));
+    }
     if (!keep_voids && report->n_void > 0) {
         CLX_TRY(fill_voids(&f, grid, is_void));
     }
@@ -249,7 +292,7 @@ clast_status clast_assembly_printable(const clast_assembly *assembly,
     clx_distance_field_balls((const double(*)[3])assembly->contact_point, assembly->n_contact,
                              0.5 * made.neck, &grid);
     clx_monitor_report(monitor, "printable surface", 1, 3);
-    CLX_TRY(make_solid(&grid, config->keep_voids, &made));
+    CLX_TRY(make_solid(assembly, config->keep_voids, &grid, &made));
     clx_monitor_report(monitor, "printable surface", 2, 3);
     CLX_TRY(clx_isosurface(&grid, 0.0, APART, mesh));
     made.volume = clast_mesh_volume(mesh);

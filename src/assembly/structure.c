@@ -101,8 +101,8 @@ static clast_status add_solid(const clast_assembly *a, const clast_structure_opt
         {"mass", mass, 1e-14 * mass, "kg", "sum of volume times density"},
         {"solid_sum", solid->sum, 1e-14 * solid->sum, "m^3", "sum of the grains' volumes"},
         {"solid_union", solid->volume, solid->error, "m^3", "space that the grains fill"},
-        {"max_overlap", solid->max_overlap, 1e-3 * solid->max_overlap, "m",
-         "deepest overlap of two grains"},
+        {"max_overlap_surfaces", solid->max_overlap, 1e-3 * solid->max_overlap, "m",
+         "deepest overlap of two grains' true surfaces"},
     };
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         CLX_TRY(add_row(table, &rows[k]));
@@ -199,7 +199,8 @@ done:
     return status;
 }
 
-/// What follows from one envelope: porosity, packing, density, D_agg, terminal velocity.
+/// What follows from one envelope: porosity and packing by the sum of the grains' volumes, as
+/// density is, porosity by their union, D_agg, terminal velocity.
 static clast_status add_envelope(const clast_structure_options *options, const clast_union *solid,
                                  double mass, const clast_extent *e, const clast_envelope *envelope,
                                  clast_table *table)
@@ -207,20 +208,23 @@ static clast_status add_envelope(const clast_structure_options *options, const c
     clast_status status = CLAST_OK;
     const double v = envelope->volume;
     const double share = envelope->error / v;
-    const double packing = solid->volume / v;
-    const double packing_error = hypot(solid->error / v, packing * share);
+    const double packing = solid->sum / v;
+    const double filled = solid->volume / v;
+    const double filled_error = hypot(solid->error / v, filled * share);
     const double d = cbrt(6.0 * v / CLAST_PI);
     const double density = mass / v;
     clast_drag drag;
     clast_settling fall;
     const row rows[] = {
         {"envelope", v, envelope->error, "m^3", clast_envelope_text(envelope->kind)},
-        {"porosity", 1.0 - packing, packing_error, "-", "1 - solid_union / envelope"},
-        {"packing", packing, packing_error, "-", "solid_union / envelope"},
+        {"porosity", 1.0 - packing, packing * share, "-", "1 - solid_sum / envelope"},
+        {"packing", packing, packing * share, "-", "solid_sum / envelope"},
+        {"porosity_union", 1.0 - filled, filled_error, "-", "1 - solid_union / envelope"},
         {"density", density, density * share, "kg/m^3", "mass / envelope"},
         {"d_agg", d, d * share / 3.0, "m", "diameter of the sphere of the envelope's volume"},
     };
-    static const char *const stem[] = {"envelope", "porosity", "packing", "density", "d_agg"};
+    static const char *const stem[] = {"envelope",       "porosity", "packing",
+                                       "porosity_union", "density",  "d_agg"};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         CLX_TRY(add_envelope_row(table, stem[k], envelope->kind, &rows[k]));
     }

@@ -169,8 +169,9 @@ done:
     return status;
 }
 
-/// Depth of an overlap: exact for round pairs, else the least shift found, by halving, which takes
-/// some twenty tests; any value above `least` where the depth is not above `known`.
+/// Depth of an overlap: exact for round pairs, else the least shift found that parts them, by
+/// halving to 1e-3 of it, which takes some twenty tests; any value above `least` where the depth is
+/// not above `known`.
 static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least,
                             double known)
 {
@@ -194,7 +195,7 @@ static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, do
         const double middle = low > 1e-3 * high ? 0.5 * (low + high) : sqrt(low * high);
         *(clx_touch_overlap(a, b, middle, NULL) ? &low : &high) = middle;
     }
-    return 0.5 * (low + high);
+    return high;
 }
 
 /// Pairs as workers see them.
@@ -358,6 +359,8 @@ clast_status clast_assembly_union(const clast_assembly *assembly,
     CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clx_touch_set set = {0};
+    CLX_CHECK(options->tolerance >= 0.0, CLAST_E_ARGUMENT,
+              "union: a tolerance of %g; it must not be negative", options->tolerance);
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
     CLX_TRY(clx_touch_set_init(assembly, &set));
     CLX_TRY(union_of(assembly, &set, options, out));
@@ -387,8 +390,8 @@ clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
     clx_touch_set set = {0};
     clx_pairs pairs = {0};
     clast_assembly made = {.n_grain = assembly->n_grain}; // carries the contacts only
-    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE, "contacts: gap %g must not be negative",
-              gap);
+    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE,
+              "contacts: gap %g must be finite and not negative", gap);
     CLX_TRY(clx_touch_set_init(assembly, &set));
     CLX_TRY(clx_touch_set_within(&set, gap, &pairs));
     for (int32_t p = 0; p < pairs.n; ++p) {

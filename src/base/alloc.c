@@ -80,7 +80,8 @@ int64_t clast_memory_limit(void)
 
 int64_t clast_memory_taken(void)
 {
-    return atomic_load_explicit(&n_byte, memory_order_relaxed);
+    const int64_t n = atomic_load_explicit(&n_byte, memory_order_relaxed);
+    return n > 0 ? n : 0; // blocks of callers may go that never came
 }
 
 /// Notes that a block came (sign 1) or goes (-1).

@@ -418,12 +418,32 @@ int32_t clast_field_count(const clast_field *f, const void *config)
 
 static int format_choice(const clast_field *f, int32_t index, char *text, size_t size)
 {
-    const char *word = f->text;
+    const char *word = index >= 0 ? f->text : NULL;
     for (int32_t i = 0; i < index && word != NULL; ++i) {
         word = strchr(word, '|');
         word = word != NULL ? word + 1 : NULL;
     }
     return word == NULL ? -1 : snprintf(text, size, "%.*s", (int)strcspn(word, "|"), word);
+}
+
+static int format_text(const char *from, char *text, size_t size)
+{
+    return from == NULL ? -1 : snprintf(text, size, "%s", from);
+}
+
+/// Item `index` of a list field.
+static int format_item(const clast_field *f, const void *slot, int32_t index, char *text,
+                       size_t size)
+{
+    const clast_text_list *texts = slot;
+    const clast_f64_list *numbers = slot;
+    const bool is_text = f->type == CLAST_FIELD_TEXT_LIST;
+    const int32_t n = is_text ? texts->n : numbers->n;
+    if (index < 0 || index >= n || (is_text ? texts->item == NULL : numbers->item == NULL)) {
+        return -1;
+    }
+    return is_text ? format_text(texts->item[index], text, size)
+                   : clx_number_print(text, size, "%.17g", numbers->item[index]);
 }
 
 int clast_field_format(const clast_field *f, const void *config, int32_t index, size_t size,
@@ -447,11 +467,10 @@ int clast_field_format(const clast_field *f, const void *config, int32_t index, 
     case CLAST_FIELD_CHOICE:
         return format_choice(f, *(const int32_t *)slot, text, size);
     case CLAST_FIELD_TEXT:
-        return snprintf(text, size, "%s", *(char *const *)slot);
+        return format_text(*(char *const *)slot, text, size);
     case CLAST_FIELD_TEXT_LIST:
-        return snprintf(text, size, "%s", ((const clast_text_list *)slot)->item[index]);
     case CLAST_FIELD_F64_LIST:
-        return clx_number_print(text, size, "%.17g", ((const clast_f64_list *)slot)->item[index]);
+        return format_item(f, slot, index, text, size);
     }
     return -1;
 }

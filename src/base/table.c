@@ -36,10 +36,11 @@ clast_status clast_table_init(clast_table *table, const char *name, int64_t n_ro
 {
     CLX_ARGUMENTS(table, name);
     char *copy = NULL;
-    const clast_status status = clx_alloc_text(&copy, name);
-    if (status == CLAST_OK) {
-        *table = (clast_table){.name = copy, .n_row = n_row};
-    }
+    clast_status status = CLAST_OK;
+    CLX_CHECK(n_row >= 0, CLAST_E_ARGUMENT, "%s: %lld rows", __func__, (long long)n_row);
+    CLX_TRY(clx_alloc_text(&copy, name));
+    *table = (clast_table){.name = copy, .n_row = n_row};
+done:
     return status;
 }
 
@@ -138,6 +139,10 @@ clast_status clast_table_resize(clast_table *table, int64_t n_row)
     CLX_ARGUMENTS(table);
     CLX_WHOLE(table, table);
     const int64_t old = table->n_row;
+    if (n_row < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: table %s of %lld rows", __func__,
+                        table->name != NULL ? table->name : "", (long long)n_row);
+    }
     if (n_row <= old) {
         shorten(table, n_row);
         return CLAST_OK;

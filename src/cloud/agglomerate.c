@@ -439,14 +439,10 @@ done:
 }
 
 static clast_status check_arguments(const clast_agglomerate_input *input,
-                                    const clast_agglomerate_config *config,
-                                    const clast_agglomeration *result)
+                                    const clast_agglomerate_config *config)
 {
     clast_status status = CLAST_OK;
     static char nameless[] = "";
-    CLX_NEED(input);
-    CLX_NEED(config);
-    CLX_NEED(result);
     clast_decompose_config decompose = config->decompose;
     if (input->domain != NULL && decompose.domain == NULL) {
         decompose.domain = nameless;
@@ -455,7 +451,6 @@ static clast_status check_arguments(const clast_agglomerate_input *input,
     CLX_TRY(clast_fields_check(clast_decompose_fields, &decompose));
     CLX_CHECK(input->n_snapshot >= 1 && input->n_snapshot < INT32_MAX, CLAST_E_ARGUMENT,
               "%lld snapshots were given", (long long)input->n_snapshot);
-    CLX_NEED(input->snapshot);
     for (int64_t k = 0; k < input->n_snapshot; ++k) {
         CLX_TRY(clx_cloud_check(&input->snapshot[k]));
     }
@@ -470,12 +465,13 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                clast_agglomeration *result)
 {
     CLX_ARGUMENTS(input, config, result);
+    CLX_ARRAY(input->snapshot, input->n_snapshot);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {.range = clx_range_begin()};
     clast_decomposition first = {0};
     clx_evolution run = {.first = &first};
     columns c = {.monitor = monitor};
-    CLX_TRY(check_arguments(input, config, result));
+    CLX_TRY(check_arguments(input, config));
     const int64_t n_row = input->n_snapshot * config->n_step + 1;
     made.has_fixed = config->fixed > 0 || input->fixed_cell != NULL;
     CLX_CHECK((double)n_row * config->repeats < 0x1p31, CLAST_E_LIMIT,

@@ -156,8 +156,6 @@ static clast_status check_medium(const clast_medium *medium, uint32_t kernel)
 static clast_status check_population(const clast_population *p, const clast_collide_cells *cells)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(p);
-    CLX_NEED(cells);
     CLX_CHECK(p->n >= 0 && p->dimension >= 1 && p->dimension <= 3, CLAST_E_ARGUMENT,
               "%lld particles in %d dimensions", (long long)p->n, p->dimension);
     CLX_CHECK(p->n == 0 || (p->x != NULL && p->monomers != NULL && p->radius != NULL &&
@@ -171,6 +169,9 @@ static clast_status check_population(const clast_population *p, const clast_coll
         CLX_CHECK(cells->of_particle[i] < cells->n, CLAST_E_ARGUMENT,
                   "particle %lld lies in cell %d of %d", (long long)i + 1, cells->of_particle[i],
                   cells->n);
+        CLX_CHECK(p->monomers[i] < INT64_MAX, CLAST_E_LIMIT,
+                  "particle %lld has %lld monomers; less can be counted", (long long)i + 1,
+                  (long long)p->monomers[i]);
         CLX_CHECK(p->monomers[i] >= 0 && isfinite(p->radius[i]) && p->radius[i] >= 0.0 &&
                       isfinite(p->mass[i]) && p->mass[i] >= 0.0,
                   CLAST_E_ARGUMENT,
@@ -215,7 +216,6 @@ static clast_status check_step(const clast_population *population, const clast_c
                                double dt, uint64_t step, const clast_collide_config *config)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(config);
     CLX_CHECK(step < UINT64_C(1) << 32, CLAST_E_ARGUMENT, "step %llu is beyond 2^32",
               (unsigned long long)step);
     CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_ARGUMENT, "the time step is %g", dt);
@@ -226,6 +226,40 @@ static clast_status check_step(const clast_population *population, const clast_c
     CLX_CHECK((clast_kernel_needs(config->kernel) & CLAST_NEEDS_VELOCITY) == 0 ||
                   population->velocity != NULL,
               CLAST_E_CONFIG, "kernel ballistic needs the particles' velocities");
+done:
+    return status;
+}
+
+/// Whether all particles of any cell are few enough monomers to be one; parcels, which take up
+/// others' without end, are looked at after the step.
+static clast_status check_monomers(const step_context *s)
+{
+    clast_status status = CLAST_OK;
+    const clast_population *p = s->population;
+    for (int32_t c = 0; c < s->cells->n && p->weight == NULL; ++c) {
+        int64_t left = INT64_MAX - 1;
+        for (int64_t k = s->start[c]; k < s->start[c + 1]; ++k) {
+            const int64_t n = p->monomers[s->scratch.order[k]];
+            CLX_CHECK(n <= left, CLAST_E_LIMIT,
+                      "the particles of cell %d have 2^63 monomers or more, too many for one "
+                      "aggregate; count in a larger unit (count_unit)",
+                      c);
+            left -= n;
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status check_parcels(const clast_population *p)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < p->n && p->weight != NULL; ++i) {
+        CLX_CHECK(p->monomers[i] < INT64_MAX, CLAST_E_LIMIT,
+                  "particle %lld has come to have 2^63 monomers or more; take shorter time steps, "
+                  "or count in a larger unit (count_unit)",
+                  (long long)i + 1);
+    }
 done:
     return status;
 }
@@ -255,6 +289,7 @@ static clast_status run_step(step_context *s, int64_t *total)
                   c, KIND_LIMIT);
         sum += s->n_event[c];
     }
+    CLX_TRY(check_parcels(s->population));
     for (int32_t c = 0; c < s->cells->n && s->cells->events != NULL; ++c) {
         s->cells->events[c] = s->n_real[c];
     }
@@ -291,6 +326,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
     CLX_TRY(clx_alloc(&s.n_real, cells->n, sizeof *s.n_real));
     CLX_TRY(clx_alloc(&s.is_too_many, cells->n, sizeof *s.is_too_many));
     sort_by_cell(&s);
+    CLX_TRY(check_monomers(&s));
     CLX_TRY(run_step(&s, n_event));
 done:
     clx_free(s.scratch.order);

@@ -186,12 +186,9 @@ static void integrate(const clast_domain *d, int32_t n, const double *radius, do
 clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n, const double *radius,
                                  double *share, double *error)
 {
-    clast_status status = clx_domain_check(domain);
-    if (status != CLAST_OK) {
-        return status;
-    }
-    CLX_NEED(radius);
-    CLX_NEED(share);
+    CLX_ARGUMENTS(domain, radius, share);
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_domain_check(domain));
     CLX_CHECK(n >= 1, CLAST_E_ARGUMENT, "%d radii", n);
     for (int32_t i = 0; i < n; ++i) {
         CLX_CHECK(isfinite(radius[i]) && radius[i] > (i > 0 ? radius[i - 1] : 0.0),

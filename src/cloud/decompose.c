@@ -622,7 +622,6 @@ static clast_status check_call(const clast_comm *comm, const clast_domain *domai
                                const clast_cloud *cloud, const clast_decompose_config *config)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(config);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
     CLX_TRY(clx_decompose_check(domain, cloud, config));
 done:
@@ -640,7 +639,6 @@ clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *d
     clx_sample m = {0};
     clast_cloud own;
     double none = 1.0;
-    CLX_NEED(result);
     CLX_TRY(clast_comm_agree(all, check_call(all, domain, cloud, config), NULL));
     own = *cloud;
     CLX_TRY(agree_on(all, "weights", own.n, &none, &own.weight));
@@ -660,6 +658,7 @@ done:
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
+    CLX_ARGUMENTS(domain, cloud, config, result);
     return clast_decompose_ranks(NULL, domain, cloud, config, result);
 }
 

@@ -148,10 +148,7 @@ clast_status clast_domain_parse_in(const char *text, double factor, clast_domain
                  {"cylinder:", CLAST_DOMAIN_CYLINDER, set_cylinder},
                  {"half-pipe:", CLAST_DOMAIN_HALF_PIPE, set_half_pipe},
                  {"sphere:", CLAST_DOMAIN_SPHERE, set_sphere}};
-    if (text == NULL || domain == NULL) {
-        return clx_fail(CLAST_E_ARGUMENT, "clast_domain_parse: %s is NULL",
-                        text == NULL ? "text" : "domain");
-    }
+    CLX_ARGUMENTS(text, domain);
     if (!(factor > 0.0) || !isfinite(factor)) {
         return clx_fail(CLAST_E_ARGUMENT, "clast_domain_parse_in: the unit is %g m", factor);
     }
@@ -173,6 +170,7 @@ clast_status clast_domain_parse_in(const char *text, double factor, clast_domain
 
 clast_status clast_domain_parse(const char *text, clast_domain *domain)
 {
+    CLX_ARGUMENTS(text, domain);
     return clast_domain_parse_in(text, 1.0, domain);
 }
 

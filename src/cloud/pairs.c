@@ -452,7 +452,6 @@ static clast_status check(const clast_domain *domain, const clast_cloud *cloud, 
                           const clast_pairs_config *config)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(config);
     CLX_TRY(clx_domain_check(domain));
     CLX_TRY(clx_cloud_check(cloud));
     CLX_TRY(clast_fields_check(clast_pairs_fields, config));
@@ -481,7 +480,6 @@ clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
     job w = {.comm = comm, .domain = domain, .cloud = cloud};
     int64_t before = 0;
     int64_t n = 0;
-    CLX_ARGUMENTS(cloud, pairs);
     CLX_TRY(clx_comm_before(comm, cloud->n, &before, &n));
     CLX_TRY(clast_comm_agree(comm, check(domain, cloud, before, config), NULL));
     CLX_TRY(select_points(config, &w));
@@ -514,6 +512,7 @@ done:
 clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
                                const clast_pairs_config *config, clast_pairs *pairs)
 {
+    CLX_ARGUMENTS(domain, cloud, config, pairs);
     return clx_pairs_count(clast_comm_one(), domain, cloud, config, NULL, pairs);
 }
 

@@ -28,11 +28,19 @@ clast_collider clx_population_collider(const clast_population *p, int64_t i)
     return seen;
 }
 
+/// Monomers of two particles together; INT64_MAX, which no particle begins with, stands for more.
+static int64_t joined(const clast_population *p, int64_t i, int64_t j)
+{
+    CLAST_ASSERT(p->monomers[i] >= 0 && p->monomers[j] >= 0);
+    return p->monomers[i] > INT64_MAX - p->monomers[j] ? INT64_MAX
+                                                       : p->monomers[i] + p->monomers[j];
+}
+
 static double merged_radius(const clast_population *p, const clast_collide_config *c, int64_t i,
                             int64_t j)
 {
     if (c->radius_law != CLAST_RADIUS_VOLUME) {
-        const double n = (double)(p->monomers[i] + p->monomers[j]);
+        const double n = (double)joined(p, i, j);
         return clx_aggregate_radius(c, c->count_unit > 0.0 ? c->count_unit * n : n);
     }
     const double a = p->radius[i];
@@ -57,7 +65,7 @@ static void take_up(clast_population *p, const clast_collide_config *c, int64_t 
     if (p->speed_rms != NULL) { // independent fluctuations of the two momenta
         p->speed_rms[live] = hypot((1.0 - share) * p->speed_rms[live], share * p->speed_rms[other]);
     }
-    p->monomers[live] += p->monomers[other];
+    p->monomers[live] = joined(p, live, other);
     p->mass[live] = mass;
 }
 

@@ -134,6 +134,7 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
 {
     clast_status status = CLAST_OK;
     map_context context = {.cloud = cloud, .sample = s};
+    const bool is_named = config->domain != NULL && config->domain[0] != '\0';
     int64_t before = 0;
     int64_t total = 0;
     CLX_TRY(clx_comm_before(s->comm, cloud->n, &before, &total));
@@ -153,8 +154,8 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
     CLX_CHECK(s->n_outside_all == 0 || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
               "%lld of %lld points lie outside the domain%s%s; give the true domain, or leave them "
               "out with --outside drop",
-              (long long)s->n_outside_all, (long long)total, config->domain != NULL ? " " : "",
-              config->domain != NULL ? config->domain : "");
+              (long long)s->n_outside_all, (long long)total, is_named ? " " : "",
+              is_named ? config->domain : "");
 done:
     return status;
 }

@@ -392,7 +392,6 @@ clast_status clast_spacing_ranks(const clast_comm *comm, const double *u, int64_
 {
     CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
-    CLX_NEED(result);
     const clast_comm *all = clx_comm_or_one(comm);
     CLX_CHECK(clx_comm_has_sums(all), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
     CLX_TRY(clast_comm_agree(all, clx_cube_check(u, n, d, 0, "a test of spacing"), NULL));
@@ -407,5 +406,6 @@ done:
 
 clast_status clast_spacing_test(const double *u, int64_t n, int32_t d, clast_spacing *result)
 {
+    CLX_ARGUMENTS(u, result);
     return clast_spacing_ranks(NULL, u, n, d, result);
 }

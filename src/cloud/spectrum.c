@@ -84,13 +84,9 @@ done:
     return status;
 }
 
-static clast_status check(const clast_spectrum_config *config, const clast_collide_config *collide,
-                          const clast_spectrum *result)
+static clast_status check(const clast_spectrum_config *config, const clast_collide_config *collide)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(config);
-    CLX_NEED(collide);
-    CLX_NEED(result);
     CLX_TRY(clast_fields_check(clast_spectrum_fields, config));
     CLX_CHECK(config->duration > 0.0 && isfinite(config->duration) && config->n_step > 0 &&
                   config->repeats > 0,
@@ -439,13 +435,14 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
                                    const clast_collide_config *collide,
                                    const clast_monitor *monitor, clast_spectrum *result)
 {
+    CLX_ARGUMENTS(config, collide, result);
     clast_status status = CLAST_OK;
     clx_start start = {0};
     clx_sectional grid = {0};
     clx_spectrum_sums sums = {0};
     clast_spectrum made = {
         .gel_time = (double)NAN, .exact_gel_time = (double)NAN, .range = clx_range_begin()};
-    CLX_TRY(check(config, collide, result));
+    CLX_TRY(check(config, collide));
     CLX_TRY(clx_start_begin(config, start_table, &start));
     start.monitor = monitor;
     made.law_M1 = clx_start_moment(&start, 1);
@@ -454,6 +451,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
                                                                pow(collide->monomer_radius, 3.0)
                                                          : (double)NAN;
     CLX_TRY(make_grid(&start, &grid));
+    CLAST_ASSERT(grid.x != NULL && grid.n > 0);
     CLX_TRY(make_sums(config->n_step + 1, grid.n, &sums));
     if (config->solver == CLAST_SOLVER_SECTIONAL) {
         CLX_TRY(solve(&start, collide, &grid, &sums, &made));

@@ -200,7 +200,6 @@ done:
 static clast_status check_sides(const double side[3], int32_t d)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(side);
     for (int32_t j = 0; j < d; ++j) {
         CLX_CHECK(side[j] > 0.0 && isfinite(side[j]), CLAST_E_ARGUMENT,
                   "side %d of the domain is %g", j, side[j]);

@@ -100,7 +100,6 @@ static clast_status check_points(const clast_points *p)
 {
     clast_status status = CLAST_OK;
     const int64_t most = INT64_C(1) << 40; // doubles between two points, or two coordinates
-    CLX_NEED(p);
     CLX_CHECK(p->dimension >= 1 && p->dimension <= 3, CLAST_E_ARGUMENT,
               "points have 1, 2 or 3 dimensions, not %d", p->dimension);
     CLX_CHECK(p->n >= 0, CLAST_E_ARGUMENT, "%lld points", (long long)p->n);
@@ -394,14 +393,12 @@ clast_status clast_workspace_decompose_in(clast_workspace *workspace, const clas
                                           const clast_decompose_config *config,
                                           const clast_decomposition **result)
 {
+    CLX_ARGUMENTS(workspace, domain, points, config, result);
     clast_status status = CLAST_OK;
     call c = {
         .workspace = workspace, .config = config, .moved = (double)NAN, .p_change = (double)NAN};
     clx_pool *before = NULL;
     bool is_in = false;
-    CLX_NEED(workspace);
-    CLX_NEED(config);
-    CLX_NEED(result);
     CLX_TRY(check_points(points));
     CLX_TRY(clx_decompose_check(domain, &(clast_cloud){.dimension = points->dimension}, config));
     CLX_TRY(check_policy(&workspace->policy, config));
@@ -503,7 +500,6 @@ static clast_status check_output(const clast_workspace *workspace, const void *o
                                  int64_t stride)
 {
     clast_status status = CLAST_OK;
-    CLX_NEED(workspace);
     CLX_CHECK(workspace->n_point >= 0, CLAST_E_USAGE, "the workspace holds no decomposition yet");
     CLX_CHECK(workspace->n_point == 0 || output != NULL, CLAST_E_ARGUMENT,
               "%lld points, and the array to write is NULL", (long long)workspace->n_point);

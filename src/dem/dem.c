@@ -211,12 +211,24 @@ done:
     return status;
 }
 
-void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
+clast_status clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 {
-    if (dem == NULL) {
-        return;
-    }
+    CLX_ARGUMENTS(dem, drive);
+    clast_status status = CLAST_OK;
+    const double w = 2.0 * CLAST_PI / drive->shake_period;
+    CLX_CHECK(drive->shake_amplitude >= 0.0 && isfinite(drive->shake_amplitude) &&
+                  drive->shake_period >= 0.0 && isfinite(drive->shake_period),
+              CLAST_E_ARGUMENT,
+              "drive: shaken by %g m with a period of %g s; both must be finite and not negative",
+              drive->shake_amplitude, drive->shake_period);
+    CLX_CHECK(drive->shake_amplitude == 0.0 || isfinite(drive->shake_amplitude * w * w),
+              CLAST_E_ARGUMENT, "drive: shaken by %g m with a period of %g s; give a longer one",
+              drive->shake_amplitude, drive->shake_period);
+    CLX_CHECK(drive->damping >= 0.0 && drive->damping <= 1.0, CLAST_E_ARGUMENT,
+              "drive: velocities keep %g a second; give 0 to 1, 1 for no damping", drive->damping);
     dem->drive = *drive;
+done:
+    return status;
 }
 
 // A step, in the order in which it happens:
@@ -270,6 +282,9 @@ done:
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
+    if (n_step < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: %lld steps", __func__, (long long)n_step);
+    }
     const clast_status status = clx_dem_step_packed(dem, n_step);
     clx_inner_unpack(dem);
     return status;
@@ -301,7 +316,7 @@ double clast_dem_time(const clast_dem *dem)
 
 void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain)
 {
-    if (dem == NULL || grain == NULL) {
+    if (dem == NULL || grain == NULL || i < 0 || i >= dem->n_grain) {
         return;
     }
     const clx_grain *g = &dem->grain[i];

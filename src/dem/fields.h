@@ -12,7 +12,7 @@
      0,                                                                                            \
      0,                                                                                            \
      "-",                                                                                          \
-     "container, its sides; cell: periodic in x, y and z (height)",                                \
+     "container, its sides; cell: periodic in x, y and z (height); open: container alone",         \
      "cylinder|periodic|box|open|cell",                                                            \
      .common = true},                                                                              \
         {CLX_DEM_AT(TYPE, IN, width, F64),                                                         \

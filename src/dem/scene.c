@@ -97,7 +97,7 @@ clast_status clast_dem_scene_p1(const clast_scene_bed *bed, clast_dem **dem)
         place(bed, i, size, &grain[i]);
     }
     CLX_TRY(clast_dem_add_grains(made, bed->n, grain));
-    clast_dem_set_drive(made, &(clast_dem_drive){3e-4, 0.025, 1.0});
+    CLX_TRY(clast_dem_set_drive(made, &(clast_dem_drive){3e-4, 0.025, 1.0}));
     *dem = made;
     made = NULL;
 done:

@@ -418,6 +418,8 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     CLX_CHECK(v3_norm2(motion->axis) == 0.0 || v3_is_unit(motion->axis, 1e-9), CLAST_E_USAGE,
               "the axis of wall %d has not length 1", wall);
     CLX_CHECK(is_finite_motion(motion), CLAST_E_USAGE, "the motion of wall %d is not finite", wall);
+    CLX_CHECK(motion->period >= 0.0, CLAST_E_USAGE, "wall %d moves with a period of %g s; 0: none",
+              wall, motion->period);
     for (int32_t i = 1; i < motion->n; ++i) {
         CLX_CHECK(motion->time[i] > motion->time[i - 1], CLAST_E_USAGE,
                   "times of wall %d do not rise in row %d", wall, i + 1);

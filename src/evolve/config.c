@@ -341,13 +341,16 @@ done:
     return status;
 }
 
-/// Whether what the caller gave holds together.
+/// Whether what the caller of clast_evolve_create gave holds together.
 static clast_status check_input(const clast_evolve_input *input)
 {
-    CLX_ARGUMENTS(input->domain);
-    CLX_ARRAY(input->shape, input->n_shape);
+    static const char caller[] = "clast_evolve_create";
+    const void *const domain[] = {input->domain};
+    CLX_GUARD(clx_given(caller, "input->domain", domain, 1));
+    CLX_GUARD(
+        clx_array_given(caller, "input->shape", input->shape, "input->n_shape", input->n_shape));
     for (int32_t i = 0; i < input->n_shape; ++i) {
-        CLX_WHOLE(assembly, &input->shape[i]);
+        CLX_GUARD(clx_fault_given(caller, "input->shape", clx_assembly_fault(&input->shape[i])));
     }
     CLX_GUARD(clx_domain_check(input->domain));
     CLX_GUARD(input->release != NULL ? clx_domain_check(input->release) : CLAST_OK);

@@ -154,7 +154,7 @@ double clast_bvh_closest(const clast_bvh *bvh, const double point[3], double max
 
 double clast_bvh_signed_distance(const clast_bvh *bvh, const double point[3])
 {
-    if (bvh == NULL || point == NULL) {
+    if (bvh == NULL || point == NULL || isnan(point[0]) || isnan(point[1]) || isnan(point[2])) {
         return (double)NAN;
     }
     const double d = clast_bvh_closest(bvh, point, INFINITY, NULL, NULL);

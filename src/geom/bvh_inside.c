@@ -123,7 +123,7 @@ static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool
 
 bool clast_bvh_inside(const clast_bvh *bvh, const double point[3])
 {
-    if (bvh == NULL || point == NULL) {
+    if (bvh == NULL || point == NULL || !v3_is_finite(point)) {
         return false;
     }
     if (bvh->rule == CLX_BVH_SOLID_ANGLE) {

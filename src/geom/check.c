@@ -276,6 +276,26 @@ done:
     return status;
 }
 
+clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    clx_cuts cuts = {0};
+    clast_mesh_check_result made = {0};
+    if (clx_is_star_shaped(mesh)) { // most grains, in a tenth of the time
+        *doubles = (clx_doubles){0};
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_check_parts(mesh, &topology, &made));
+    CLX_TRY(clx_mesh_cuts(mesh, &cuts));
+    *doubles = (clx_doubles){made.n_part, made.n_doubled, cuts.n_pair};
+done:
+    clast_mesh_check_free(&made);
+    clx_topology_free(&topology);
+    return status;
+}
+
 void clast_mesh_check_free(clast_mesh_check_result *result)
 {
     if (result == NULL) {

@@ -23,6 +23,27 @@ clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *top
 clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
                              clast_mesh_check_result *result);
 
+/// +1 where the part runs as its outermost does (which is taken to be outward), -1 where it runs
+/// against it, 0 for a part that is open or without volume.
+int clx_part_facing(const clast_mesh_check_result *result, int32_t part);
+
+/// Whether all triangles are seen from the mean of the vertices, from behind and once in each
+/// direction: then no two cut each other. False is no answer.
+bool clx_is_star_shaped(const clast_mesh *mesh);
+
+/// What makes a surface's volume count a region twice.
+typedef struct clx_doubles {
+    int32_t n_part, n_doubled; ///< as in clast_mesh_check_result
+    int64_t n_intersection;
+} clx_doubles;
+
+/// The counts of clast_mesh_check alone, in less than its time, of a closed surface. n_part is 0
+/// where the surface is star-shaped and nothing had to be counted.
+clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles);
+
+/// "1 of its 2 parts counts twice in its volume ...", or of cuts; "" where each region counts once.
+void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text);
+
 /// Volumes and areas, each in two ways.
 void clx_check_measures(const clast_mesh *mesh, clast_mesh_check_result *result);
 

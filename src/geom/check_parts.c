@@ -1,13 +1,16 @@
-// Connected parts of a surface: counts, genus, volume, and which lies in which.
+// Connected parts of a surface: counts, genus, volume, which lies in which, and how often each
+// counts.
 #include "geom/check.h"
 
 #include "base/alloc.h"
 #include "geom/topology.h"
 #include "geom/tree.h"
+#include "math/rng.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void add_triangles(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)
 {
@@ -127,6 +130,32 @@ static double solid_angle(const double p[3], const double a[3], const double b[3
     return 2.0 * atan2(v3_dot(u, n), below);
 }
 
+bool clx_is_star_shaped(const clast_mesh *mesh)
+{
+    double low[3];
+    double high[3];
+    double middle[3] = {0};
+    double sum = 0.0;
+    clast_mesh_bounds(mesh, low, high);
+    const double extent = v3_distance(low, high);
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        v3_axpy(middle, middle, 1.0 / mesh->n_vert, mesh->vert[v]);
+    }
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        double corner[3][3];
+        double n[3];
+        for (int k = 0; k < 3; ++k) {
+            v3_sub(corner[k], mesh->vert[mesh->tri[t][k]], middle);
+        }
+        v3_cross(n, corner[1], corner[2]);
+        if (!(v3_dot(corner[0], n) > 1e-14 * extent * extent * extent)) {
+            return false;
+        }
+        sum += solid_angle((double[3]){0}, corner[0], corner[1], corner[2]);
+    }
+    return sum < 6.0 * CLAST_PI;
+}
+
 typedef struct {
     const clast_mesh *mesh;
     const int32_t *first; ///< [n_part + 1] triangles of each part
@@ -163,6 +192,49 @@ static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
     return votes >= 2;
 }
 
+/// A number of a part's triangles in any order, alike for copies.
+static uint64_t hash_part(const part_lists *lists, int32_t part)
+{
+    uint64_t sum = 0;
+    for (int32_t i = lists->first[part]; i < lists->first[part + 1]; ++i) {
+        uint64_t triangle = 0;
+        for (int c = 0; c < 3; ++c) {
+            uint64_t corner = 0;
+            for (int k = 0; k < 3; ++k) {
+                const double x = lists->mesh->vert[lists->mesh->tri[lists->tri[i]][c]][k] + 0.0;
+                uint64_t bits = 0;
+                memcpy(&bits, &x, sizeof bits);
+                corner = clx_mix(corner ^ bits);
+            }
+            triangle += corner;
+        }
+        sum += clx_mix(triangle);
+    }
+    return sum;
+}
+
+/// The same triangles again, with vertices of their own: of two copies the later lies in the other.
+static bool is_copy(const part_lists *lists, const clast_mesh_part *list, int32_t inner,
+                    int32_t outer)
+{
+    return inner > outer && list[inner].n_triangle == list[outer].n_triangle &&
+           v3_distance(list[inner].low, list[outer].low) == 0.0 &&
+           v3_distance(list[inner].high, list[outer].high) == 0.0 &&
+           hash_part(lists, inner) == hash_part(lists, outer);
+}
+
+static bool is_within(const part_lists *lists, const clast_mesh_part *list, int32_t inner,
+                      int32_t outer)
+{
+    if (!box_in_box(&list[inner], &list[outer])) {
+        return false;
+    }
+    if (is_copy(lists, list, inner, outer) || is_copy(lists, list, outer, inner)) {
+        return inner > outer;
+    }
+    return lies_in(lists, inner, outer);
+}
+
 /// Of all parts around one, the outermost has the largest volume.
 static void keep_outermost(clast_mesh_part *list, int32_t inner, int32_t outer)
 {
@@ -171,6 +243,18 @@ static void keep_outermost(clast_mesh_part *list, int32_t inner, int32_t outer)
     if (known < 0 || fabs(list[outer].volume) > fabs(list[known].volume)) {
         list[inner].outermost = outer;
     }
+}
+
+static int sign(double x)
+{
+    return (x > 0.0) - (x < 0.0);
+}
+
+int clx_part_facing(const clast_mesh_check_result *result, int32_t part)
+{
+    const clast_mesh_part *p = &result->part[part];
+    const clast_mesh_part *outermost = p->outermost >= 0 ? &result->part[p->outermost] : p;
+    return p->closed && p->oriented ? sign(p->volume) * sign(outermost->volume) : 0;
 }
 
 /// Tree of the boxes of parts that can contain others.
@@ -215,9 +299,9 @@ static void find_depth(const part_lists *lists, const clx_tree *tree, clast_mesh
         }
         for (int32_t i = 0; holds && node->right == 0 && i < node->count; ++i) {
             const int32_t outer = tree->item[node->first + i];
-            if (outer != inner && box_in_box(&list[inner], &list[outer]) &&
-                lies_in(lists, inner, outer)) {
+            if (outer != inner && is_within(lists, list, inner, outer)) {
                 ++list[inner].depth;
+                list[inner].winding += sign(list[outer].volume);
                 keep_outermost(list, inner, outer);
             }
         }
@@ -255,6 +339,22 @@ done:
     return status;
 }
 
+/// Windings, from the signs of the parts around each to those against the outermost, and what they
+/// say.
+static void count_nested(clast_mesh_check_result *result)
+{
+    for (int32_t i = 0; i < result->n_part; ++i) {
+        clast_mesh_part *p = &result->part[i];
+        const int facing = clx_part_facing(result, i);
+        const int around = p->outermost >= 0 ? sign(result->part[p->outermost].volume) : 1;
+        p->winding = facing != 0 ? around * p->winding + facing : 0;
+        p->inside_out = p->closed && p->oriented && p->depth == 0 && p->volume < 0.0;
+        result->n_inside_out += p->inside_out;
+        result->n_nested += p->closed && p->depth > 0;
+        result->n_doubled += (facing > 0 && p->winding > 1) || (facing < 0 && p->winding < 0);
+    }
+}
+
 clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
                              clast_mesh_check_result *result)
 {
@@ -272,12 +372,9 @@ clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topolog
     add_edges(mesh, topology, part, result->part);
     CLX_TRY(add_genus(mesh, topology, part, result->n_part, result->part));
     CLX_TRY(find_depths(mesh, part, result->n_part, result->part));
+    count_nested(result);
     for (int32_t i = 0; i < result->n_part; ++i) {
-        clast_mesh_part *p = &result->part[i];
-        p->inside_out = p->closed && p->oriented && p->depth == 0 && p->volume < 0.0;
-        result->n_inside_out += p->inside_out;
-        result->n_nested += p->closed && p->depth > 0;
-        result->genus += p->genus > 0 ? p->genus : 0;
+        result->genus += result->part[i].genus > 0 ? result->part[i].genus : 0;
     }
 done:
     clx_free(part);

@@ -75,6 +75,28 @@ static void edge_words(clast_mesh_check_result *r)
     }
 }
 
+static void nested_words(clast_mesh_check_result *r)
+{
+    int32_t n_cavity = 0;
+    for (int32_t i = 0; i < r->n_part; ++i) {
+        n_cavity += r->part[i].depth > 0 && clx_part_facing(r, i) < 0 && r->part[i].winding >= 0;
+    }
+    const int32_t n_once = r->n_nested - r->n_doubled;
+    if (n_once > 0) {
+        add(r, false, "nested_parts",
+            "%d of %d parts lie%s inside another: %d wound inward (cavities), %d outward in a "
+            "cavity (islands)",
+            n_once, r->n_part, n_once == 1 ? "s" : "", n_cavity, n_once - n_cavity);
+    }
+    if (r->n_doubled > 0) {
+        add(r, false, "doubled_parts",
+            "%d of %d parts count%s twice in the volume: wound outward in a solid, or inward "
+            "outside of one%s",
+            r->n_doubled, r->n_part, r->n_doubled == 1 ? "s" : "",
+            r->n_intersection == 0 ? "; `clast mesh repair` drops what bounds nothing" : "");
+    }
+}
+
 static void part_words(clast_mesh_check_result *r)
 {
     if (r->n_inside_out > 0) {
@@ -82,17 +104,7 @@ static void part_words(clast_mesh_check_result *r)
             "%d of %d parts %s inside out (negative volume); run `clast mesh repair`",
             r->n_inside_out, r->n_part, r->n_inside_out == 1 ? "is" : "are");
     }
-    if (r->n_nested > 0) {
-        int32_t n_cavity = 0;
-        for (int32_t i = 0; i < r->n_part; ++i) {
-            const clast_mesh_part *p = &r->part[i];
-            n_cavity += p->closed && p->depth > 0 && p->volume < 0.0;
-        }
-        add(r, false, "nested_parts",
-            "%d of %d parts lie%s inside another: %d wound inward (cavities), %d outward (their "
-            "volume counts twice)",
-            r->n_nested, r->n_part, r->n_nested == 1 ? "s" : "", n_cavity, r->n_nested - n_cavity);
-    }
+    nested_words(r);
 }
 
 static void facet_words(clast_mesh_check_result *r)
@@ -129,6 +141,22 @@ static void facet_words(clast_mesh_check_result *r)
             "twice",
             r->intersection_complete ? "" : "at least ", (long long)r->n_intersection,
             s(r->n_intersection), r->intersection[0], r->intersection[1]);
+    }
+}
+
+void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
+{
+    text[0] = '\0';
+    if (doubles->n_intersection > 0) {
+        (void)snprintf(text, size,
+                       "it cuts itself at %lld pair%s of triangles; its volume counts overlaps "
+                       "twice",
+                       (long long)doubles->n_intersection, s(doubles->n_intersection));
+    } else if (doubles->n_doubled > 0) {
+        (void)snprintf(text, size,
+                       "%d of its %d parts count%s twice in its volume (wound outward in a solid, "
+                       "or inward outside of one)",
+                       doubles->n_doubled, doubles->n_part, doubles->n_doubled == 1 ? "s" : "");
     }
 }
 

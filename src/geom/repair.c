@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "geom/check.h"
+#include "geom/intersect.h"
 #include "geom/topology.h"
 #include "geom/weld.h"
 #include "geom/whole.h"
@@ -36,6 +37,9 @@ const clast_field clast_mesh_repair_fields[] = {
     {FIELD(F64, fill_size), 1.0, 0.0, 1.0, "-", "largest hole to fill, times the extent", NULL},
     {FIELD(BOOL, separate), 1.0, 0, 1, "-",
      "give surfaces that touch in an edge or vertex their own vertices", NULL},
+    {FIELD(BOOL, unite), 1.0, 0, 1, "-",
+     "drop nested parts that bound nothing: outward ones in a solid, inward ones outside of it",
+     NULL},
     {FIELD(CHOICE, keep), CLAST_KEEP_ALL, 0, 0, "-",
      "parts to keep: all, or the one of the largest volume with its cavities", "all|largest"},
     {0}};
@@ -136,6 +140,52 @@ done:
     return status;
 }
 
+/// Solid on both sides of the part, or on neither.
+static bool bounds_nothing(const clast_mesh_check_result *found, int32_t part)
+{
+    const int facing = clx_part_facing(found, part);
+    const int32_t inside = found->part[part].winding;
+    return facing != 0 && (inside > 0) == (inside - facing > 0);
+}
+
+/// Drops what has the solid on both sides, or on none: the surface of the union is left. Parts that
+/// cut each other stay, since they are in and out.
+static clast_status unite(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    clast_mesh_check_result found = {0};
+    clx_cuts cuts = {0};
+    int32_t *part = NULL;
+    bool *mark = NULL;
+    int32_t n_part = 0;
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_check_parts(mesh, &topology, &found));
+    if (found.n_doubled == 0) {
+        goto done;
+    }
+    CLX_TRY(clx_mesh_cuts(mesh, &cuts));
+    if (cuts.n_pair > 0 || !cuts.complete) {
+        goto done;
+    }
+    CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    CLX_TRY(clx_topology_parts(&topology, mesh->n_tri, part, &n_part));
+    for (int32_t i = 0; i < n_part; ++i) {
+        report->n_part_dropped += bounds_nothing(&found, i);
+    }
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        mark[t] = part[t] >= 0 && bounds_nothing(&found, part[t]);
+    }
+    (void)clx_drop_marked(mesh, mark);
+done:
+    clx_topology_free(&topology);
+    clast_mesh_check_free(&found);
+    clx_free(part);
+    clx_free(mark);
+    return status;
+}
+
 /// Keeps the part of the largest volume (area, where none is closed) and the cavities in it.
 static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
@@ -159,7 +209,7 @@ static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *rep
                                 : p->closed;
         best = larger ? i : best;
     }
-    report->n_part_dropped = n_part;
+    report->n_part_dropped += n_part;
     for (int32_t i = 0; i < n_part; ++i) {
         const clast_mesh_part *p = &found.part[i];
         report->n_part_dropped -= i == best || (p->outermost == best && p->volume < 0.0);
@@ -269,6 +319,9 @@ static clast_status take_steps(clast_mesh *mesh, const clast_mesh_repair_config 
     }
     for (int32_t t = 0; t < n_known; ++t) {
         report->n_turned += turned[t];
+    }
+    if (config->unite) {
+        CLX_TRY(unite(mesh, report));
     }
     if (config->keep == CLAST_KEEP_LARGEST) {
         CLX_TRY(keep_largest(mesh, report));

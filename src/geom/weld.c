@@ -375,7 +375,8 @@ clast_status clast_mesh_weld(const clast_mesh *mesh, double tolerance, clast_mes
     int32_t *map = NULL;
     int32_t n_dropped = 0;
     int32_t n = 0;
-    CLX_CHECK(tolerance >= 0.0, CLAST_E_USAGE, "weld tolerance %g is negative", tolerance);
+    CLX_CHECK(tolerance >= 0.0 && isfinite(tolerance), CLAST_E_USAGE,
+              "weld tolerance %g must be finite and not negative", tolerance);
     CLX_TRY(clx_alloc(&map, mesh->n_vert, sizeof *map));
     const clx_weld_rule rule = {.tolerance = tolerance * clx_mesh_extent(mesh)};
     CLX_TRY(clx_weld_map(mesh, &rule, map));

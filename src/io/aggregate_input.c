@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
+#include "geom/check.h"
 #include "io/config_files.h"
 #include "io/shape_word.h"
 #include "io/size_columns.h"
@@ -19,18 +20,26 @@
 static const double NOWHERE[3] = {0.0, 0.0, 0.0};
 static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
 
-/// Whether the surface bounds a solid; says what is wrong and what to run.
+/// Whether the surface bounds a solid whose volume counts once; says what is wrong and what to run.
 static clast_status check_surface(const char *path, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
-    clast_mesh_check_result found = {0};
+    clx_doubles found = {0};
+    char words[200];
+    char cure[400] = "";
     CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
-    CLX_TRY(clast_mesh_check(mesh, &found));
+    CLX_TRY(clx_find_doubles(mesh, &found));
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
               "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",
               path, (long long)found.n_intersection);
+    if (found.n_doubled > 0) {
+        clx_doubles_words(&found, sizeof words, words);
+        CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
+        status = clx_fail(CLAST_E_GEOMETRY, "%s: %s; drop %s: %s, or --accept-faults", path, words,
+                          found.n_doubled == 1 ? "it" : "them",
+                          cure[0] != '\0' ? cure : "see clast mesh check");
+    }
 done:
-    clast_mesh_check_free(&found);
     return status;
 }
 

@@ -155,6 +155,7 @@ static json_t *one_repeat(const clast_aggregate_result *r)
     (void)json_object_set_new(object, "n_particle", json_integer(r->n_particle));
     (void)json_object_set_new(object, "n_contact", json_integer(r->n_contact));
     (void)json_object_set_new(object, "n_cluster", json_integer(r->n_cluster));
+    (void)json_object_set_new(object, "n_grain_all", json_integer(r->n_grain_all));
     (void)json_object_set_new(object, "n_lost", json_integer(r->n_lost));
     (void)json_object_set_new(object, "permeable",
                               json_string(clast_permeable_range_text(r->permeable)));
@@ -177,7 +178,8 @@ static void add_totals(const clast_aggregate_report *report, bool times, json_t 
     clast_aggregate_result sum = {0};
     for (int32_t i = 0; i < report->n; ++i) {
         const clast_aggregate_result *r = &report->result[i];
-        sum.max_overlap = fmax(sum.max_overlap, r->max_overlap);
+        sum.max_overlap =
+            isnan(r->max_overlap) ? (double)NAN : fmax(sum.max_overlap, r->max_overlap);
         sum.n_lost += r->n_lost;
         sum.wall_s += r->wall_s;
         sum.contact_s += r->contact_s;
@@ -196,7 +198,11 @@ static json_t *whole(const clast_aggregate_report *report, bool times, double *v
 {
     json_t *object = json_object();
     json_t *repeats = json_array();
+    char scope[512];
     (void)json_object_set_new(object, "n_repeat", json_integer(report->n));
+    if (clast_aggregate_report_scope(report, sizeof scope, scope)[0] != '\0') {
+        (void)json_object_set_new(object, "scope", json_string(scope));
+    }
     for (int i = 0; i < N_NUMBER; ++i) {
         set_number(object, numbers[i].name, interval(report, numbers[i].read, 0, value).mean);
     }

@@ -4,11 +4,10 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
-#include "cloud/columns.h"
+#include "io/curve_columns.h"
 #include "io/size_columns.h"
 #include <clast/field.h>
 #include <clast/table.h>
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,80 +27,18 @@ typedef struct {
     const char *name; ///< of the file, for messages
     sieve_row *row;   ///< [n] ascending
     int32_t n;
-    bool is_passing;
+    clx_curve_kind kind;
     char unit[32]; ///< of the values
     double *sieve, *mass;
 } curve_reader;
-
-/// Whether a column's name is this word, alone or followed by its unit ("sieve_mm", "Size (um)").
-static bool is_called(const char *column, const char *word)
-{
-    size_t i = 0;
-    for (; word[i] != '\0'; ++i) {
-        if (tolower((unsigned char)column[i]) != word[i]) {
-            return false;
-        }
-    }
-    return !isalnum((unsigned char)column[i]);
-}
-
-static int32_t find_called(const clast_table *table, const char *const *words, int32_t *n_found)
-{
-    int32_t found = -1;
-    *n_found = 0;
-    for (int32_t c = 0; c < table->n_column; ++c) {
-        for (const char *const *word = words; *word != NULL; ++word) {
-            if (is_called(table->column[c].name, *word)) {
-                found = c;
-                ++*n_found;
-                break;
-            }
-        }
-    }
-    return found;
-}
-
-static const char *const size_words[] = {"sieve", "size", "diameter", "opening", "d", "phi", NULL};
-static const char *const retained_words[] = {"retained", "mass", "weight", "fraction", NULL};
-static const char *const passing_words[] = {"passing", "finer", "undersize", NULL};
-
-static clast_status find_columns(curve_reader *r, const clast_table *table, int32_t *size,
-                                 int32_t *value)
-{
-    clast_status status = CLAST_OK;
-    int32_t n_size = 0;
-    int32_t n_retained = 0;
-    int32_t n_passing = 0;
-    *size = find_called(table, size_words, &n_size);
-    const int32_t retained = find_called(table, retained_words, &n_retained);
-    const int32_t passing = find_called(table, passing_words, &n_passing);
-    CLX_CHECK(n_size == 1, CLAST_E_FORMAT,
-              "%s: %d columns are called sieve, size, diameter, opening, d or phi; a sieve curve "
-              "has one, with its unit (sieve_mm)",
-              r->name, n_size);
-    CLX_CHECK(n_retained + n_passing == 1, CLAST_E_FORMAT,
-              "%s: %d columns are called retained, mass, weight or fraction and %d passing, finer "
-              "or undersize; a sieve curve has one of them",
-              r->name, n_retained, n_passing);
-    r->is_passing = n_passing == 1;
-    *value = r->is_passing ? passing : retained;
-    for (int k = 0; k < 2; ++k) {
-        const clast_column *column = &table->column[k == 0 ? *size : *value];
-        if (column->number == NULL) {
-            CLX_TRY(clx_cloud_no_column(table, column->name));
-        }
-    }
-    (void)snprintf(r->unit, sizeof r->unit, "%s", table->column[*value].unit);
-done:
-    return status;
-}
 
 static clast_status size_in_metres(const curve_reader *r, const clast_column *column, int64_t i,
                                    double *size)
 {
     clast_status status = CLAST_OK;
     const double number = column->number[i];
-    const bool is_phi = strcmp(column->unit, "phi") == 0 || is_called(column->name, "phi");
+    const bool is_phi =
+        strcmp(column->unit, "phi") == 0 || clx_curve_column_is(column->name, "phi");
     double factor = 0.0;
     CLX_CHECK(isfinite(number), CLAST_E_FORMAT,
               "%s: row %lld: the sieve size is missing or not "
@@ -132,9 +69,12 @@ static int by_size(const void *a, const void *b)
 static clast_status take_rows(curve_reader *r, const clast_table *table)
 {
     clast_status status = CLAST_OK;
-    int32_t size = 0;
-    int32_t value = 0;
-    CLX_TRY(find_columns(r, table, &size, &value));
+    clx_curve_columns columns = {0};
+    CLX_TRY(clx_curve_columns_find(r->name, table, &columns));
+    const clast_column *size = &table->column[columns.size];
+    const clast_column *value = &table->column[columns.value];
+    r->kind = columns.kind;
+    (void)snprintf(r->unit, sizeof r->unit, "%s", value->unit);
     CLX_CHECK(table->n_row >= 2 && table->n_row <= SIEVE_LIMIT, CLAST_E_FORMAT,
               "%s: %lld sieves; a curve has 2 to %d", r->name, (long long)table->n_row,
               SIEVE_LIMIT);
@@ -142,11 +82,11 @@ static clast_status take_rows(curve_reader *r, const clast_table *table)
     for (int64_t i = 0; i < table->n_row; ++i) {
         sieve_row *row = &r->row[r->n++];
         row->row = i + 1;
-        row->value = table->column[value].number[i];
-        CLX_TRY(size_in_metres(r, &table->column[size], i, &row->size));
+        row->value = value->number[i];
+        CLX_TRY(size_in_metres(r, size, i, &row->size));
         CLX_CHECK(isfinite(row->value) && row->value >= 0.0, CLAST_E_FORMAT,
                   "%s: row %lld: %s is missing, negative or not finite", r->name, (long long)i + 1,
-                  table->column[value].name);
+                  value->name);
     }
     qsort(r->row, (size_t)r->n, sizeof *r->row, by_size);
     for (int32_t i = 1; i < r->n; ++i) {
@@ -163,10 +103,12 @@ static clast_status drop_pan(curve_reader *r)
 {
     clast_status status = CLAST_OK;
     if (r->row[0].size <= 0.0) {
-        CLX_CHECK(r->row[0].value <= 0.0, CLAST_E_FORMAT,
+        const double above = r->kind == CLX_CURVE_CUMULATIVE && r->n > 1 ? r->row[1].value : 0.0;
+        const double held = r->row[0].value - above;
+        CLX_CHECK(held <= 1e-9 * above, CLAST_E_FORMAT,
                   "%s: row %lld: %g is finer than every sieve; give a smallest size instead of the "
                   "pan",
-                  r->name, (long long)r->row[0].row, r->row[0].value);
+                  r->name, (long long)r->row[0].row, held);
         --r->n;
         memmove(r->row, r->row + 1, (size_t)r->n * sizeof *r->row);
     }
@@ -175,7 +117,8 @@ done:
     return status;
 }
 
-static clast_status retained_masses(curve_reader *r)
+/// The largest sieve holds back nothing: its grains would have no largest size.
+static clast_status check_largest(const curve_reader *r)
 {
     const sieve_row *last = &r->row[r->n - 1];
     if (last->value > 0.0) {
@@ -184,16 +127,21 @@ static clast_status retained_masses(curve_reader *r)
                         "that all passes",
                         r->name, (long long)last->row, last->value, 1e3 * last->size);
     }
+    return CLAST_OK;
+}
+
+static clast_status retained_masses(curve_reader *r)
+{
+    CLX_GUARD(check_largest(r));
     for (int32_t i = 0; i + 1 < r->n; ++i) {
         r->mass[i] = r->row[i].value;
     }
     return CLAST_OK;
 }
 
-/// What all grains together are in the unit of the column.
-static double all_of(const curve_reader *r)
+/// What all grains together are in the unit of the column, whose greatest value is `most`.
+static double all_of(const curve_reader *r, double most)
 {
-    const double most = r->row[r->n - 1].value;
     if (strcmp(r->unit, "%") == 0) {
         return 100.0;
     }
@@ -203,11 +151,32 @@ static double all_of(const curve_reader *r)
     return most;
 }
 
+static clast_status cumulative_masses(curve_reader *r)
+{
+    clast_status status = CLAST_OK;
+    const sieve_row *first = &r->row[0];
+    const double all = all_of(r, first->value);
+    CLX_TRY(check_largest(r));
+    CLX_CHECK(fabs(first->value - all) <= 1e-9 * all, CLAST_E_FORMAT,
+              "%s: row %lld: %g of %g stay on %g mm and coarser; add the size that nothing passes "
+              "(masses: with their unit, cumulative retained_g)",
+              r->name, (long long)first->row, first->value, all, 1e3 * first->size);
+    for (int32_t i = 0; i + 1 < r->n; ++i) {
+        r->mass[i] = r->row[i].value - r->row[i + 1].value;
+        CLX_CHECK(r->mass[i] >= 0.0, CLAST_E_FORMAT,
+                  "%s: row %lld: %g on %g mm and coarser, less than the %g on %g mm", r->name,
+                  (long long)r->row[i].row, r->row[i].value, 1e3 * r->row[i].size,
+                  r->row[i + 1].value, 1e3 * r->row[i + 1].size);
+    }
+done:
+    return status;
+}
+
 static clast_status passing_masses(curve_reader *r)
 {
     clast_status status = CLAST_OK;
     const sieve_row *last = &r->row[r->n - 1];
-    const double all = all_of(r);
+    const double all = all_of(r, last->value);
     CLX_CHECK(r->row[0].value <= 0.0, CLAST_E_FORMAT,
               "%s: row %lld: %g pass the smallest sieve of %g mm; add the size that nothing passes",
               r->name, (long long)r->row[0].row, r->row[0].value, 1e3 * r->row[0].size);
@@ -231,7 +200,9 @@ static clast_status make_curve(curve_reader *r, clast_curve *curve)
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&r->sieve, r->n, sizeof *r->sieve));
     CLX_TRY(clx_alloc(&r->mass, r->n, sizeof *r->mass));
-    CLX_TRY(r->is_passing ? passing_masses(r) : retained_masses(r));
+    CLX_TRY(r->kind == CLX_CURVE_PASSING      ? passing_masses(r)
+            : r->kind == CLX_CURVE_CUMULATIVE ? cumulative_masses(r)
+                                              : retained_masses(r));
     for (int32_t i = 0; i < r->n; ++i) {
         r->sieve[i] = r->row[i].size;
     }

@@ -141,6 +141,18 @@ done:
     return status;
 }
 
+/// A format that needs densities is not given ones that are made up.
+static clast_status check_density(const clx_export *e, clast_export_format format, const char *path)
+{
+    const bool is_data = format == CLAST_EXPORT_DATA;
+    return e->has_density || (!is_data && format != CLAST_EXPORT_CONF)
+               ? CLAST_OK
+               : clx_fail(CLAST_E_USAGE,
+                          "%s: %s a density of each grain, and theirs is not known; give it "
+                          "(--density), or write .dump or .csv",
+                          path, is_data ? "LAMMPS's data files need" : "Rockable needs");
+}
+
 static clast_status write_table(const clast_assembly *assembly, clast_export_format format,
                                 const char *path)
 {
@@ -191,7 +203,10 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
     clast_status status = CLAST_OK;
     const clast_export_options *o = options != NULL ? options : &usual;
     const char *own = clx_export_unit(assembly);
-    clx_export e = {.assembly = assembly, .options = o, .unit = o->unit != NULL ? o->unit : own};
+    clx_export e = {.assembly = assembly,
+                    .options = o,
+                    .unit = o->unit != NULL ? o->unit : own,
+                    .has_density = clx_has_density(assembly)};
     clast_export_report made = {.facet_ratio = NAN, .ellipsoid_ratio = NAN};
     made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
     CLX_CHECK(made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
@@ -209,6 +224,7 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
                   (made.format == CLAST_EXPORT_VTU && o->values->n_row == assembly->n_grain),
               CLAST_E_USAGE, "%s: values are for .vtu, a row for each of its %d grains", path,
               assembly->n_grain);
+    CLX_TRY(check_density(&e, made.format, path));
     made.unit = made.format == CLAST_EXPORT_3MF ? "mm" : e.unit;
     if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
         CLX_TRY(write_table(assembly, made.format, path));

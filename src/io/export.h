@@ -4,6 +4,7 @@
 #include "io/parts.h"
 
 typedef struct clast_export_options clast_export_options;
+typedef struct clast_packing_frame clast_packing_frame;
 
 typedef struct clx_export {
     const clast_assembly *assembly;
@@ -11,6 +12,7 @@ typedef struct clx_export {
     clx_parts parts; ///< made for formats with surfaces only
     clx_file file;
     const char *unit;         ///< of the coordinates that are written
+    bool has_density;         ///< else they are not known, and no file may tell them
     double smallest, largest; ///< maximum lengths of grains, for colours
 } clx_export;
 
@@ -24,6 +26,12 @@ clast_status clx_export_data(clx_export *e); ///< LAMMPS data file
 clast_status clx_export_text(clx_export *e); ///< YADE's "#format x_y_z_r", or _clumpId
 clast_status clx_export_voro(clx_export *e); ///< voro++: id x y z r
 clast_status clx_export_xyzd(clx_export *e); ///< four doubles a sphere
+
+/// Whether the grains' densities are known: they came so, or one was set.
+bool clx_has_density(const clast_assembly *assembly);
+
+/// Box of the grains, or of the frame where it has one: 0 tilt in the first case.
+void clx_export_box(const clx_export *e, clast_packing_frame *frame);
 
 /// A configuration of Rockable, and its shapes in the file beside it that ends in .shp.
 clast_status clx_export_rockable(const clast_assembly *assembly, const char *path);

@@ -8,6 +8,7 @@
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/shape.h>
+#include <clast/state.h>
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -45,21 +46,46 @@ static double radius_of(const clast_assembly *a, int32_t i)
     return a->scale[i] * a->shape[a->shape_id[i]].semi_axes[0];
 }
 
-/// "low high xlo xhi" of each axis.
-static void put_box(clx_file *file, const clast_assembly *a)
+/// "low high xlo xhi" of each axis, and "xy xz yz" of a box that is tilted.
+static void put_box(clx_file *file, const clast_packing_frame *frame)
 {
     static const char axis[3] = {'x', 'y', 'z'};
-    double low[3] = {0};
-    double high[3] = {0};
-    if (a->n_grain > 0) {
-        clast_assembly_bounds(a, low, high);
-    }
+    const double *tilt = frame->tilt;
     for (int k = 0; k < 3; ++k) {
         char text[2][CLX_NUMBER_SIZE];
-        (void)clx_number_format(low[k], text[0]);
-        (void)clx_number_format(high[k], text[1]);
+        (void)clx_number_format(frame->low[k], text[0]);
+        (void)clx_number_format(frame->high[k], text[1]);
         (void)clx_file_print(file, "%s %s %clo %chi\n", text[0], text[1], axis[k], axis[k]);
     }
+    if (tilt[0] != 0.0 || tilt[1] != 0.0 || tilt[2] != 0.0) {
+        char text[3][CLX_NUMBER_SIZE];
+        for (int k = 0; k < 3; ++k) {
+            (void)clx_number_format(tilt[k], text[k]);
+        }
+        (void)clx_file_print(file, "%s %s %s xy xz yz\n", text[0], text[1], text[2]);
+    }
+}
+
+/// First line, counts and box. LAMMPS has the boundary from its input, so the first line tells it.
+static void put_data_head(clx_export *e, int32_t n_type, bool is_sphere)
+{
+    const clast_assembly *a = e->assembly;
+    clx_file *file = &e->file;
+    clast_packing_frame frame;
+    clx_export_box(e, &frame);
+    const bool *p = frame.is_periodic;
+    (void)clx_file_print(
+        file, "# LAMMPS data file written by clast: lengths in %s, densities in kg/m^3", e->unit);
+    if (p[0] || p[1] || p[2]) {
+        (void)clx_file_print(file, ", boundary %s %s %s", p[0] ? "p" : "f", p[1] ? "p" : "f",
+                             p[2] ? "p" : "f");
+    }
+    (void)clx_file_print(file, "\n\n%d atoms\n%d atom types\n", a->n_grain, n_type);
+    if (!is_sphere) {
+        (void)clx_file_print(file, "%d ellipsoids\n", a->n_grain);
+    }
+    (void)clx_file_print(file, "\n");
+    put_box(file, &frame);
 }
 
 /// LAMMPS: the third column of an atom is a sphere's diameter, or 1 for one that is an ellipsoid.
@@ -75,15 +101,7 @@ clast_status clx_export_data(clx_export *e)
     for (int32_t i = 0; i < a->n_grain; ++i) {
         n_type = type[a->shape_id[i]] > n_type ? type[a->shape_id[i]] : n_type;
     }
-    (void)clx_file_print(file,
-                         "# LAMMPS data file written by clast: lengths in %s, densities in "
-                         "kg/m^3\n\n%d atoms\n%d atom types\n",
-                         e->unit, a->n_grain, n_type);
-    if (!is_sphere) {
-        (void)clx_file_print(file, "%d ellipsoids\n", a->n_grain);
-    }
-    (void)clx_file_print(file, "\n");
-    put_box(file, a);
+    put_data_head(e, n_type, is_sphere);
     (void)clx_file_print(file, "\nAtoms # %s\n\n", is_sphere ? "sphere" : "ellipsoid");
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double ratio = clx_ellipsoid_ratio(&a->shape[a->shape_id[i]]);

@@ -12,6 +12,7 @@
 #include <clast/state.h>
 #include <clast/table.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -137,6 +138,9 @@ static clast_status add_measures(const clast_assembly *a, const char *unit, clas
             into[i] = measure_of(a, i, measures[k].what);
         }
     }
+    if (!clx_has_density(a)) {
+        return CLAST_OK;
+    }
     CLX_TRY(clast_table_add_number(table, "density_kg/m^3", "kg/m^3", &into));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         into[i] = measure_of(a, i, DENSITY);
@@ -258,20 +262,43 @@ void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3]
     v3_scale(diameter, 2.0 * a->scale[i], axes);
 }
 
-static void put_bounds(clx_file *file, const clast_assembly *a)
+/// BOX BOUNDS hold what a tilt adds to them.                      [LAMMPS manual, Howto_triclinic]
+static void put_bounds(clx_file *file, const clast_packing_frame *f)
 {
-    double low[3] = {0};
-    double high[3] = {0};
-    if (a->n_grain > 0) {
-        clast_assembly_bounds(a, low, high);
-    }
-    (void)clx_file_print(file, "ITEM: BOX BOUNDS ff ff ff\n");
+    const double *t = f->tilt;
+    const bool is_tilted = t[0] != 0.0 || t[1] != 0.0 || t[2] != 0.0;
+    const double below[3] = {fmin(fmin(0.0, t[0] + t[1]), fmin(t[0], t[1])), fmin(0.0, t[2]), 0.0};
+    const double above[3] = {fmax(fmax(0.0, t[0] + t[1]), fmax(t[0], t[1])), fmax(0.0, t[2]), 0.0};
+    (void)clx_file_print(file, "ITEM: BOX BOUNDS%s", is_tilted ? " xy xz yz" : "");
     for (int k = 0; k < 3; ++k) {
-        char text[2][CLX_NUMBER_SIZE];
-        (void)clx_number_format(low[k], text[0]);
-        (void)clx_number_format(high[k], text[1]);
-        (void)clx_file_print(file, "%s %s\n", text[0], text[1]);
+        (void)clx_file_print(file, f->is_periodic[k] ? " pp" : " ff");
     }
+    (void)clx_file_print(file, "\n");
+    for (int k = 0; k < 3; ++k) {
+        char text[3][CLX_NUMBER_SIZE];
+        (void)clx_number_format(f->low[k] + below[k], text[0]);
+        (void)clx_number_format(f->high[k] + above[k], text[1]);
+        (void)clx_number_format(t[k], text[2]);
+        (void)clx_file_print(file, "%s %s%s%s\n", text[0], text[1], is_tilted ? " " : "",
+                             is_tilted ? text[2] : "");
+    }
+}
+
+static void put_dump_head(clx_export *e)
+{
+    clx_file *file = &e->file;
+    clast_packing_frame frame;
+    clx_export_box(e, &frame);
+    if (strcmp(e->unit, "m") == 0) { // LAMMPS's word for metre, kilogram, second
+        (void)clx_file_print(file, "ITEM: UNITS\nsi\n");
+    }
+    (void)clx_file_print(file, "ITEM: TIMESTEP\n%" PRId64 "\nITEM: NUMBER OF ATOMS\n%d\n",
+                         frame.step > 0 ? frame.step : 0, e->assembly->n_grain);
+    put_bounds(file, &frame);
+    (void)clx_file_print(file,
+                         "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "
+                         "shapez radius%s\n",
+                         e->has_density ? " density" : "");
 }
 
 /// LAMMPS: shapex, shapey, shapez are the diameters of an ellipsoid, radius is that of the sphere
@@ -283,13 +310,7 @@ clast_status clx_export_dump(clx_export *e)
     const clast_assembly *a = e->assembly;
     clx_file *file = &e->file;
     int32_t *type = NULL;
-    if (strcmp(e->unit, "m") == 0) { // LAMMPS's word for metre, kilogram, second
-        (void)clx_file_print(file, "ITEM: UNITS\nsi\n");
-    }
-    (void)clx_file_print(file, "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n%d\n", a->n_grain);
-    put_bounds(file, a);
-    (void)clx_file_print(file, "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "
-                               "shapez radius density\n");
+    put_dump_head(e);
     CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const clast_shape *shape = &a->shape[a->shape_id[i]];
@@ -303,7 +324,7 @@ clast_status clx_export_dump(clx_export *e)
         clx_export_numbers(file, a->position[i], 3);
         clx_export_numbers(file, q, 4);
         clx_export_numbers(file, axes, 3);
-        clx_export_numbers(file, last, 2);
+        clx_export_numbers(file, last, e->has_density ? 2 : 1);
         CLX_TRY(clx_file_write(file, "\n", 1));
     }
 done:

@@ -9,18 +9,18 @@
 #include "base/monitor.h"
 #include "base/parallel.h"
 #include "base/path.h"
+#include "geom/check.h"
 #include "io/spheres_table.h"
-#include "io/text.h"
 #include <clast/cloud.h>
 #include <clast/form.h>
 #include <clast/harmonics.h>
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/volume.h>
+#include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 static const int64_t LARGEST_FILE = INT64_C(1) << 34;
 
@@ -122,13 +122,45 @@ done:
     return status;
 }
 
-static clast_status measure_grain(const clx_grains_task *task, const clast_mesh *mesh,
-                                  clast_grain *grain)
+/// Tells a surface of a file whose volume counts a region twice; those made here count it once.
+static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
+                                 const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clx_doubles found = {0};
+    char words[200];
+    char cure[400] = "";
+    char text[640];
+    if (kind != CLAST_GRAINS_SURFACE || mesh->n_tri == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_find_doubles(mesh, &found));
+    clx_doubles_words(&found, sizeof words, words);
+    if (words[0] == '\0') {
+        goto done;
+    }
+    if (found.n_intersection == 0) {
+        CLX_TRY(clast_mesh_cure(mesh, task->path, sizeof cure, cure));
+    }
+    (void)snprintf(text, sizeof text, "%s; %s%s", words,
+                   cure[0] == '\0'        ? "see clast mesh check"
+                   : found.n_doubled == 1 ? "drop it: "
+                                          : "drop them: ",
+                   cure);
+    CLX_TRY(add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_E_GEOMETRY,
+                     task->path, text));
+done:
+    return status;
+}
+
+static clast_status measure_grain(clx_grains_task *task, clast_grains_kind kind,
+                                  const clast_mesh *mesh, clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     clast_mesh welded = {0};
     if (task->options->hull || mesh->n_tri == 0) {
-        return clast_grain_measure_hull(mesh, grain);
+        CLX_TRY(clast_grain_measure_hull(mesh, grain));
+        return isfinite(grain->hull_volume_added) ? note_doubles(task, kind, mesh) : CLAST_OK;
     }
     status = clast_grain_measure(mesh, grain);
     if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices that rounding has parted
@@ -137,6 +169,8 @@ static clast_status measure_grain(const clx_grains_task *task, const clast_mesh 
         CLX_TRY(clast_mesh_require_solid(&welded, task->path, "measure its hull with --hull"));
         status = clast_grain_measure(&welded, grain);
     }
+    CLX_TRY(status);
+    CLX_TRY(note_doubles(task, kind, welded.n_tri > 0 ? &welded : mesh));
 done:
     clast_mesh_free(&welded);
     return status;
@@ -149,7 +183,7 @@ static clast_status take_mesh(clx_grains_task *task, clast_grains_kind kind, con
     clast_status status = CLAST_OK;
     clast_grain grain;
     clast_grain_record *record = NULL;
-    CLX_TRY(measure_grain(task, mesh, &grain));
+    CLX_TRY(measure_grain(task, kind, mesh, &grain));
     if (task->options->folder != NULL) {
         CLX_TRY(write_surface(task, suffix, mesh));
     }
@@ -385,13 +419,11 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
     clast_table table = {0};
     clast_mesh points = {0};
     CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
-    const bool has_points = clast_table_find(&table, "x") >= 0 &&
-                            clast_table_find(&table, "y") >= 0 &&
-                            clast_table_find(&table, "z") >= 0;
     if (kind == CLAST_GRAINS_CLUMP ||
         (kind == CLAST_GRAINS_AUTO && clx_spheres_are_named(&table))) {
         CLX_TRY(take_clump(task, &table));
-    } else if (kind == CLAST_GRAINS_POINTS || (kind == CLAST_GRAINS_AUTO && has_points)) {
+    } else if (kind == CLAST_GRAINS_POINTS ||
+               (kind == CLAST_GRAINS_AUTO && clx_grains_has_points(&table))) {
         CLX_TRY(points_of_table(&table, &points));
         CLX_TRY(take_points(task, &points));
     } else {
@@ -416,63 +448,12 @@ static clast_status take_surface(clx_grains_task *task, clast_mesh_format format
     return status;
 }
 
-static bool has_extension(const char *path, const char *const *list)
-{
-    for (; *list != NULL; ++list) {
-        if (clx_path_is(path, *list)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// What the first line with words is: a header of voxels, four numbers, three, or another.
-static clast_grains_kind kind_of_text(const clx_grains_task *task)
-{
-    clx_text text = clx_text_begin(task->bytes, (size_t)task->n_byte, '#', false);
-    clx_word word;
-    double value;
-    int n_number = 0;
-    if (!clx_text_any_word(&text, &word)) {
-        return CLAST_GRAINS_SURFACE;
-    }
-    if (clx_word_is(word, "xsize:")) {
-        return CLAST_GRAINS_VOXELS;
-    }
-    do {
-        if (!clx_word_number(word, &value)) {
-            return CLAST_GRAINS_SURFACE;
-        }
-        ++n_number;
-    } while (clx_text_word(&text, &word));
-    if (n_number == 3) {
-        return CLAST_GRAINS_POINTS;
-    }
-    return n_number == 4 ? CLAST_GRAINS_SERIES : CLAST_GRAINS_SURFACE;
-}
-
-static clast_grains_kind kind_of(const clx_grains_task *task)
-{
-    if (has_dataset(task) || task->options->volume.n[0] > 0 ||
-        clast_volume_is_known(task->bytes, (size_t)task->n_byte)) {
-        return CLAST_GRAINS_VOXELS;
-    }
-    static const char *const delimited[] = {"csv", "tsv", "vtk", "vtp", "vtu", "dump", NULL};
-    if (clast_mesh_format_of_path(task->path) != CLAST_MESH_ANY) {
-        return CLAST_GRAINS_SURFACE;
-    }
-    if (has_extension(task->path, delimited)) {
-        return CLAST_GRAINS_AUTO; // points or a table: by its columns
-    }
-    return kind_of_text(task);
-}
-
 static clast_status take_file(clx_grains_task *task)
 {
     clast_status status = CLAST_OK;
     clast_grains_kind kind = task->options->kind;
     CLX_TRY(clx_file_read_all(task->path, LARGEST_FILE, &task->bytes, &task->n_byte));
-    kind = kind == CLAST_GRAINS_AUTO ? kind_of(task) : kind;
+    kind = kind == CLAST_GRAINS_AUTO ? clx_grains_kind_of(task) : kind;
     switch (kind) {
     case CLAST_GRAINS_SURFACE:
         CLX_TRY(take_surface(task, clast_mesh_format_of_path(task->path)));
@@ -573,6 +554,9 @@ clast_status clast_grains_read(int32_t n_file, const char *const *path,
     for (int32_t i = 0; i < n_file; ++i) {
         task[i].path = path[i];
         task[i].options = options;
+    }
+    if (options->folder != NULL) {
+        CLX_TRY(clx_grains_check_surfaces(task, n_file));
     }
     reading r = {.task = task, .n = n_file, .monitor = monitor};
     CLX_TRY(clx_parallel_try(n_file, 1, read_files, &r));

@@ -22,5 +22,16 @@ clast_status clx_grains_fault(clx_grains_task *task, clast_status about);
 /// Keeps a line that is no fault.
 clast_status clx_grains_note(clx_grains_task *task, const char *text);
 
+/// What a file's bytes are, where nobody says it; CLAST_GRAINS_AUTO: by the columns of its table.
+clast_grains_kind clx_grains_kind_of(const clx_grains_task *task);
+
+/// Whether a table has columns x, y and z.
+bool clx_grains_has_points(const clast_table *table);
+
+/// Refuses files whose surfaces would have one name in the folder.
+///
+/// @return CLAST_E_USAGE with both files
+clast_status clx_grains_check_surfaces(clx_grains_task *task, int32_t n_task);
+
 /// The rows of a table as grains.
 clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table);

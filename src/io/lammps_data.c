@@ -31,6 +31,7 @@ typedef struct {
     clast_table table;
     int64_t *order; ///< [2 n_atom] ids and rows, once the atoms are there, sorted by id
     bool is_ellipsoid, has_atoms;
+    clast_packing_frame frame;
 } data;
 
 /// Words of the current line, which the cursor stays on.
@@ -74,6 +75,38 @@ static int next_words(data *d, int most, clx_word *word)
     return 0;
 }
 
+/// "low high xlo xhi" and the like, or "xy xz yz".
+static void read_box(data *d, int n, const clx_word *word)
+{
+    static const char *const bound[3] = {"xhi", "yhi", "zhi"};
+    double value[3];
+    for (int k = 0; k < 3 && n == 4; ++k) {
+        if (clx_word_is(word[3], bound[k]) && clx_word_number(word[0], &value[0]) &&
+            clx_word_number(word[1], &value[1])) {
+            d->frame.low[k] = value[0];
+            d->frame.high[k] = value[1];
+            d->frame.has_box[k] = true;
+        }
+    }
+    if (n == 6 && clx_word_is(word[5], "yz") && clx_word_number(word[0], &value[0]) &&
+        clx_word_number(word[1], &value[1]) && clx_word_number(word[2], &value[2])) {
+        memcpy(d->frame.tilt, value, sizeof value);
+    }
+}
+
+/// "boundary p p f" in the first line, as clast writes it.
+static void read_title(data *d)
+{
+    clx_text line = d->text;
+    clx_word word;
+    line.comment = 0;
+    while (clx_text_word(&line, &word) && !clx_word_is(word, "boundary")) {
+    }
+    for (int k = 0; k < 3 && clx_text_word(&line, &word); ++k) {
+        d->frame.is_periodic[k] = clx_word_is(word, "p");
+    }
+}
+
 /// A line of the header; *is_header is false at the first section.
 static clast_status read_header_line(data *d, int n, const clx_word *word, bool *is_header)
 {
@@ -92,22 +125,18 @@ static clast_status read_header_line(data *d, int n, const clx_word *word, bool 
         d->n_ellipsoid = count;
     } else if (is_count && n == 3 && clx_word_is(last, "types")) {
         d->n_type = clx_word_is(word[1], "atom") ? count : d->n_type;
-    } else if (*is_header && n == 6 && clx_word_is(last, "yz")) {
-        for (int k = 0; k < 3; ++k) {
-            if (!clx_word_number(word[k], &tilt) || tilt != 0.0) {
-                return fail(d, "the box is tilted; clast reads orthogonal boxes");
-            }
-        }
     } else if (*is_header && n == 4 &&
                (clx_word_is(last, "avec") || clx_word_is(last, "bvec") ||
                 clx_word_is(last, "cvec"))) {
-        return fail(d, "the box is a general triclinic one; clast reads orthogonal boxes");
+        return fail(d,
+                    "the box is a general triclinic one; clast reads orthogonal and tilted boxes");
     } else if (*is_header && n == 2 &&
                (clx_word_is(last, "bodies") || clx_word_is(last, "lines") ||
                 clx_word_is(last, "triangles")) &&
                count > 0) {
         return fail(d, "bodies, lines and triangles are no grains that clast reads");
     }
+    read_box(d, n, word);
 done:
     return status;
 }
@@ -271,6 +300,7 @@ static clast_status read_sections(data *d)
     clast_status status = CLAST_OK;
     clx_word word[16];
     bool is_header = true;
+    read_title(d);
     for (int n = next_words(d, 16, word); n > 0; n = next_words(d, 16, word)) {
         if (is_header) {
             CLX_TRY(read_header_line(d, n, word, &is_header));
@@ -295,13 +325,15 @@ done:
     return status;
 }
 
-clast_status clx_lammps_data(const char *name, const void *bytes, size_t n, clast_table *table)
+clast_status clx_lammps_data(const char *name, const void *bytes, size_t n, clast_table *table,
+                             clast_packing_frame *frame)
 {
-    data d = {.text = clx_text_begin(bytes, n, '#', false), .name = name};
+    data d = {.text = clx_text_begin(bytes, n, '#', false), .name = name, .frame = {.step = -1}};
     const clast_status status = read_sections(&d);
     if (status == CLAST_OK) {
         *table = d.table;
         d.table = (clast_table){0};
+        *frame = d.frame;
     }
     clx_free(d.order);
     clast_table_free(&d.table);

@@ -258,7 +258,8 @@ done:
 }
 
 /// Grains of a start: rows with poses name the configuration's shapes, other files have their own.
-static clast_status read_start(const clast_pack_config *config, clast_pack_source *made)
+static clast_status read_start(const clast_pack_config *config, clast_pack_source *made,
+                               clast_packing_report *report)
 {
     clast_status status = CLAST_OK;
     clast_table poses = {0};
@@ -269,7 +270,7 @@ static clast_status read_start(const clast_pack_config *config, clast_pack_sourc
     } else {
         CLX_CHECK(config->shapes.n == 1 && strcmp(config->shapes.item[0], "sphere") == 0,
                   CLAST_E_CONFIG, "start brings its shapes: leave out shapes");
-        CLX_TRY(clx_start_read(config, &made->start));
+        CLX_TRY(clx_start_read(config, &made->start, report));
         const clast_assembly *a = &made->start;
         CLX_TRY(clx_alloc(&made->shape, a->n_shape, sizeof *made->shape));
         for (; made->n_shape < a->n_shape; ++made->n_shape) {
@@ -287,7 +288,8 @@ static clast_status load_start(const clast_pack_config *config, clast_pack_sourc
     clast_status status = CLAST_OK;
     double low = INFINITY;
     double high = 0.0;
-    CLX_TRY(read_start(config, made));
+    clast_packing_report report = {.frame = {.step = -1}};
+    CLX_TRY(read_start(config, made, &report));
     const clast_assembly *a = &made->start;
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double size = 2.0 * a->scale[i] * a->shape[a->shape_id[i]].semi_axes[1];
@@ -295,8 +297,12 @@ static clast_status load_start(const clast_pack_config *config, clast_pack_sourc
         high = fmax(high, size);
     }
     CLX_TRY(clast_grading_uniform(low, high, &made->grading));
-    made->input = (clast_pack_input){
-        .grading = made->grading, .n_shape = made->n_shape, .shape = made->shape};
+    made->input = (clast_pack_input){.grading = made->grading,
+                                     .n_shape = made->n_shape,
+                                     .shape = made->shape,
+                                     .start_snapshot = report.snapshot,
+                                     .n_start_snapshot = report.n_snapshot,
+                                     .start_step = report.frame.step};
 done:
     return status;
 }

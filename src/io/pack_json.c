@@ -170,6 +170,13 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
         clx_json_set_count(o, "n_overlap_start", r->n_overlap);
         clx_json_set_number(o, "deepest_overlap_start", r->deepest_start);
     }
+    if (r->n_start_snapshot > 1) {
+        clx_json_set_count(o, "start_snapshot", r->start_snapshot);
+        clx_json_set_count(o, "n_start_snapshot", r->n_start_snapshot);
+    }
+    if (r->n_start_snapshot > 1 && r->start_step >= 0) {
+        clx_json_set_count(o, "start_step", r->start_step);
+    }
     if (r->n_left > 0) {
         clx_json_set_count(o, "n_left", r->n_left);
         clx_json_set_number(o, "mass_left", r->mass_left);

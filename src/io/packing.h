@@ -1,14 +1,17 @@
 #pragma once
 // Packings from other programs' files, one reader a format, all from memory.
+#include "io/spheres_table.h"
+#include <clast/state.h>
 #include <clast/status.h>
-
-typedef struct clast_packing_options clast_packing_options;
 
 /// Whether a file that begins with these bytes is a LAMMPS data file: "N atoms" above its sections.
 bool clx_is_lammps_data(const void *bytes, size_t n);
 
 /// A LAMMPS or LIGGGHTS data file as a table with the columns of a dump.
-clast_status clx_lammps_data(const char *name, const void *bytes, size_t n, clast_table *table);
+///
+/// @param frame  its box, where it has one; the first line may tell "boundary p p f"
+clast_status clx_lammps_data(const char *name, const void *bytes, size_t n, clast_table *table,
+                             clast_packing_frame *frame);
 
 enum { CLX_YADE_COLUMNS = 256 };
 
@@ -27,15 +30,52 @@ clast_status clx_yade_clumps(const clast_spheres *spheres, const double *clump,
 /// Spheres of an .xyzd file.
 clast_status clx_xyzd(const char *name, const char *bytes, int64_t n, clast_table *table);
 
+/// LAMMPS's units in SI, as ITEM: UNITS names them.
+typedef struct clx_lammps_units {
+    const char *word;                  ///< "si", "cgs", ...
+    const char *length;                ///< name of its unit
+    double metre, kilogram, kg_per_m3; ///< of a length, a mass, a density
+} clx_lammps_units;
+
+/// NULL for "lj", which are none, and for words that LAMMPS has not.
+const clx_lammps_units *clx_lammps_units_of(const char *word);
+
+/// What is asked of a packing's file.
+typedef struct clx_packing_wanted {
+    clx_spheres_wanted spheres;
+    const char *unit; ///< of lengths where the file does not say it; NULL or "": not known
+    int64_t frame;    ///< snapshot, from 0; negative: from the end
+    bool has_frame;   ///< it was chosen: a file without snapshots is refused
+    bool is_old;      ///< as clast read until 0.1.0: no densities of tables, no ITEM: UNITS, a
+                      ///< diameter in the file's unit
+} clx_packing_wanted;
+
+/// What a file said.
+typedef struct clx_packing_told {
+    clast_packing_report report;
+    const clx_lammps_units *units; ///< or NULL
+    char unit[16];                 ///< of lengths by the columns, "" for none
+} clx_packing_told;
+
 /// Grains of a table: spheres by the options, YADE's clumps where the columns name a clumpId.
 ///
-/// @param is_lammps    columns are those of a dump: ellipsoids (shapex .. quatk) and densities
-/// count,
-///                     and shapes are named after the atoms' types
-/// @param assembly     empty; lengths in metres where the columns say their unit, else "model"
-/// @param has_density  whether the table told it; else it is 1
-clast_status clx_packing_of_table(const clast_table *table, const clast_packing_options *options,
-                                  bool is_lammps, clast_assembly *assembly, bool *has_density);
+/// @param is_lammps  columns are those of a dump: ellipsoids (shapex .. quatk), and shapes are
+/// named
+///                   after the atoms' types
+/// @param assembly   empty; lengths in metres where the columns say their unit, else "model";
+///                   densities are 1
+/// @param unit       as of clx_spheres_of_columns
+clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wanted *wanted,
+                                  bool is_lammps, clast_assembly *assembly, char unit[16]);
+
+/// Densities of grains that are the table's rows, by its columns; no_density where it has none.
+///
+/// Of a dump or data file the columns density and, where its units are known, mass; of other tables
+/// density or rho, kg/m3 or as their names say, and mass in the unit that its name says. A mass
+/// needs grains in metres.
+clast_status clx_packing_densities(const clast_table *table, const clx_packing_wanted *wanted,
+                                   bool is_lammps, const clx_lammps_units *units,
+                                   clast_assembly *assembly);
 
 /// A configuration of Rockable and the library of shapes that it names.
 typedef struct {
@@ -50,9 +90,8 @@ typedef struct {
 /// Finds the library's name alone.
 clast_status clx_rockable_library(clx_rockable_files *files);
 
-/// @param has_density  whether it told densities; else they are 1
-clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly, bool *has_density);
+clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly);
 
-/// clast_packing_read that tells whether the file knew densities; else they are 1.
-clast_status clx_packing_read(const char *path, const clast_packing_options *options,
-                              clast_assembly *assembly, bool *has_density);
+/// clast_packing_read, as `wanted`.
+clast_status clx_packing_read(const char *path, const clx_packing_wanted *wanted,
+                              clast_assembly *assembly, clx_packing_told *told);

@@ -19,19 +19,6 @@ static const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0};
 /// A quaternion whose printed digits are off by more than this is made one anew.
 static const double UNIT_OFF = 1e-12;
 
-/// Densities of the rows, above 0, where the table has them.
-static clast_status find_density(const clast_table *table, const double **density)
-{
-    clast_status status = CLAST_OK;
-    *density = clast_table_numbers(table, "density");
-    for (int64_t i = 0; *density != NULL && i < table->n_row; ++i) {
-        CLX_CHECK((*density)[i] > 0.0 && isfinite((*density)[i]), CLAST_E_FORMAT,
-                  "row %lld: density %g", (long long)i + 1, (*density)[i]);
-    }
-done:
-    return status;
-}
-
 /// Number of an atom's type, from 1; 1 where the table has none.
 static clast_status type_of(const double *type, int64_t row, int32_t *number)
 {
@@ -124,8 +111,7 @@ done:
     return status;
 }
 
-static clast_status add_spheres(const clast_spheres *spheres, const double *type,
-                                const double *density, clast_assembly *a)
+static clast_status add_spheres(const clast_spheres *spheres, const double *type, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     row_shape *rows = NULL;
@@ -139,7 +125,7 @@ static clast_status add_spheres(const clast_spheres *spheres, const double *type
     CLX_TRY(make_shapes(spheres->n, rows, type != NULL, a, shape));
     for (int32_t i = 0; i < spheres->n; ++i) {
         CLX_TRY(clast_assembly_add_grain(a, shape[i], spheres->centre[i], UPRIGHT,
-                                         spheres->radius[i], density != NULL ? density[i] : 1.0));
+                                         spheres->radius[i], 1.0));
     }
 done:
     clx_free(rows);
@@ -183,7 +169,7 @@ static void sorting_turn(const double axes[3], double turn[4])
 }
 
 typedef struct {
-    const double *x[3], *axis[3], *q[4], *type, *density, *radius;
+    const double *x[3], *axis[3], *q[4], *type;
 } ellipsoid_columns;
 
 static clast_status find_columns(const clast_table *table, ellipsoid_columns *c)
@@ -202,7 +188,6 @@ static clast_status find_columns(const clast_table *table, ellipsoid_columns *c)
                   wanted[k].name);
     }
     c->type = clast_table_numbers(table, "type");
-    CLX_TRY(find_density(table, &c->density));
 done:
     return status;
 }
@@ -235,7 +220,7 @@ done:
     return status;
 }
 
-static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a, bool *has_density)
+static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     ellipsoid_columns c = {0};
@@ -262,43 +247,36 @@ static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a, 
         CLX_TRY(read_pose(&c, i, x, axes, q));
         sorting_turn(axes, turn);
         q_mul(turned, q, turn);
-        CLX_TRY(clast_assembly_add_grain(a, shape[i], x, turned, 1.0,
-                                         c.density != NULL ? c.density[i] : 1.0));
+        CLX_TRY(clast_assembly_add_grain(a, shape[i], x, turned, 1.0, 1.0));
     }
-    *has_density = c.density != NULL;
 done:
     clx_free(rows);
     clx_free(shape);
     return status;
 }
 
-clast_status clx_packing_of_table(const clast_table *table, const clast_packing_options *options,
-                                  bool is_lammps, clast_assembly *assembly, bool *has_density)
+clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wanted *wanted,
+                                  bool is_lammps, clast_assembly *assembly, char unit[16])
 {
     clast_status status = CLAST_OK;
     clast_spheres spheres = {0};
-    const double *type = NULL;
-    const double *density = NULL;
-    double unit_m = 0.0;
-    const int32_t clump = clx_yade_clump_column(options->columns);
-    *has_density = false;
-    if (is_lammps && clast_table_numbers(table, "shapex") != NULL && options->diameter <= 0.0) {
-        (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
-        return add_ellipsoids(table, assembly, has_density);
+    const int32_t clump = clx_yade_clump_column(wanted->options.columns);
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
+    if (is_lammps && clast_table_numbers(table, "shapex") != NULL &&
+        wanted->options.diameter <= 0.0) {
+        return add_ellipsoids(table, assembly);
     }
-    CLX_TRY(clx_spheres_of_table(table, options, &spheres, &unit_m));
-    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", unit_m > 0.0 ? "m" : "model");
+    CLX_TRY(clx_spheres_of_columns(table, wanted, &spheres, unit));
+    if (unit[0] != '\0') {
+        (void)snprintf(assembly->unit, sizeof assembly->unit, "m");
+    }
     if (clump >= 0) {
         CLX_CHECK(clump < table->n_column && table->column[clump].number != NULL, CLAST_E_FORMAT,
                   "column %d, clumpId, holds no numbers", clump + 1);
         CLX_TRY(clx_yade_clumps(&spheres, table->column[clump].number, assembly));
     } else {
-        if (is_lammps) {
-            type = clast_table_numbers(table, "type");
-            CLX_TRY(find_density(table, &density));
-        }
-        CLX_TRY(add_spheres(&spheres, type, density, assembly));
-        *has_density = density != NULL;
+        CLX_TRY(
+            add_spheres(&spheres, is_lammps ? clast_table_numbers(table, "type") : NULL, assembly));
     }
 done:
     clast_spheres_free(&spheres);

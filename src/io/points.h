@@ -17,6 +17,20 @@ clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast
 CLX_SHARED clast_status clx_vtu_grains(const char *path, clast_table *grains, clast_table *names);
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
                              clast_table *table);
+
+/// What a dump says beside its atoms.
+typedef struct clx_dump_head {
+    int64_t snapshot, n_snapshot; ///< the one that was read, from 0, of so many
+    int64_t step;                 ///< its TIMESTEP; -1: none
+    char units[16];               ///< word of ITEM: UNITS, lower case; "": none
+    double low[3], high[3];       ///< of the box without what a tilt adds to its bounds
+    double tilt[3];               ///< xy, xz, yz
+    bool has_box, is_periodic[3];
+} clx_dump_head;
+
+/// clx_points_dump with the head of the snapshot.
+clast_status clx_dump_read(const char *name, const void *bytes, size_t n, int64_t frame,
+                           clast_table *table, clx_dump_head *head);
 clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table);
 clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast_table *table);
 

@@ -4,13 +4,15 @@
 #include "base/alloc.h"
 #include "io/text.h"
 #include <clast/table.h>
+#include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct {
     clx_text text;
     const char *name;
-    double low[3], high[3]; ///< of the box: its orthogonal bounds, less what a tilt adds
+    clx_dump_head head;
     int64_t n_atom;
     clx_word header; ///< names of the columns, the rest of the ATOMS line
     clx_text rows;   ///< cursor at the first row
@@ -35,24 +37,74 @@ done:
     return status;
 }
 
+/// "pp pp ff" behind BOX, after BOUNDS and perhaps "xy xz yz".
+static clast_status read_boundary(dump *d)
+{
+    clast_status status = CLAST_OK;
+    clx_word word;
+    int k = 0;
+    while (k < 3 && clx_text_word(&d->text, &word)) {
+        CLX_CHECK(!clx_word_is(word, "abc"), CLAST_E_FORMAT,
+                  "%s:%" PRId64 ": the box is a general triclinic one; clast reads orthogonal and "
+                  "tilted boxes",
+                  d->name, d->text.line);
+        if (!clx_word_is(word, "bounds") && !clx_word_is(word, "xy") && !clx_word_is(word, "xz") &&
+            !clx_word_is(word, "yz")) {
+            d->head.is_periodic[k++] = word.text[0] == 'p';
+        }
+    }
+done:
+    return status;
+}
+
+/// Takes off what a tilt adds to the bounds.                      [LAMMPS manual, Howto_triclinic]
+static void untilt(clx_dump_head *h)
+{
+    const double *t = h->tilt;
+    h->low[0] -= fmin(fmin(0.0, t[0] + t[1]), fmin(t[0], t[1]));
+    h->high[0] -= fmax(fmax(0.0, t[0] + t[1]), fmax(t[0], t[1]));
+    h->low[1] -= fmin(0.0, t[2]);
+    h->high[1] -= fmax(0.0, t[2]);
+}
+
 /// Three lines "low high [tilt]"; bounds of a tilted box hold the tilt.
 static clast_status read_bounds(dump *d)
 {
     clast_status status = CLAST_OK;
-    double tilt[3] = {0};
+    clx_dump_head *h = &d->head;
+    memset(h->tilt, 0, sizeof h->tilt);
+    CLX_TRY(read_boundary(d));
     for (int k = 0; k < 3; ++k) {
         clx_word word;
         CLX_TRY(next_line(d, "the box's bounds"));
-        CLX_TRY(clx_text_number(&d->text, "bound", &d->low[k]));
-        CLX_TRY(clx_text_number(&d->text, "bound", &d->high[k]));
+        CLX_TRY(clx_text_number(&d->text, "bound", &h->low[k]));
+        CLX_TRY(clx_text_number(&d->text, "bound", &h->high[k]));
         if (clx_text_word(&d->text, &word)) {
-            CLX_CHECK(clx_word_number(word, &tilt[k]), CLAST_E_FORMAT,
+            CLX_CHECK(clx_word_number(word, &h->tilt[k]), CLAST_E_FORMAT,
                       "%s:%" PRId64 ": the tilt of the box is no number", d->name, d->text.line);
         }
     }
-    CLX_CHECK(tilt[0] == 0.0 && tilt[1] == 0.0 && tilt[2] == 0.0, CLAST_E_FORMAT,
-              "%s:%" PRId64 ": the box is tilted; clast reads orthogonal boxes", d->name,
-              d->text.line);
+    untilt(h);
+    h->has_box = true;
+done:
+    return status;
+}
+
+/// The word of ITEM: UNITS, or the number of ITEM: TIMESTEP; another item's line is passed over.
+static clast_status read_line(dump *d, clx_word item)
+{
+    clast_status status = CLAST_OK;
+    clx_word word;
+    CLX_TRY(next_line(d, "the end of a section"));
+    if (clx_word_is(item, "timestep") &&
+        (!clx_text_word(&d->text, &word) || !clx_word_integer(word, &d->head.step))) {
+        d->head.step = -1;
+    } else if (clx_word_is(item, "units") && clx_text_word(&d->text, &word)) {
+        for (size_t i = 0; i < sizeof d->head.units; ++i) {
+            const bool is_in = i + 1 < sizeof d->head.units && (int64_t)i < word.n;
+            d->head.units[i] = (char)(is_in ? tolower((unsigned char)word.text[i]) : '\0');
+        }
+    }
 done:
     return status;
 }
@@ -84,6 +136,8 @@ static clast_status read_frame(dump *d, bool *found)
     clx_word item;
     *found = false;
     d->n_atom = -1;
+    d->head.step = -1;
+    d->head.has_box = false;
     while (clx_text_any_word(&d->text, &word)) {
         CLX_CHECK(word.n == 5 && memcmp(word.text, "ITEM:", 5) == 0, CLAST_E_FORMAT,
                   "%s:%" PRId64 ": expected ITEM:", d->name, d->text.line);
@@ -101,7 +155,7 @@ static clast_status read_frame(dump *d, bool *found)
         } else if (clx_word_is(item, "box")) {
             CLX_TRY(read_bounds(d));
         } else { // TIMESTEP, TIME, UNITS: one line
-            CLX_TRY(next_line(d, "the end of a section"));
+            CLX_TRY(read_line(d, item));
         }
         CLX_TRY(next_line(d, "ITEM: ATOMS"));
     }
@@ -145,16 +199,20 @@ static clast_status unscale(const dump *d, clast_table *table)
     static const char *const scaled[3] = {"xs", "ys", "zs"};
     static const char *const plain[3] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
+    const double *tilt = d->head.tilt;
     for (int k = 0; k < 3; ++k) {
         double *column = NULL;
         if (clast_table_numbers(table, scaled[k]) == NULL ||
             clast_table_find(table, plain[k]) >= 0) {
             continue;
         }
+        CLX_CHECK(tilt[0] == 0.0 && tilt[1] == 0.0 && tilt[2] == 0.0, CLAST_E_FORMAT,
+                  "%s: the box is tilted, and %s is by its sides; clast reads x, y and z there",
+                  d->name, scaled[k]);
         CLX_TRY(clast_table_add_number(table, plain[k], "-", &column));
         const double *from = clast_table_numbers(table, scaled[k]);
         for (int64_t i = 0; i < table->n_row; ++i) {
-            column[i] = d->low[k] + from[i] * (d->high[k] - d->low[k]);
+            column[i] = d->head.low[k] + from[i] * (d->head.high[k] - d->head.low[k]);
         }
     }
 done:
@@ -206,10 +264,51 @@ static clast_status find_frame(dump *d, int64_t frame)
     found = wanted >= 0;
     for (int64_t k = 0; k <= wanted && found; ++k) {
         CLX_TRY(read_frame(d, &found));
-        n = k + (found ? 1 : 0);
+        n = frame < 0 ? n : k + (found ? 1 : 0);
     }
     CLX_CHECK(found, CLAST_E_FORMAT, "%s: there is no snapshot %" PRId64 " among %" PRId64, d->name,
               frame, n);
+    d->head.snapshot = wanted;
+done:
+    return status;
+}
+
+/// Snapshots up to the end, or to one that is cut short, from the one that was found on.
+static int64_t count_snapshots(const dump *d)
+{
+    dump rest = *d;
+    int64_t n = d->head.snapshot + 1;
+    for (bool found = true; found && read_frame(&rest, &found) == CLAST_OK;) {
+        n += found ? 1 : 0;
+    }
+    return n;
+}
+
+static clast_status read_dump(dump *d, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    bool is_text[1024] = {false};
+    CLX_TRY(clast_table_init(&made, d->name, d->n_atom));
+    CLX_TRY(add_columns(d, &made, is_text));
+    CLX_TRY(fill_rows(d, &made, is_text));
+    CLX_TRY(unscale(d, &made));
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}
+
+clast_status clx_dump_read(const char *name, const void *bytes, size_t n, int64_t frame,
+                           clast_table *table, clx_dump_head *head)
+{
+    clast_status status = CLAST_OK;
+    dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name, .head = {.step = -1}};
+    CLX_TRY(find_frame(&d, frame));
+    CLX_TRY(read_dump(&d, table));
+    *head = d.head;
+    head->n_snapshot = count_snapshots(&d);
 done:
     return status;
 }
@@ -218,17 +317,9 @@ clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int6
                              clast_table *table)
 {
     clast_status status = CLAST_OK;
-    clast_table made = {0};
-    bool is_text[1024] = {false};
-    dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name};
+    dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name, .head = {.step = -1}};
     CLX_TRY(find_frame(&d, frame));
-    CLX_TRY(clast_table_init(&made, name, d.n_atom));
-    CLX_TRY(add_columns(&d, &made, is_text));
-    CLX_TRY(fill_rows(&d, &made, is_text));
-    CLX_TRY(unscale(&d, &made));
-    *table = made;
-    made = (clast_table){0};
+    CLX_TRY(read_dump(&d, table));
 done:
-    clast_table_free(&made);
     return status;
 }

@@ -422,7 +422,7 @@ clast_status clx_rockable_library(clx_rockable_files *files)
     return read_configuration(&c, files->name);
 }
 
-clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly, bool *has_density)
+clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     configuration c = {.text = clx_text_begin(files->bytes, files->n, '#', false),
@@ -431,7 +431,7 @@ clast_status clx_rockable(clx_rockable_files *files, clast_assembly *assembly, b
     CLX_TRY(read_library(files->library, files->shapes, files->n_shape, assembly));
     CLX_TRY(read_configuration(&c, files->name));
     (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
-    *has_density = c.n_density > 0;
+    assembly->no_density = c.n_density == 0;
 done:
     return status;
 }

@@ -42,12 +42,28 @@ static bool is_separator(char c)
     return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r';
 }
 
+/// Whether a unit in brackets follows the blanks: "Size (mm)", "Size [mm]".
+static bool is_before_unit(const char *at, const char *end)
+{
+    while (at < end && *at == ' ') {
+        ++at;
+    }
+    return at < end && (*at == '(' || *at == '[');
+}
+
 /// Where a word ends: at a comma, semicolon or tab if the line has one (names may then hold blanks,
-/// as "Diameter (mm)"), else at a blank too.
+/// as "Equivalent diameter (mm)"), else at a blank too, but not one within or before the brackets
+/// of a unit.
 static const char *word_end(const char *at, const char *end, bool has_marks)
 {
     const char *last = at;
-    for (; at < end && *at != '#' && !(has_marks ? is_mark(*at) : is_separator(*at)); ++at) {
+    bool in_unit = false;
+    for (; at < end && *at != '#'; ++at) {
+        const bool is_end = has_marks ? is_mark(*at) : is_separator(*at);
+        if (is_end && (has_marks || !(in_unit || is_before_unit(at, end)))) {
+            break;
+        }
+        in_unit = *at == '(' || *at == '[' || (in_unit && *at != ')' && *at != ']');
         last = *at == ' ' || *at == '\r' ? last : at + 1;
     }
     return last;
@@ -117,16 +133,17 @@ static bool is_unit(const char *text)
     return strcmp(text, "phi") == 0 || clast_unit_factor(text, "m", &factor) == CLAST_OK;
 }
 
-/// The unit that a column's name ends in ("d_mm", "Diameter (mm)"), "" for none.
+/// The unit that a column's name ends in ("d_mm", "Diameter (mm)", "size [mm]"), "" for none.
 static void unit_of(const char *column, char unit[16])
 {
     const char *bar = strrchr(column, '_');
-    const char *open = strrchr(column, '(');
+    const char *round = strrchr(column, '(');
+    const char *open = round != NULL ? round : strrchr(column, '[');
     const char *start = open != NULL                 ? open + 1
                         : bar != NULL                ? bar + 1
                         : strcmp(column, "phi") == 0 ? column
                                                      : "";
-    (void)snprintf(unit, 16, "%.*s", (int)strcspn(start, ")"), start);
+    (void)snprintf(unit, 16, "%.*s", (int)strcspn(start, ")]"), start);
     if (!is_unit(unit)) {
         unit[0] = '\0';
     }

@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include <clast/field.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -18,13 +19,12 @@ typedef struct {
 static const char *const names[] = {"x", "y", "z", "radius", "r", "diameter", "d"};
 enum { N_NAME = sizeof names / sizeof names[0], FIRST_DIAMETER = 5 };
 
-/// True for "x", "x_um", "x (um)", "x [um]" when the wanted name is "x"; "d_agg" is no "d".
-static bool is_named(const char *column, const char *wanted)
+bool clx_column_is(const char *column, const char *wanted, const char *si_unit)
 {
     const size_t n = strlen(wanted);
     double factor = 0.0;
     return strncasecmp(column, wanted, n) == 0 &&
-           (column[n] == '_' ? clast_unit_factor(column + n + 1, "m", &factor) == CLAST_OK
+           (column[n] == '_' ? clast_unit_factor(column + n + 1, si_unit, &factor) == CLAST_OK
                              : strchr(" ([", column[n]) != NULL);
 }
 
@@ -42,7 +42,7 @@ static void find_names(const clast_table *table, columns *c)
 {
     for (int name = 0; name < N_NAME; ++name) {
         for (int32_t i = 0; i < table->n_column; ++i) {
-            if (is_named(table->column[i].name, names[name])) {
+            if (clx_column_is(table->column[i].name, names[name], "m")) {
                 take_column(c, name, &table->column[i]);
             }
         }
@@ -57,15 +57,34 @@ bool clx_spheres_are_named(const clast_table *table)
            c.column[RADIUS] != NULL;
 }
 
+/// What a table of unnamed columns is asked for, in the words of who asks.
+typedef struct {
+    char columns[48], diameter[48], of_all[64];
+} words;
+
+static words words_of(const clx_spheres_wanted *wanted)
+{
+    words w = {"a first line of names:", "a first line of names", ""};
+    if (wanted != NULL && wanted->prefix != NULL) {
+        (void)snprintf(w.columns, sizeof w.columns, "%scolumns", wanted->prefix);
+        (void)snprintf(w.diameter, sizeof w.diameter, "%sdiameter", wanted->prefix);
+        (void)snprintf(w.of_all, sizeof w.of_all, ", or all one %s", w.diameter);
+    }
+    return w;
+}
+
 /// Columns in the order of a list such as "id,x,y,z,d".
-static clast_status take_list(const clast_table *table, const char *list, columns *c)
+static clast_status take_list(const clast_table *table, const clx_spheres_wanted *wanted,
+                              columns *c)
 {
     clast_status status = CLAST_OK;
+    const char *list = wanted->options.columns;
+    const words w = words_of(wanted);
     int32_t n = 0;
     for (const char *at = list; *at != '\0'; ++n) {
         const size_t length = strcspn(at, ",");
-        CLX_CHECK(n < table->n_column, CLAST_E_CONFIG, "columns: '%s' names more than the %d there",
-                  list, table->n_column);
+        CLX_CHECK(n < table->n_column, CLAST_E_CONFIG, "%s '%s' names more than the %d there",
+                  w.columns, list, table->n_column);
         for (int name = 0; name < N_NAME; ++name) {
             if (strlen(names[name]) == length && strncasecmp(at, names[name], length) == 0) {
                 take_column(c, name, &table->column[n]);
@@ -74,7 +93,7 @@ static clast_status take_list(const clast_table *table, const char *list, column
         at += length + (at[length] == ',');
     }
     CLX_CHECK(c->column[0] != NULL && c->column[1] != NULL && c->column[2] != NULL, CLAST_E_CONFIG,
-              "columns: '%s' does not name x, y and z; write id,x,y,z,d or x,y,z,r", list);
+              "%s '%s' does not name x, y and z; write id,x,y,z,d or x,y,z,r", w.columns, list);
 done:
     return status;
 }
@@ -98,31 +117,34 @@ static bool are_ids(const double *value, int64_t n)
 }
 
 /// Columns without names: x y z r, id x y z or id x y z r; texts (elements) are passed over.
-static clast_status take_places(const clast_table *table, const clast_packing_options *options,
+static clast_status take_places(const clast_table *table, const clx_spheres_wanted *wanted,
                                 columns *c)
 {
     clast_status status = CLAST_OK;
+    const words w = words_of(wanted);
     const clast_column *number[5] = {NULL};
     int n = 0;
     for (int32_t i = 0; i < table->n_column; ++i) {
         if (table->column[i].number != NULL) {
-            CLX_CHECK(n < 5 || options == NULL, CLAST_E_FORMAT,
+            CLX_CHECK(n < 5 || wanted == NULL, CLAST_E_FORMAT,
                       "more than five columns without names of spheres; say which they are with "
-                      "--columns, such as id,x,y,z,d");
+                      "%s id,x,y,z,d",
+                      w.columns);
             if (n < 5) {
                 number[n] = &table->column[i];
             }
             ++n;
         }
     }
-    const bool has_id = options != NULL && n >= 4 && are_ids(number[0]->number, table->n_row);
+    const bool has_id = wanted != NULL && n >= 4 && are_ids(number[0]->number, table->n_row);
     CLX_CHECK(
-        !(has_id && n == 4 && options->diameter <= 0.0), CLAST_E_FORMAT,
-        "four columns of which the first counts the rows: for id x y z give --diameter, for x "
-        "y z r write --columns x,y,z,r");
-    CLX_CHECK(n != 5 || has_id || options == NULL, CLAST_E_FORMAT,
-              "five columns without names, the first is no id; say which they are with --columns, "
-              "such as x,y,z,r");
+        !(has_id && n == 4 && wanted->options.diameter <= 0.0), CLAST_E_FORMAT,
+        "four columns of which the first counts the rows: for id x y z give %s, for x y z r give "
+        "%s x,y,z,r",
+        w.diameter, w.columns);
+    CLX_CHECK(n != 5 || has_id || wanted == NULL, CLAST_E_FORMAT,
+              "five columns without names, the first is no id; say which they are with %s x,y,z,r",
+              w.columns);
     for (int k = 0; k < N_COLUMN && n >= 3; ++k) {
         c->column[k] = has_id + k < 5 && has_id + k < n ? number[has_id + k] : NULL;
     }
@@ -130,16 +152,18 @@ done:
     return status;
 }
 
-static clast_status check_columns(const columns *c, bool has_diameter)
+static clast_status check_columns(const columns *c, const clx_spheres_wanted *wanted)
 {
     clast_status status = CLAST_OK;
+    const bool has_diameter = wanted != NULL && wanted->options.diameter > 0.0;
+    const words w = words_of(wanted);
     for (int k = 0; k < N_COLUMN; ++k) {
         const clast_column *column = c->column[k];
         CLX_CHECK(column == NULL || column->number != NULL, CLAST_E_FORMAT,
                   "column %s of the spheres holds texts", column->name);
         CLX_CHECK(column != NULL || (k == RADIUS && has_diameter), CLAST_E_FORMAT,
-                  "no column of numbers named %s%s; spheres need x, y, z and radius or diameter",
-                  names[k], k == RADIUS ? ", r, diameter or d" : "");
+                  "no column of numbers named %s%s; spheres need x, y, z and radius or diameter%s",
+                  names[k], k == RADIUS ? ", r, diameter or d" : "", w.of_all);
     }
 done:
     return status;
@@ -193,38 +217,76 @@ done:
     return status;
 }
 
-clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
-                                  clast_spheres *spheres, double *unit_m)
+/// Which columns are the spheres'.
+static clast_status find_columns(const clast_table *table, const clx_spheres_wanted *wanted,
+                                 columns *c)
+{
+    clast_status status = CLAST_OK;
+    const char *list = wanted != NULL ? wanted->options.columns : NULL;
+    if (list != NULL && list[0] != '\0') {
+        CLX_TRY(take_list(table, wanted, c));
+    } else {
+        find_names(table, c);
+        if (c->column[0] == NULL && c->column[1] == NULL && c->column[2] == NULL) {
+            *c = (columns){{NULL}, false};
+            CLX_TRY(take_places(table, wanted, c));
+        }
+    }
+    CLX_TRY(check_columns(c, wanted));
+done:
+    return status;
+}
+
+/// The spheres, in metres where in_metres is not NULL and the columns say their unit.
+static clast_status make_spheres(const clast_table *table, const clx_spheres_wanted *wanted,
+                                 const columns *c, bool *in_metres, clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     clast_spheres made = {0};
-    columns c = {{NULL}, false};
     double factor[N_COLUMN] = {1.0, 1.0, 1.0, 1.0};
-    bool in_metres = false;
-    const double diameter = options != NULL ? options->diameter : 0.0;
-    if (options != NULL && options->columns != NULL && options->columns[0] != '\0') {
-        CLX_TRY(take_list(table, options->columns, &c));
-    } else {
-        find_names(table, &c);
-        if (c.column[0] == NULL && c.column[1] == NULL && c.column[2] == NULL) {
-            c = (columns){{NULL}, false};
-            CLX_TRY(take_places(table, options, &c));
-        }
-    }
-    CLX_TRY(check_columns(&c, diameter > 0.0));
-    if (unit_m != NULL) {
-        CLX_TRY(find_factors(&c, factor, &in_metres));
+    double diameter = wanted != NULL ? wanted->options.diameter : 0.0;
+    if (in_metres != NULL) {
+        CLX_TRY(find_factors(c, factor, in_metres));
+        diameter /= wanted != NULL && wanted->metre > 0.0 && !*in_metres ? wanted->metre : 1.0;
     }
     CLX_CHECK(table->n_row > 0 && table->n_row <= INT32_MAX, CLAST_E_FORMAT, "%lld spheres",
               (long long)table->n_row);
     CLX_TRY(clast_spheres_alloc((int32_t)table->n_row, &made));
-    CLX_TRY(fill(&c, factor, diameter, &made));
-    if (unit_m != NULL) {
-        *unit_m = in_metres ? 1.0 : 0.0;
-    }
+    CLX_TRY(fill(c, factor, diameter, &made));
     *spheres = made;
     made = (clast_spheres){0};
 done:
     clast_spheres_free(&made);
+    return status;
+}
+
+clast_status clx_spheres_of_columns(const clast_table *table, const clx_spheres_wanted *wanted,
+                                    clast_spheres *spheres, char unit[16])
+{
+    clast_status status = CLAST_OK;
+    columns c = {{NULL}, false};
+    bool in_metres = false;
+    CLX_TRY(find_columns(table, wanted, &c));
+    CLX_TRY(make_spheres(table, wanted, &c, &in_metres, spheres));
+    (void)snprintf(unit, 16, "%s", in_metres && c.column[0] != NULL ? c.column[0]->unit : "");
+done:
+    return status;
+}
+
+clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
+                                  clast_spheres *spheres, double *unit_m)
+{
+    clast_status status = CLAST_OK;
+    columns c = {{NULL}, false};
+    bool in_metres = false;
+    const clx_spheres_wanted wanted = {.options =
+                                           options != NULL ? *options : (clast_packing_options){0}};
+    const clx_spheres_wanted *asked = options != NULL ? &wanted : NULL;
+    CLX_TRY(find_columns(table, asked, &c));
+    CLX_TRY(make_spheres(table, asked, &c, unit_m != NULL ? &in_metres : NULL, spheres));
+    if (unit_m != NULL) {
+        *unit_m = in_metres ? 1.0 : 0.0;
+    }
+done:
     return status;
 }

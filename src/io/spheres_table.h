@@ -6,6 +6,10 @@
 /// True when the table's columns are named as those of spheres: x, y, z and a radius or diameter.
 bool clx_spheres_are_named(const clast_table *table);
 
+/// True for "x", "x_um", "x (um)", "x [um]" when the wanted name is "x" and the SI unit m; "d_agg"
+/// is no "d".
+bool clx_column_is(const char *column, const char *wanted, const char *si_unit);
+
 /// The spheres of a table: by the options, by the columns' names, or by place.
 ///
 /// @param options  NULL: the first four columns are x, y, z, radius when none has such a name
@@ -13,3 +17,18 @@ bool clx_spheres_are_named(const clast_table *table);
 ///                 are as in the table; NULL: as in the table whatever their unit
 clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
                                   clast_spheres *spheres, double *unit_m);
+
+/// What is asked of a table of spheres, and by whom.
+typedef struct clx_spheres_wanted {
+    clast_packing_options options;
+    double metre;       ///< above 0: metres in a length of columns that say no unit, where a given
+                        ///< diameter is in metres
+    const char *prefix; ///< of the names of options in messages: "--", "--start-"; NULL: none can
+                        ///< be given
+} clx_spheres_wanted;
+
+/// clx_spheres_of_table so.
+///
+/// @param unit  of the columns' lengths as x says it, "" for none
+clast_status clx_spheres_of_columns(const clast_table *table, const clx_spheres_wanted *wanted,
+                                    clast_spheres *spheres, char unit[16]);

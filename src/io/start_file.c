@@ -62,6 +62,8 @@ static clast_status refuse_options(const clast_pack_config *c, const char *whose
     clast_status status = CLAST_OK;
     CLX_CHECK(c->start_columns[0] == '\0' && c->start_diameter == 0.0, CLAST_E_CONFIG,
               "start_columns and start_diameter are for packings of spheres from other programs");
+    CLX_CHECK(c->start_frame == -1 || c->start_frame == CLX_START_OLD, CLAST_E_CONFIG,
+              "start_frame is for packings of several snapshots from other programs");
     CLX_TRY(refuse_density(c, whose));
 done:
     return status;
@@ -72,23 +74,51 @@ static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
     clast_status status = CLAST_OK;
     CLX_TRY(refuse_options(c, "state"));
     CLX_TRY(clast_state_read_assembly(c->start, a));
+    CLX_TRY(to_metres(c, a));
 done:
     return status;
 }
 
-static clast_status read_others(const clast_pack_config *c, clast_assembly *a)
+/// Whether the unit that was given is that of the file, where this says one.
+static clast_status check_unit(const clast_pack_config *c, const clx_packing_told *told)
+{
+    const char *own = told->units != NULL ? told->units->length : told->unit;
+    double factor = 0.0;
+    return c->start_unit[0] == '\0' || own[0] == '\0' || strcmp(c->start_unit, own) == 0 ||
+                   (told->units == NULL && strcmp(c->start_unit, "m") == 0)
+               ? CLAST_OK
+           : clast_unit_factor(c->start_unit, "m", &factor) != CLAST_OK
+               ? CLAST_E_CONFIG
+               : clx_fail(CLAST_E_CONFIG, "its lengths are in %s, not in %s (start_unit)", own,
+                          c->start_unit);
+}
+
+static clast_status read_others(const clast_pack_config *c, clast_assembly *a,
+                                clast_packing_report *report)
 {
     clast_status status = CLAST_OK;
-    const clast_packing_options o = {.columns = c->start_columns, .diameter = c->start_diameter};
-    bool has_density = false;
+    const bool is_old = c->start_frame == CLX_START_OLD;
+    const clx_packing_wanted wanted = {
+        .spheres = {.options = {.columns = c->start_columns, .diameter = c->start_diameter},
+                    .prefix = "--start-"},
+        .unit = c->start_unit,
+        .frame = is_old ? 0 : c->start_frame,
+        .has_frame = !is_old && c->start_frame != -1,
+        .is_old = is_old};
+    clx_packing_told told;
     const double density = c->density.n == 0 ? USUAL : c->density.n == 1 ? c->density.item[0] : 0.0;
     CLX_CHECK(density > 0.0, CLAST_E_CONFIG,
               "grains of another program have one density, above 0 (density)");
-    CLX_TRY(clx_packing_read(c->start, &o, a, &has_density));
-    CLX_TRY(has_density ? refuse_density(c, "file") : CLAST_OK);
-    for (int32_t i = 0; i < a->n_grain && !has_density; ++i) {
+    CLX_TRY(clx_packing_read(c->start, &wanted, a, &told));
+    CLX_TRY(check_unit(c, &told));
+    CLX_CHECK(strcmp(a->unit, "m") == 0, CLAST_E_CONFIG,
+              "the unit of its lengths is not known; give it (start_unit: mm)");
+    CLX_TRY(a->no_density ? CLAST_OK : refuse_density(c, "file"));
+    for (int32_t i = 0; i < a->n_grain && a->no_density; ++i) {
         a->density[i] = density;
     }
+    a->no_density = false;
+    *report = told.report;
 done:
     return status;
 }
@@ -180,13 +210,12 @@ done:
     return status;
 }
 
-/// In metres, to the caller; else the error names the key.
+/// To the caller; else the error names the key.
 static clast_status finish(const clast_pack_config *config, clast_status status,
                            clast_assembly *made, clast_assembly *assembly)
 {
     CLX_TRY(status);
     CLX_CHECK(made->n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
-    CLX_TRY(to_metres(config, made));
     *assembly = *made;
     *made = (clast_assembly){0};
 done:
@@ -213,18 +242,20 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
     for (int64_t i = 0; i < table->n_row; ++i) {
         CLX_TRY(add_row(table, i, name, x, &made));
     }
+    CLX_TRY(to_metres(config, &made));
 done:
     return finish(config, status, &made, assembly);
 }
 
-clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly)
+clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly,
+                            clast_packing_report *report)
 {
     clast_status status = CLAST_OK;
     clast_assembly made = {0};
     const bool is_state = clx_path_is(config->start, "h5");
     CLX_CHECK(!is_folder(config->start), CLAST_E_CONFIG, "%s is a folder; give the state.h5 in it",
               config->start);
-    CLX_TRY(is_state ? read_state(config, &made) : read_others(config, &made));
+    CLX_TRY(is_state ? read_state(config, &made) : read_others(config, &made, report));
 done:
     return finish(config, status, &made, assembly);
 }

@@ -1,6 +1,11 @@
 #pragma once
 // The bed that a packing begins with, in place of grains that are made.
 #include <clast/pack.h>
+#include <clast/state.h>
+
+/// start_frame of runs that an older clast began, which read the first snapshot, as
+/// clx_packing_wanted.is_old.
+#define CLX_START_OLD INT64_C(-9000000000000000)
 
 /// The table of config->start where it is a row a grain with shape, pose and scale, as
 /// clast_assembly_write makes it
@@ -12,5 +17,7 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
                                 int32_t n_shape, const clast_shape *shape,
                                 clast_assembly *assembly);
 
-/// config->start in metres: the state.h5 of a run, else a packing of spheres.
-clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly);
+/// config->start in metres: the state.h5 of a run, else a packing of another program, of which the
+/// report tells.
+clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly,
+                            clast_packing_report *report);

@@ -102,6 +102,9 @@ static clast_status put_property(clx_export *e, clx_vtk_array *array, const prop
 {
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
+    if (p->value == value_density && !e->has_density) {
+        return CLAST_OK;
+    }
     for (int32_t i = 0; i < a->n_grain; ++i) {
         datum bytes;
         const int32_t n = at == EACH_TRIANGLE ? e->parts.surface[a->shape_id[i]].n_tri : 1;

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "base/status.h"
 #include "math/rng.h"
 #include "math/sample.h"
 #include "math/sort.h"
@@ -13,6 +14,21 @@
 clast_bootstrap clast_bootstrap_default(void)
 {
     return (clast_bootstrap){.n_resample = 2000, .level = 0.95, .seed = 1};
+}
+
+clast_status clx_bootstrap_check(const clast_bootstrap *bootstrap)
+{
+    clast_status status = CLAST_OK;
+    if (bootstrap == NULL) {
+        return CLAST_OK;
+    }
+    CLX_CHECK(bootstrap->n_resample >= 0, CLAST_E_ARGUMENT, "bootstrap: %d resamples; 0: none",
+              bootstrap->n_resample);
+    CLX_CHECK(bootstrap->n_resample == 0 || (bootstrap->level > 0.0 && bootstrap->level < 1.0),
+              CLAST_E_ARGUMENT, "bootstrap: a level of %g; give one above 0 and below 1, as 0.95",
+              bootstrap->level);
+done:
+    return status;
 }
 
 void clx_bootstrap_rows(const clast_bootstrap *bootstrap, int64_t b, int64_t n, int64_t *row)

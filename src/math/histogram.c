@@ -23,16 +23,29 @@ static double round_width(double rough)
                                         : 10.0);
 }
 
-/// Lower edge and width for a sorted sample that is not constant.
-static void choose_bins(const double *sorted, int64_t n, const clx_moments *m, clast_histogram *h,
-                        double *low, double *width)
+static double width_of(const double *sorted, int64_t n, const clx_moments *m)
 {
     CLAST_ASSERT(n > 1);
     const double iqr = clx_sample_quantile(sorted, n, 0.75) - clx_sample_quantile(sorted, n, 0.25);
     const double spread = iqr > 0.0 ? iqr : m->deviation_ml;
     const double range = sorted[n - 1] - sorted[0];
     const double rough = fmax(2.0 * spread / cbrt((double)n), range / (0.5 * MAX_BIN));
-    *width = round_width(rough);
+    return round_width(rough);
+}
+
+/// Whether doubles as large as the sample's are closer to each other than edges would be.
+static bool has_edges(const double *sorted, int64_t n, const clx_moments *m)
+{
+    const double most = fmax(fabs(sorted[0]), fabs(sorted[n - 1]));
+    const double width = width_of(sorted, n, m);
+    return most + 0.25 * width > most && isfinite(1.0 / width);
+}
+
+/// Lower edge and width for a sorted sample that is not constant.
+static void choose_bins(const double *sorted, int64_t n, const clx_moments *m, clast_histogram *h,
+                        double *low, double *width)
+{
+    *width = width_of(sorted, n, m);
     *low = *width * floor(sorted[0] / *width + 1e-9);
     h->n_bin = (int32_t)fmax(1.0, ceil((sorted[n - 1] - *low) / *width - 1e-9));
     CLAST_ASSERT(h->n_bin >= 1);
@@ -72,11 +85,16 @@ clast_status clast_histogram_of(const double *x, int64_t n, clast_histogram *his
               (long long)n);
     CLX_TRY(clx_sort_doubles(sorted, n_finite));
     const clx_moments m = clx_sample_moments(sorted, n_finite);
+    CLX_CHECK(
+        isfinite(sorted[n_finite - 1] - sorted[0]) && isfinite(m.mean) && isfinite(m.deviation_ml),
+        CLAST_E_FORMAT, "histogram of values from %g to %g, which are beyond a double's range",
+        sorted[0], sorted[n_finite - 1]);
     h.mean = m.mean;
     h.deviation_ml = m.deviation_ml;
-    double width = m.mean != 0.0 ? 0.2 * fabs(m.mean) : 1.0;
+    double width = 0.2 * fabs(m.mean);
+    width = isfinite(1.0 / width) ? width : 1.0;
     double low = sorted[0] - 0.5 * width;
-    if (!m.is_constant) {
+    if (!m.is_constant && has_edges(sorted, n_finite, &m)) {
         choose_bins(sorted, n_finite, &m, &h, &low, &width);
     }
     CLX_TRY(clx_alloc(&h.edge, h.n_bin + 1, sizeof *h.edge));

@@ -209,7 +209,7 @@ clast_status clx_cross_validate(const clx_regression *data, const int32_t *fold,
     for (int32_t k = 0; k < n_fold; ++k) {
         status = train(data, fold, k, &t);
         if (status != CLAST_OK) {
-            clx_fail_prefix("cross-validation, fold %d of %d: ", k + 1, n_fold);
+            clx_fail_prefix("cross-validation, fold %d of %d", k + 1, n_fold);
             goto done;
         }
         for (int64_t i = 0; i < data->n; ++i) {

@@ -28,7 +28,7 @@ clast_status clast_permeability(clast_permeability_law law, double diameter, dou
     CLX_CHECK(happel || law == CLAST_PERMEABILITY_KOZENY_CARMAN, CLAST_E_ARGUMENT,
               "permeability: law %d does not exist", (int)law);
     CLX_CHECK(diameter > 0.0 && isfinite(diameter), CLAST_E_USAGE,
-              "permeability: grain size %g must be positive", diameter);
+              "permeability: grain size %g must be finite and above 0", diameter);
     CLX_CHECK(porosity >= low && porosity <= high && porosity < 1.0, CLAST_E_USAGE,
               "permeability: porosity %g is outside of %s, %g to %g", porosity,
               happel ? "Happel's cell model" : "Kozeny and Carman's beds", low, high);
@@ -153,7 +153,7 @@ clast_status clast_terminal_velocity_permeable(double diameter, double density,
     clast_settling made;
     const double k = porous->permeability;
     CLX_CHECK(k > 0.0 && porous->core >= 0.0 && porous->core < 1.0, CLAST_E_USAGE,
-              "settling: permeability %g must be positive, the core %g of the radius below 1", k,
+              "settling: permeability %g must be above 0, the core %g of the radius below 1", k,
               porous->core);
     const double beta = 0.5 * diameter / sqrt(k);
     const double factor = clast_drag_permeable(beta, porous->core);

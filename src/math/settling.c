@@ -18,7 +18,7 @@ clast_status clast_drag_of_form(double length, double intermediate, double short
     CLX_ARGUMENTS(drag);
     clast_status status = CLAST_OK;
     CLX_CHECK(density_ratio > 0.0 && isfinite(density_ratio), CLAST_E_GEOMETRY,
-              "drag: density ratio %g must be positive", density_ratio);
+              "drag: density ratio %g must be finite and above 0", density_ratio);
     CLX_CHECK(shortest > 0.0 && intermediate >= shortest && length >= intermediate &&
                   isfinite(length) && diameter > 0.0 && isfinite(diameter),
               CLAST_E_GEOMETRY, "drag: L %g >= I %g >= S %g > 0 and diameter %g > 0 are needed",
@@ -117,17 +117,17 @@ clast_status clast_terminal_velocity(double diameter, double density, const clas
     CLX_ARGUMENTS(drag, fluid, settling);
     clast_status status = CLAST_OK;
     CLX_CHECK(diameter > 0.0 && isfinite(diameter), CLAST_E_USAGE,
-              "settling: diameter %g must be positive", diameter);
+              "settling: diameter %g must be finite and above 0", diameter);
     CLX_CHECK(density > 0.0 && isfinite(density), CLAST_E_USAGE,
-              "settling: density %g must be positive", density);
+              "settling: density %g must be finite and above 0", density);
     CLX_CHECK(fluid->density > 0.0 && fluid->viscosity > 0.0 && fluid->gravity > 0.0 &&
                   isfinite(fluid->density + fluid->viscosity + fluid->gravity),
               CLAST_E_USAGE,
-              "settling: fluid density %g, viscosity %g, gravity %g must be positive",
+              "settling: fluid density %g, viscosity %g, gravity %g must be finite and above 0",
               fluid->density, fluid->viscosity, fluid->gravity);
     CLX_CHECK(drag->stokes > 0.0 && drag->newton > 0.0 && isfinite(drag->stokes + drag->newton),
-              CLAST_E_USAGE, "settling: drag corrections %g and %g must be positive", drag->stokes,
-              drag->newton);
+              CLAST_E_USAGE, "settling: drag corrections %g and %g must be finite and above 0",
+              drag->stokes, drag->newton);
     const double excess = density - fluid->density;
     const double cube = diameter * diameter * diameter;
     const double wanted = 4.0 / 3.0 * fluid->density * fabs(excess) * fluid->gravity * cube /

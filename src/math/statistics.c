@@ -170,6 +170,7 @@ clast_status clast_statistics_of(const clast_table *table, const clast_bootstrap
     clast_statistics s = {0};
     const clast_bootstrap usual = clast_bootstrap_default();
     const double **column = NULL;
+    CLX_TRY(clx_bootstrap_check(bootstrap));
     CLX_TRY(clx_alloc(&column, table->n_column, sizeof *column));
     for (int32_t c = 0; c < table->n_column; ++c) {
         s.n += table->column[c].number != NULL ? 1 : 0;
@@ -199,7 +200,7 @@ done:
 
 int32_t clast_statistics_n_component(const clast_statistics *statistics, double share)
 {
-    if (clx_statistics_fault(statistics) != NULL) {
+    if (clx_statistics_fault(statistics) != NULL || isnan(share)) {
         return 0;
     }
     for (int32_t k = 0; k < statistics->n_pca; ++k) {
@@ -214,5 +215,8 @@ clast_status clast_statistics_limit_pca(clast_statistics *statistics, int32_t n_
 {
     CLX_ARGUMENTS(statistics);
     CLX_WHOLE(statistics, statistics);
+    if (n_column < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: the first %d columns", __func__, n_column);
+    }
     return components(n_column < statistics->n ? n_column : statistics->n, statistics);
 }

@@ -146,7 +146,9 @@ static clast_status check_domain(const clast_pack_config *c, const clast_pack_in
     const bool has_stages = c->stages.n > 0;
     const load l = note_load(c, input);
     const clast_idle rules[] = {
-        {has_container, "domain|width|depth|height",
+        {has_container && c->dem.domain != CLAST_DEM_OPEN, "domain",
+         "with container, which holds the grains in its place"},
+        {has_container, "width|depth|height",
          "with container, which holds the grains in their place"},
         {!has_container, "container_unit", "without container"},
         {c->dem.domain == CLAST_DEM_CYLINDER, "depth",
@@ -210,7 +212,7 @@ static clast_status check_others(const clast_pack_config *c, const clast_pack_in
          "seed|generator|spacing|fill_low|fill_high|first_low|first_high|initial_speed|random_turn|"
          "shake_from_start",
          "with start, which brings the grains"},
-        {!has_start, "start_unit|start_columns|start_diameter", "without start"},
+        {!has_start, "start_unit|start_columns|start_diameter|start_frame", "without start"},
         {input->curve == NULL, "spread|count", "without a sieve curve"},
         {c->density_of == CLAST_PACK_DENSITY_LIST && has_density(c), "density",
          "with density_of list, whose column it is"},

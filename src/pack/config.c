@@ -79,9 +79,11 @@ const clast_field clast_pack_fields[] = {
         "export as CSV beside shapes), or "
         "spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)",
         .group = "a bed from elsewhere"),
-    TEXT(start_unit, "", "length unit of the start, where it does not say"),
+    TEXT(start_unit, "", "length unit of the start, where it does not say (a dump's ITEM: UNITS)"),
     TEXT(start_columns, "", "columns of its spheres in their order: id,x,y,z,d"),
     NUMBER(start_diameter, 0, 0, 1e6, "m", "of all its spheres; 0: as the file says"),
+    {FIELD(I64, start_frame), -1, -9e15, 9e15, "-",
+     "snapshot of a LAMMPS dump or .xyz, from 0; negative: from the end", NULL},
     TEXT(container, "",
          "surface, closed or open, that holds the grains in place of domain, width, depth and "
          "height; grains are made inside of it",

@@ -169,6 +169,9 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         r->porosity_state = CLAST_PACK_POROUS;
         goto done;
     }
+    if (p->phase == CLAST_PACK_GENERATE) { // a layer of the lattice may be as dense as a bed
+        goto done;
+    }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     r->porosity_least = least_porosity(&profile);
     r->porosity_state = p->phase >= CLAST_PACK_DAMP ? CLAST_PACK_ABOVE_CUT : CLAST_PACK_NO_BED;
@@ -255,6 +258,9 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .n_waited = pack->n_waited,
                            .n_overlap = pack->n_overlap,
                            .deepest_start = pack->deepest,
+                           .start_snapshot = pack->input.start_snapshot,
+                           .n_start_snapshot = pack->input.n_start_snapshot,
+                           .start_step = pack->input.start_step,
                            .n_stage = pack->phase == CLAST_PACK_DONE   ? pack->config.stages.n
                                       : pack->phase == CLAST_PACK_LOAD ? pack->load.stage
                                                                        : 0,

@@ -91,7 +91,7 @@ static clast_status check_room(const clast_pack *p)
     }
     clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
-              "a packing needs sides: domain cylinder, periodic or box, or a container");
+              "a packing needs sides: domain cylinder, periodic, box or cell, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell || p->input.n_wall > 0, CLAST_E_CONFIG,
               "a packing needs a floor, or a wall in its place");
     clast_bed_volumes(&bed, 1, edge, &room);
@@ -216,7 +216,7 @@ void clx_pack_drive(clast_pack *p)
     const clast_dem_drive d = {.shake_amplitude = shakes ? c->shake_amplitude : 0.0,
                                .shake_period = c->shake_period,
                                .damping = p->phase == CLAST_PACK_DAMP ? c->damping : 1.0};
-    clast_dem_set_drive(p->dem, &d);
+    (void)clast_dem_set_drive(p->dem, &d); // the fields' ranges are narrower
 }
 
 static clast_status begin_phase(clast_pack *p, clast_pack_phase phase)

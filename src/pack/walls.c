@@ -389,7 +389,8 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
         clast_dem_load load;
         clast_dem_energy energy;
         CLX_TRY(clx_dem_gather_load(p->dem, &load, &energy));
-        *over = load.n_force > 0 && load.unbalanced < p->config.load_rest;
+        // n_force counts places between grains; a lone one between plates has none
+        *over = load.force_mean > 0.0 && load.unbalanced < p->config.load_rest;
     } else if (s->end == CLX_UNTIL_TIME) {
         *over = time >= s->until * (1.0 - 1e-12);
     } else if (s->end == CLX_UNTIL_STRESS) {

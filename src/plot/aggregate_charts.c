@@ -399,6 +399,8 @@ static clast_status draw(clast_aggregate_chart chart, const clast_table *table,
                          const clast_table *wanted, drawing *d)
 {
     clast_status status = CLAST_OK;
+    CLX_CHECK((unsigned)chart < CLAST_N_AGGREGATE_CHART, CLAST_E_ARGUMENT, "there is no chart %d",
+              (int)chart);
     CLX_CHECK(clast_aggregate_chart_fits(chart, table), CLAST_E_FORMAT,
               "table %s: the chart '%s' needs two rows with numbers in the columns %s and %s%s",
               table->name, kinds[chart].name, x_column(chart), kinds[chart].column,

@@ -47,11 +47,16 @@ static void judge(clx_fit *f, int32_t j)
 {
     CLAST_ASSERT(j >= 0 && j < f->m);
     int64_t n_used = 0;
-    f->r[j] = clx_sample_correlation(f->candidate[j].number, f->y, f->n, &n_used);
+    const double *x = f->candidate[j].number;
+    f->r[j] = clx_sample_correlation(x, f->y, f->n, &n_used);
     f->p[j] = clx_correlation_p(f->r[j], n_used);
-    f->state[j] = n_used < f->n    ? CLX_CANDIDATE_NOT_FINITE
-                  : isnan(f->r[j]) ? CLX_CANDIDATE_CONSTANT
-                                   : CLX_CANDIDATE_KEPT;
+    f->state[j] = CLX_CANDIDATE_KEPT;
+    if (n_used < f->n) {
+        f->state[j] = CLX_CANDIDATE_NOT_FINITE;
+    } else if (isnan(f->r[j]) || clx_sample_moments(x, f->n).is_constant) { // whatever n is
+        f->state[j] = CLX_CANDIDATE_CONSTANT;
+        f->r[j] = f->p[j] = NAN;
+    }
 }
 
 /// Insertion sort, stable: of equals the first stays first.

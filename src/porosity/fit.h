@@ -58,8 +58,8 @@ clast_status clx_fit_score(clx_fit *fit, int32_t p, double *mean, double *median
 
 /// What the model is worth: held-out errors with the selection inside the folds, and permutations.
 typedef struct clx_fit_validity {
-    double mean_error, median_error, r2_held_out;
-    double *held_out; ///< [n] of the first repeat
+    double mean_error, median_error, r2_held_out; ///< NaN with the published validation
+    double *held_out; ///< [n] of the first repeat; NULL with the published validation
     double *r2;       ///< [n_permutation]
     double *greatest; ///< [n_permutation] greatest |r| of a candidate
 } clx_fit_validity;

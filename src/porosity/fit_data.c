@@ -4,6 +4,8 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "porosity/form_inputs.h"
+#include "porosity/unit_columns.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -134,10 +136,8 @@ static clast_status single_rows(const clast_table *beds, const clast_form_set *s
         if (fault != NULL) {
             CLX_TRY(leave_out(row, fault, d));
         } else {
-            double lis[3];
             double feature[CLAST_N_FORM_FEATURE];
-            clast_form_lengths(set->flatness[k], set->elongation[k], 1.0, lis);
-            clast_form_features(lis[0], lis[1], lis[2], feature);
+            clx_form_features_of(set->flatness[k], set->elongation[k], feature);
             set_bed(d, n, row, porosity[row]);
             for (int32_t f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
                 d->beds.column[2 + f].number[n] = feature[f];
@@ -325,20 +325,82 @@ done:
     return status;
 }
 
-/// Candidates: those named; else all but the target, and in a study's table what was varied alone:
-/// its runs' other results, from exit_code on, are measured with the porosity, not known before.
+/// Candidates: those of `columns`; else those of `use` with all but the target, in a study's table
+/// with what was varied: its runs' other results, from exit_code on, are measured with the
+/// porosity, not known before, and the seed of random numbers says nothing of a bed.
 static bool is_candidate(const clast_table *beds, int32_t c,
                          const clast_porosity_fit_config *config)
 {
     const clast_column *column = &beds->column[c];
     const int32_t run = clast_table_find(beds, "run");
     const int32_t code = clast_table_find(beds, "exit_code");
-    const bool is_study = run == 0 && code > run && config->use[0] == '\0';
+    const bool is_study = run == 0 && code > run;
     if (column->number == NULL || strcmp(column->name, config->target) == 0) {
         return false;
     }
-    return config->columns[0] != '\0' ? is_listed(config->columns, column->name)
-                                      : !is_study || (c > run && c < code);
+    if (config->columns[0] != '\0') {
+        return is_listed(config->columns, column->name);
+    }
+    return is_listed(config->use, column->name) || !is_study ||
+           (c > run && c < code && strcmp(column->name, "seed") != 0);
+}
+
+/// Whether a row without a value in this column is left out: with features named, theirs alone.
+static bool is_needed(const clast_table *beds, int32_t c, const clast_porosity_fit_config *config)
+{
+    const bool is_used = config->use[0] == '\0' || is_listed(config->use, beds->column[c].name);
+    return is_used && is_candidate(beds, c, config) && has_numbers(&beds->column[c], beds->n_row);
+}
+
+/// Rows with a porosity and all cells that are needed; the others are told in left_out.
+static clast_status column_rows(const clast_table *beds, const double *porosity,
+                                const clast_porosity_fit_config *config, clast_fit_data *d)
+{
+    clast_status status = CLAST_OK;
+    int64_t n = 0;
+    for (int64_t row = 0; row < beds->n_row; ++row) {
+        const char *fault = porosity_fault(porosity[row]);
+        for (int32_t c = 0; c < beds->n_column && fault == NULL; ++c) {
+            if (is_needed(beds, c, config) && !isfinite(beds->column[c].number[row])) {
+                fault = "a cell is missing or infinite";
+            }
+        }
+        if (fault != NULL) {
+            CLX_TRY(leave_out(row, fault, d));
+        } else {
+            set_bed(d, n++, row, porosity[row]);
+        }
+    }
+    CLX_TRY(finish(d, n, beds));
+done:
+    return status;
+}
+
+/// Adds the candidates' values of the rows that are kept.
+static clast_status add_candidates(const clast_table *beds, const clast_porosity_fit_config *config,
+                                   clast_fit_data *d)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t c = 0; c < beds->n_column; ++c) {
+        const clast_column *from = &beds->column[c];
+        const bool is_taken = clast_table_find(&d->beds, from->name) >= 0;
+        double *to = NULL;
+        if (!is_candidate(beds, c, config)) {
+            continue;
+        }
+        CLX_CHECK(!is_taken, CLAST_E_FORMAT,
+                  "table %s: a feature may not be called '%s'; rename the column", beds->name,
+                  from->name);
+        CLX_TRY(clast_table_add_number(&d->beds, from->name, from->unit, &to));
+        for (int64_t k = 0; k < d->beds.n_row; ++k) {
+            to[k] = from->number[(int64_t)d->beds.column[0].number[k] - 1];
+        }
+    }
+    CLX_CHECK(d->beds.n_column > 2, CLAST_E_FORMAT,
+              "table %s: no column of numbers is a candidate; name some with --columns",
+              beds->name);
+done:
+    return status;
 }
 
 clast_status clast_fit_data_columns(const clast_table *beds,
@@ -349,48 +411,18 @@ clast_status clast_fit_data_columns(const clast_table *beds,
     CLX_WHOLE(table, beds);
     clast_status status = CLAST_OK;
     clast_fit_data d = {0};
+    clx_unit_columns columns = {0};
     const double *porosity = NULL;
-    int64_t n = 0;
     CLX_TRY(target_of(beds, config->target, &porosity));
-    CLX_TRY(check_list(beds, config->columns));
+    CLX_TRY(clx_unit_columns_read(beds, &columns));
+    CLX_TRY(check_list(&columns.table, config->columns));
     CLX_TRY(begin(CLAST_MODEL_COLUMNS, beds->n_row, &d));
-    for (int64_t row = 0; row < beds->n_row; ++row) {
-        const char *fault = porosity_fault(porosity[row]);
-        for (int32_t c = 0; c < beds->n_column && fault == NULL; ++c) {
-            const clast_column *column = &beds->column[c];
-            if (is_candidate(beds, c, config) && has_numbers(column, beds->n_row) &&
-                !isfinite(column->number[row])) {
-                fault = "a cell is missing or infinite";
-            }
-        }
-        if (fault != NULL) {
-            CLX_TRY(leave_out(row, fault, &d));
-        } else {
-            set_bed(&d, n++, row, porosity[row]);
-        }
-    }
-    CLX_TRY(finish(&d, n, beds));
-    for (int32_t c = 0; c < beds->n_column; ++c) {
-        const clast_column *from = &beds->column[c];
-        const bool is_taken = clast_table_find(&d.beds, from->name) >= 0;
-        if (!is_candidate(beds, c, config)) {
-            continue;
-        }
-        CLX_CHECK(!is_taken, CLAST_E_FORMAT,
-                  "table %s: a feature may not be called '%s'; rename the column", beds->name,
-                  from->name);
-        double *to = NULL;
-        CLX_TRY(clast_table_add_number(&d.beds, from->name, from->unit, &to));
-        for (int64_t k = 0; k < n; ++k) {
-            to[k] = from->number[(int64_t)d.beds.column[0].number[k] - 1];
-        }
-    }
-    CLX_CHECK(d.beds.n_column > 2, CLAST_E_FORMAT,
-              "table %s: no column of numbers is a candidate; name some with --columns",
-              beds->name);
+    CLX_TRY(column_rows(&columns.table, porosity, config, &d));
+    CLX_TRY(add_candidates(&columns.table, config, &d));
     *data = d;
     d = (clast_fit_data){0};
 done:
+    clx_unit_columns_free(&columns);
     clast_fit_data_free(&d);
     return status;
 }

@@ -242,13 +242,11 @@ clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_poro
     CLX_TRY(report_model(fit, data->kind, &ls, m));
     CLX_TRY(clx_fit_validate(fit, &v));
     out->p_value = clx_fit_share(v.r2, fit->config->n_permutation, ls.r2);
-    out->r2_held_out = v.r2_held_out;
+    out->r2_held_out = v.r2_held_out; // NaN of the paper's way
     if (fit->config->validation == CLAST_VALIDATION_NESTED) {
         m->cv_mean_error = v.mean_error;
         m->cv_median_error = v.median_error;
         memcpy(fit->held_out, v.held_out, (size_t)fit->n * sizeof *fit->held_out);
-    } else {
-        out->r2_held_out = NAN; // of the paper's way none is known
     }
     CLX_TRY(report_ranking(fit, &v, out));
     CLX_TRY(report_terms(fit, &ls, &out->terms));

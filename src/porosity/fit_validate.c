@@ -117,7 +117,7 @@ static clast_status predict_folds(int64_t begin, int64_t end, int32_t worker, vo
 done:
     if (status != CLAST_OK) {
         clx_fail_prefix("selection without the held-out beds (--validation published leaves it "
-                        "out): ");
+                        "out)");
     }
     clx_least_squares_free(&ls);
     clx_fit_end(&f);
@@ -176,6 +176,7 @@ static clast_status score(const validation *v)
     double *error = NULL;
     double about_fit = 0.0;
     double about_mean = 0.0;
+    out->mean_error = out->median_error = 0.0;
     CLX_TRY(clx_alloc(&error, fit->n, sizeof *error));
     for (int32_t k = 0; k < n_repeat; ++k) {
         double sum = 0.0;
@@ -200,27 +201,41 @@ done:
     return status;
 }
 
+/// Errors of held-out beds, the features selected without them.
+static clast_status validate_nested(validation *v)
+{
+    clast_status status = CLAST_OK;
+    const clx_fit *fit = v->fit;
+    const clast_porosity_fit_config *c = fit->config;
+    CLX_TRY(clx_alloc(&v->held_out, fit->n * c->n_repeat, sizeof *v->held_out));
+    CLX_TRY(clx_alloc(&v->mean, fit->n * c->n_repeat, sizeof *v->mean));
+    CLX_TRY(clx_alloc(&v->validity->held_out, fit->n, sizeof *v->validity->held_out));
+    CLX_TRY(clx_parallel_try((int64_t)c->n_fold * c->n_repeat, 1, predict_folds, v));
+    CLX_TRY(score(v));
+done:
+    clx_free(v->held_out);
+    clx_free(v->mean);
+    v->held_out = v->mean = NULL;
+    return status;
+}
+
 clast_status clx_fit_validate(const clx_fit *fit, clx_fit_validity *validity)
 {
     clast_status status = CLAST_OK;
     const clast_porosity_fit_config *c = fit->config;
-    clx_fit_validity out = {0};
+    clx_fit_validity out = {.mean_error = NAN, .median_error = NAN, .r2_held_out = NAN};
     validation v = {.fit = fit, .config = *c, .validity = &out};
     const int64_t least = fit->n - (fit->n + c->n_fold - 1) / c->n_fold;
     v.config.n_fold = c->n_fold < least ? c->n_fold : (int32_t)least;
-    CLX_TRY(clx_alloc(&v.held_out, fit->n * c->n_repeat, sizeof *v.held_out));
-    CLX_TRY(clx_alloc(&v.mean, fit->n * c->n_repeat, sizeof *v.mean));
-    CLX_TRY(clx_alloc(&out.held_out, fit->n, sizeof *out.held_out));
     CLX_TRY(clx_alloc(&out.r2, c->n_permutation, sizeof *out.r2));
     CLX_TRY(clx_alloc(&out.greatest, c->n_permutation, sizeof *out.greatest));
-    CLX_TRY(clx_parallel_try((int64_t)c->n_fold * c->n_repeat, 1, predict_folds, &v));
-    CLX_TRY(score(&v));
+    if (c->validation == CLAST_VALIDATION_NESTED) {
+        CLX_TRY(validate_nested(&v));
+    }
     CLX_TRY(clx_parallel_try(c->n_permutation, 1, fit_permutations, &v));
     *validity = out;
     out = (clx_fit_validity){0};
 done:
-    clx_free(v.held_out);
-    clx_free(v.mean);
     clx_fit_validity_free(&out);
     return status;
 }

@@ -4,9 +4,13 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "shape/whole.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/// A spread below this share of the values is rounding.         [docs/theory/statistics.md]
+static const double ROUNDING = 64.0 * DBL_EPSILON;
 
 static const char *const statistic[4] = {"mean_", "deviation_", "inverse_mean_",
                                          "inverse_deviation_"};
@@ -54,11 +58,16 @@ int32_t clast_mixture_feature_find(const char *name)
     return -1;
 }
 
-static void features_of(double flatness, double elongation, double feature[CLAST_N_FORM_FEATURE])
+void clx_form_features_of(double flatness, double elongation, double feature[CLAST_N_FORM_FEATURE])
 {
     double lis[3];
+    double *index = &feature[CLAST_FORM_OBLATE_PROLATE];
     clast_form_lengths(flatness, elongation, 1.0, lis);
     clast_form_features(lis[0], lis[1], lis[2], feature);
+    // 10 L/S ((L - I)/(L - S) - 1/2): the rounding of the two terms is all that is left where
+    // I = (L + S)/2
+    const double term = 10.0 * lis[0] / lis[2] * lis[0] / (lis[0] - lis[2]);
+    *index = fabs(*index) <= ROUNDING * term ? 0.0 : *index;
 }
 
 /// Sets mean and deviation of one of the 26 features, and their inverses where they have one.
@@ -85,31 +94,38 @@ static clast_form_inputs unknown(void)
     return in;
 }
 
-/// Moments of feature f over the picked rows of 26, in their order.
+/// Moments of feature f over the picked rows of 26, in their order. Sums are of differences from
+/// the first grain: equal grains have the deviation 0, whatever their number.
 static void moments(const double *row, const int64_t *pick, int64_t n, int32_t f, double *mean,
                     double *deviation)
 {
     CLAST_ASSERT(n > 0);
+    const double first = row[(pick != NULL ? pick[0] : 0) * CLAST_N_FORM_FEATURE + f];
     double sum = 0.0;
     double square = 0.0;
+    double most = 0.0;
     for (int64_t i = 0; i < n; ++i) {
-        sum += row[(pick != NULL ? pick[i] : i) * CLAST_N_FORM_FEATURE + f];
+        const double x = row[(pick != NULL ? pick[i] : i) * CLAST_N_FORM_FEATURE + f];
+        sum += x - first;
+        most = fmax(most, fabs(x));
     }
-    *mean = sum / (double)n;
+    const double shift = sum / (double)n;
     for (int64_t i = 0; i < n; ++i) {
-        const double d = row[(pick != NULL ? pick[i] : i) * CLAST_N_FORM_FEATURE + f] - *mean;
+        const double x = row[(pick != NULL ? pick[i] : i) * CLAST_N_FORM_FEATURE + f];
+        const double d = x - first - shift;
         square += d * d;
     }
+    *mean = first + shift;
     *deviation = n > 1 ? sqrt(square / (double)(n - 1)) : 0.0;
-    if (*deviation <= 1e-15 * fabs(*mean)) {
-        *deviation = 0.0; // equal grains: nothing but rounding
+    if (*deviation <= ROUNDING * most) {
+        *deviation = 0.0; // lengths of one form at two sizes round to two ratios
     }
 }
 
 void clx_form_features_rows(const clast_form_set *set, double *row)
 {
     for (int64_t i = 0; i < set->n; ++i) {
-        features_of(set->flatness[i], set->elongation[i], row + i * CLAST_N_FORM_FEATURE);
+        clx_form_features_of(set->flatness[i], set->elongation[i], row + i * CLAST_N_FORM_FEATURE);
     }
 }
 
@@ -118,11 +134,17 @@ void clx_form_inputs_from_rows(const double *row, const int64_t *pick, int64_t n
 {
     CLAST_ASSERT(n > 0);
     clast_form_inputs in = unknown();
+    double mean[CLAST_N_FORM_FEATURE];
+    double deviation[CLAST_N_FORM_FEATURE];
     for (int32_t f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
-        double mean = 0.0;
-        double deviation = 0.0;
-        moments(row, pick, n, f, &mean, &deviation);
-        set_mixture(&in, f, mean, deviation);
+        moments(row, pick, n, f, &mean[f], &deviation[f]);
+    }
+    in.has_deviation =
+        deviation[CLAST_FORM_FLATNESS] > 0.0 || deviation[CLAST_FORM_ELONGATION] > 0.0;
+    for (int32_t f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
+        // of one form every feature is one value, also of those that magnify rounding
+        const bool is_one = !in.has_deviation && isfinite(deviation[f]);
+        set_mixture(&in, f, mean[f], is_one ? 0.0 : deviation[f]);
     }
     const double *m = in.mixture;
     in.n_grain = n;
@@ -132,8 +154,7 @@ void clx_form_inputs_from_rows(const double *row, const int64_t *pick, int64_t n
     in.flatness_deviation = m[CLAST_N_FORM_FEATURE + CLAST_FORM_FLATNESS];
     in.elongation_deviation = m[CLAST_N_FORM_FEATURE + CLAST_FORM_ELONGATION];
     in.equancy_deviation = m[CLAST_N_FORM_FEATURE + CLAST_FORM_EQUANCY];
-    in.has_deviation = in.flatness_deviation > 0.0 || in.elongation_deviation > 0.0;
-    features_of(in.flatness_mean, in.elongation_mean, in.single);
+    clx_form_features_of(in.flatness_mean, in.elongation_mean, in.single);
     *inputs = in;
 }
 
@@ -175,8 +196,8 @@ clast_status clast_form_inputs_from_moments(const double mean[2], const double d
     }
     const double fl = mean[0];
     const double el = mean[1];
-    const double s_fl = deviation != NULL ? deviation[0] : 0.0;
-    const double s_el = deviation != NULL ? deviation[1] : 0.0;
+    const double s_fl = deviation != NULL && deviation[0] > ROUNDING * fl ? deviation[0] : 0.0;
+    const double s_el = deviation != NULL && deviation[1] > ROUNDING * el ? deviation[1] : 0.0;
     in.n_grain = n_grain;
     in.has_deviation = s_fl > 0.0 || s_el > 0.0;
     in.is_independent = true;
@@ -191,7 +212,7 @@ clast_status clast_form_inputs_from_moments(const double mean[2], const double d
     set_mixture(&in, CLAST_FORM_FLATNESS, fl, s_fl);
     set_mixture(&in, CLAST_FORM_ELONGATION, el, s_el);
     set_mixture(&in, CLAST_FORM_EQUANCY, in.equancy_mean, in.equancy_deviation);
-    features_of(fl, el, in.single);
+    clx_form_features_of(fl, el, in.single);
     *inputs = in;
 done:
     return status;

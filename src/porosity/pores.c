@@ -157,6 +157,18 @@ void clast_pores_free(clast_pores *pores)
     *pores = (clast_pores){0};
 }
 
+static clast_status check_period(const double period[3])
+{
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < 3; ++k) {
+        CLX_CHECK(period[k] >= 0.0 && isfinite(period[k]), CLAST_E_ARGUMENT,
+                  "pores: the period along %c is %g m; it must be finite and not negative", 'x' + k,
+                  period[k]);
+    }
+done:
+    return status;
+}
+
 clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed *bed,
                                  const double z[2], const clast_pore_options *options,
                                  clast_pores *pores)
@@ -175,7 +187,8 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
     const int64_t n = options->n_point;
     int64_t n_pore = 0;
     int64_t n_bed = 0;
-    CLX_CHECK(assembly->n_grain > 0 && z[1] > z[0], CLAST_E_USAGE,
+    CLX_TRY(check_period(options->period));
+    CLX_CHECK(assembly->n_grain > 0 && z[1] > z[0] && isfinite(z[1] - z[0]), CLAST_E_USAGE,
               "no grain to measure between %g and %g", z[0], z[1]);
     CLX_CHECK(n >= 1 && n <= POINT_LIMIT && options->n_bin >= 1, CLAST_E_USAGE,
               "pores by %lld points in %d bins", (long long)n, options->n_bin);

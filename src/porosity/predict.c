@@ -186,7 +186,7 @@ static clast_status resample(const clast_porosity_model *model, const clast_form
         n += answer == CLAST_OK ? 1 : 0;
     }
     const clx_moments m = clx_sample_moments(porosity, n);
-    *deviation = n > 1 ? m.deviation : 0.0;
+    *deviation = n > 1 && !m.is_constant ? m.deviation : 0.0;
 done:
     clx_free(pick);
     clx_free(row);
@@ -299,7 +299,7 @@ clast_status clast_porosity_predict_each(const clast_porosity_model *model,
         CLX_TRY(one_grain(set, i, &in));
         status = predict(model, &in, &p);
         if (status != CLAST_OK) {
-            clx_fail_prefix("row %lld: ", (long long)set->row[i] + 1);
+            clx_fail_prefix("row %lld", (long long)set->row[i] + 1);
             goto done;
         }
         const double value[4] = {(double)set->row[i] + 1.0, p.porosity, p.standard_error,

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "porosity/model.h"
+#include "porosity/unit_columns.h"
 #include "porosity/whole.h"
 #include <math.h>
 
@@ -42,6 +43,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
     CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_table t = {0};
+    clx_unit_columns columns = {0};
     const double **column = NULL;
     double *value = NULL;
     const int32_t m = model->n_term + model->n_range;
@@ -50,7 +52,8 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
               "model %s takes forms, not columns of a table", model->name);
     CLX_TRY(clx_alloc(&column, m, sizeof *column));
     CLX_TRY(clx_alloc(&value, m, sizeof *value));
-    CLX_TRY(find_columns(model, table, column));
+    CLX_TRY(clx_unit_columns_read(table, &columns));
+    CLX_TRY(find_columns(model, &columns.table, column));
     CLX_TRY(start(table->n_row, &t));
     for (int64_t i = 0; i < table->n_row; ++i) {
         clast_prediction p = {0};
@@ -64,7 +67,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
         }
         status = clx_porosity_model_apply(model, value, value + model->n_term, &p);
         if (status != CLAST_OK) {
-            clx_fail_prefix("row %lld: ", (long long)i + 1);
+            clx_fail_prefix("row %lld", (long long)i + 1);
             goto done;
         }
         const double cell[4] = {(double)i + 1.0, p.porosity, p.standard_error,
@@ -81,6 +84,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
     t = (clast_table){0};
 done:
     clast_table_free(&t);
+    clx_unit_columns_free(&columns);
     clx_free((void *)column);
     clx_free(value);
     return status;

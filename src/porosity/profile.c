@@ -252,6 +252,21 @@ done:
     return status;
 }
 
+static clast_status check_options(const clast_porosity_options *o)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK((unsigned)o->method <= CLAST_POROSITY_SPHERES, CLAST_E_ARGUMENT,
+              "porosity: there is no method %d", (int)o->method);
+    CLX_CHECK(o->layer > 0.0 && isfinite(o->layer), CLAST_E_USAGE,
+              "porosity: slices of %s; they must be finite and above 0",
+              clx_unit_text(o->layer, "m"));
+    CLX_CHECK(isfinite(o->cut) && o->trim >= 0.0 && isfinite(o->trim), CLAST_E_ARGUMENT,
+              "porosity: a cut of %g and a trim of %s; both must be finite, the trim not negative",
+              o->cut, clx_unit_text(o->trim, "m"));
+done:
+    return status;
+}
+
 clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
                                     const clast_porosity_options *options, clast_table *table)
 {
@@ -263,9 +278,9 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
     double low[3];
     double high[3];
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
-    CLX_CHECK(options->layer > 0.0 && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
-              "slices of %s over %s hold nothing", clx_unit_text(options->layer, "m"),
-              clx_unit_text(clast_bed_area(bed), "m^2"));
+    CLX_TRY(check_options(options));
+    CLX_CHECK(clast_bed_area(bed) > 0.0, CLAST_E_USAGE, "slices of %s over %s hold nothing",
+              clx_unit_text(options->layer, "m"), clx_unit_text(clast_bed_area(bed), "m^2"));
     clast_assembly_bounds(assembly, low, high);
     for (int32_t i = 0; i < assembly->n_grain && options->method == CLAST_POROSITY_SPHERES; ++i) {
         const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
@@ -336,6 +351,7 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
     clast_status status = CLAST_OK;
     clast_porosity_bulk made = {0};
     const bool is_endless = bed->kind == CLAST_BED_PERIODIC_3D;
+    CLX_TRY(check_options(options));
     CLX_CHECK(!is_endless || options->trim == 0.0, CLAST_E_USAGE,
               "a bed that is periodic in all three directions has no ends to trim (%g)",
               options->trim);

@@ -8,10 +8,11 @@
 
 clast_mean clast_mean_of(int32_t n, const double *value)
 {
-    if (value == NULL) {
-        return (clast_mean){0};
+    const double nan = (double)NAN;
+    if (n < 1 || value == NULL) {
+        return (clast_mean){.mean = nan, .deviation = nan, .low = nan, .high = nan};
     }
-    clast_mean m = {.n = n, .deviation = (double)NAN, .low = (double)NAN, .high = (double)NAN};
+    clast_mean m = {.n = n, .deviation = nan, .low = nan, .high = nan};
     double square = 0.0;
     for (int32_t i = 0; i < n; ++i) {
         m.mean += value[i] / n;

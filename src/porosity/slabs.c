@@ -315,6 +315,15 @@ clast_status clast_porosity_grain_slabs(const clast_assembly *assembly, int32_t 
                         assembly->n_grain);
     }
     CLX_WHOLE(shape, &assembly->shape[assembly->shape_id[i]]);
+    if ((unsigned)method > CLAST_POROSITY_SPHERES) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: there is no method %d", __func__, (int)method);
+    }
+    for (int32_t k = 0; k < n; ++k) {
+        if (!(edge[k] < edge[k + 1])) { // nor is NaN
+            return clx_fail(CLAST_E_ARGUMENT, "%s: edge %d at %g m does not lie above %g m",
+                            __func__, k + 1, edge[k + 1], edge[k]);
+        }
+    }
     return clx_grain_slabs(assembly, i, method, n, edge, solid);
 }
 

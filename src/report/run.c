@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "report/study_origin.h"
 #include <clast/run_folder.h>
 #include <clast/table.h>
 #include <stdio.h>
@@ -186,7 +187,7 @@ static void set_link(const char *page, clx_run *run)
     run->can_link = used >= 0 && used < (int)sizeof run->link;
 }
 
-/// manifest.json; of a study, which has none, its study.json as the configuration of a manifest.
+/// manifest.json; of a study, which has none, what its study.json and its runs tell.
 static clast_status read_manifest(clx_run *run)
 {
     clast_status status = CLAST_OK;
@@ -198,9 +199,7 @@ static clast_status read_manifest(clx_run *run)
         return CLAST_OK;
     }
     CLX_TRY(read_object(run, "study.json", &study));
-    run->manifest =
-        json_pack("{s:s, s:O*}", "command", "study", "config", json_object_get(study, "study"));
-    CLX_CHECK(run->manifest != NULL, CLAST_E_MEMORY, "not enough memory for %s", run->path);
+    CLX_TRY(clx_study_origin(run, study, &run->manifest));
 done:
     json_decref(study);
     return status;
@@ -226,9 +225,9 @@ clast_status clx_run_read(const char *folder, const char *place, const char *pag
         CLX_TRY(clast_run_folder_check(made.path));
     }
     CLX_TRY(clx_folder_list(made.path, &made.files));
+    CLX_TRY(read_tables(&made)); // a study's runs are those of its plan
     CLX_TRY(read_manifest(&made));
     CLX_TRY(read_summary(&made));
-    CLX_TRY(read_tables(&made));
     *run = made;
     made = (clx_run){0};
 done:

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "report/given.h"
 #include "report/page.h"
 #include "report/quantity.h"
 #include "report/run.h"
@@ -13,6 +14,7 @@
 #include <string.h>
 
 typedef struct {
+    const clx_run *run;
     const clast_column *column;
     clx_quantity quantity;
     clx_quantity_scale scale;
@@ -20,7 +22,8 @@ typedef struct {
     const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
     const clast_column *of;       ///< values that errors and limits tell of, or NULL
     bool is_error;
-    bool is_name; ///< its texts are keys
+    bool is_name;  ///< its texts are keys
+    bool is_given; ///< by the user: its name tells no quantity and no unit
 } shown;
 
 static bool is_one_of(const char *text, const char *const *names, size_t n)
@@ -98,20 +101,40 @@ static const clast_column *column_of_value(const clast_table *table)
     return of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
 }
 
-static shown show(const clast_table *table, int32_t c, const char *place)
+/// Texts of the column are keys: of quantities, of features.
+static bool holds_names(const clast_table *table, const char *column)
 {
-    static const char *const names[] = {"name", "feature", "term", "column", "a", "b", "quantity"};
+    static const char *const names[] = {"name", "feature", "term", "column", "quantity"};
+    const bool is_pair = strcmp(table->name, "correlation") == 0 &&
+                         (strcmp(column, "a") == 0 || strcmp(column, "b") == 0);
+    return is_pair || is_one_of(column, names, sizeof names / sizeof *names);
+}
+
+static shown show(const clx_run *run, const clast_table *table, int32_t c, const char *place)
+{
     static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
     const clast_column *column = &table->column[c];
-    shown s = {.column = column, .place = place, .quantity = clx_quantity_of(column->name, place)};
+    shown s = {.run = run, .column = column, .place = place};
+    s.is_given = clx_given_column(run, table->name, column->name);
+    s.quantity =
+        s.is_given ? (clx_quantity){.unit = "", .words = ""} : clx_quantity_of(column->name, place);
     s.scale = scale_of(table, c, s.quantity.unit);
     s.of = column_of_value(table);
-    s.is_error = strcmp(column->name, "error") == 0 || strcmp(column->name, "deviation") == 0;
-    s.is_name = is_one_of(column->name, names, sizeof names / sizeof *names);
+    s.is_error = !s.is_given &&
+                 (strcmp(column->name, "error") == 0 || strcmp(column->name, "deviation") == 0);
+    s.is_name = holds_names(table, column->name);
     if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
         s.row_unit = units_of(table);
     }
     return s;
+}
+
+/// A name that is the user's.
+static void put_given(clx_file *file, const char *name)
+{
+    (void)clx_file_print(file, "<code>");
+    clx_page_text(file, name);
+    (void)clx_file_print(file, "</code>");
 }
 
 static void put_head(clx_file *file, const shown *s)
@@ -119,7 +142,11 @@ static void put_head(clx_file *file, const shown *s)
     (void)clx_file_print(file, "<th%s title=\"", s->column->number != NULL ? " class=\"n\"" : "");
     clx_page_text(file, s->column->name);
     (void)clx_file_print(file, "\">");
-    clx_quantity_put_label(file, s->column->name, s->place);
+    if (s->is_given) {
+        put_given(file, s->column->name);
+    } else {
+        clx_quantity_put_label(file, s->column->name, s->place);
+    }
     if (s->scale.name[0] != '\0') {
         (void)clx_file_print(file, " <small>(");
         clx_page_text(file, s->scale.name);
@@ -152,6 +179,8 @@ static void put_cell(clx_file *file, const shown *s, int64_t row)
     (void)clx_file_print(file, s->column->number != NULL ? "<td class=\"n\">" : "<td>");
     if (s->column->number != NULL) {
         put_number(file, s, row);
+    } else if (s->is_name && clx_given_name(s->run, s->column->text[row])) {
+        put_given(file, s->column->text[row]);
     } else if (s->is_name) {
         clx_quantity_put_name(file, s->column->text[row]);
     } else {
@@ -239,7 +268,7 @@ static clast_status put_table(clx_file *file, const clx_run *run, const clast_ta
     CLX_TRY(clx_alloc(&s, table->n_column, sizeof *s));
     for (int32_t c = 0; c < table->n_column; ++c) {
         if (&table->column[c] != units_of(table)) { // the values show theirs
-            s[n++] = show(table, c, place);
+            s[n++] = show(run, table, c, place);
         }
     }
     if (table->n_row == 1) {
@@ -269,7 +298,7 @@ static void put_link(clx_file *file, const clx_run *run, const clast_table *tabl
 clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
 {
     clast_status status = CLAST_OK;
-    const bool is_without_unit = clx_run_is_without_unit(run);
+    const bool is_si = !clx_run_is_without_unit(run) && !clx_given_units(run);
     for (int32_t i = 0; i < run->n_table; ++i) {
         const clast_table *table = &run->table[i];
         const bool is_open =
@@ -284,8 +313,7 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
         (void)clx_file_print(file, "<p class=\"note\">%s",
                              table->n_row > rows ? "The first rows of " : "All rows of ");
         put_link(file, run, table);
-        (void)clx_file_print(file, "%s.</p></details>\n",
-                             is_without_unit ? "" : ", there in SI units");
+        (void)clx_file_print(file, "%s.</p></details>\n", is_si ? ", there in SI units" : "");
     }
 done:
     return status;

@@ -129,8 +129,9 @@ clast_zingg clast_form_zingg(double flatness, double elongation)
     if (isnan(flatness) || isnan(elongation)) {
         return CLAST_N_ZINGG;
     }
-    const bool is_thick = flatness >= 2.0 / 3.0;
-    const bool is_wide = elongation >= 2.0 / 3.0;
+    const double border = 2.0 / 3.0 * (1.0 - ROUNDING); // a body's class is that of its copies
+    const bool is_thick = flatness >= border;
+    const bool is_wide = elongation >= border;
     if (is_wide) {
         return is_thick ? CLAST_ZINGG_SPHERE : CLAST_ZINGG_DISC;
     }

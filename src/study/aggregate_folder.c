@@ -68,7 +68,7 @@ static clast_status write_table(const char *folder, const char *name, const clas
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
-/// structure.csv and radial.csv of the first repeat.
+/// structure.csv and radial.csv of the first repeat, in cluster mode of its largest cluster.
 static clast_status write_structure(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
@@ -83,10 +83,10 @@ static clast_status write_structure(const char *folder, const clx_folder_results
         const char *alpha = clast_envelope_name(CLAST_ENVELOPE_ALPHA);
         options.alpha = options.alpha || strcmp(r->config->params.envelope.item[k], alpha) == 0;
     }
-    CLX_TRY(clast_structure(r->first, &options, &table));
+    CLX_TRY(clast_structure(r->body, &options, &table));
     CLX_TRY(write_table(folder, "structure.csv", &table));
     clast_table_free(&table);
-    CLX_TRY(clast_assembly_radial_profile(r->first, NULL, RADIAL_BINS, &table));
+    CLX_TRY(clast_assembly_radial_profile(r->body, NULL, RADIAL_BINS, &table));
     CLX_TRY(write_table(folder, "radial.csv", &table));
 done:
     clast_table_free(&table);

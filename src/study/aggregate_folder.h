@@ -39,12 +39,36 @@ typedef struct clx_folder_results {
     const clast_sizes *sizes;     ///< wanted, or NULL when a law draws them
     const clast_table *history;   ///< rows of all repeats
     const clast_assembly *first;  ///< grains of the first repeat
+    const clast_assembly *body;   ///< those of them that the numbers are of
     const clast_monitor *monitor; ///< or NULL
 } clx_folder_results;
 
 /// history.csv, history_band.csv (several repeats), sizes.csv, structure.csv, radial.csv,
-/// summary.json, aggregate.stl, charts, picture.png, printable.stl; the checkpoints go last.
+/// summary.json, aggregate.stl, charts, picture.png; the checkpoints go last.
 clast_status clx_folder_write_results(const char *folder, const clx_folder_results *results);
 
 /// The pictures among them.
 clast_status clx_folder_write_pictures(const char *folder, const clx_folder_results *results);
+
+/// In cluster mode the grains of the largest cluster, the first of equals, which the numbers of an
+/// aggregate are of. `largest` stays empty where there is one cluster.
+///
+/// @param members  clast_aggregate_members
+clast_status clx_folder_largest(const clast_assembly *all, const clast_table *members,
+                                clast_assembly *largest, int32_t *n_cluster);
+
+/// Where files go, and the name of that folder in messages: where the run will be.
+typedef struct clx_folder_place {
+    const char *folder, *name;
+} clx_folder_place;
+
+/// printable.3mf, printable.stl and printable.json. Where no body can be made those of an earlier
+/// one stay, and the message says what to type.
+clast_status clx_folder_write_printable(const clx_folder_place *place, const clast_assembly *body,
+                                        const clast_printable_config *config,
+                                        const clast_monitor *monitor,
+                                        clast_printable_report *report);
+
+/// Says that the printable body is the largest of several clusters.
+void clx_folder_note_largest(const clast_monitor *monitor, const clast_assembly *body,
+                             int32_t n_all, int32_t n_cluster);

@@ -31,12 +31,14 @@ typedef struct {
     clast_aggregate_source source;
     clast_run_folder *own; ///< rank 0's, NULL without a folder
     clast_aggregate *aggregate;
-    int32_t repeat;       ///< under way
-    double grown;         ///< share of it
-    clast_assembly first; ///< the first repeat's grains, on rank 0
-    clx_repeats repeats;  ///< that this rank finished
-    clast_table history;  ///< of all repeats
+    int32_t repeat;         ///< under way
+    double grown;           ///< share of it
+    clast_assembly first;   ///< the first repeat's grains, on rank 0
+    clast_assembly largest; ///< its largest cluster, where there are several
+    clx_repeats repeats;    ///< that this rank finished
+    clast_table history;    ///< of all repeats
     clast_aggregate_report report;
+    bool is_whole; ///< all is measured and, with a folder, written
 } run;
 
 static bool is_first(const run *r)
@@ -50,6 +52,7 @@ static void free_run(run *r)
     clast_aggregate_unload(&r->source);
     clast_run_folder_destroy(r->own);
     clast_assembly_free(&r->first);
+    clast_assembly_free(&r->largest);
     clx_repeats_free(&r->repeats);
     clast_table_free(&r->history);
     clast_aggregate_report_free(&r->report);
@@ -61,13 +64,29 @@ static void drop_aggregate(run *r)
     r->aggregate = NULL;
 }
 
+/// The first repeat's grains, and those of its largest cluster.
+static clast_status collect_first(run *r)
+{
+    clast_status status = CLAST_OK;
+    clast_table members = {0};
+    int32_t n_cluster = 1;
+    CLX_TRY(clast_assembly_copy(clast_aggregate_assembly(r->aggregate), &r->first));
+    if (r->config->params.mode == CLAST_AGGREGATE_CLUSTER) {
+        CLX_TRY(clast_aggregate_members(r->aggregate, &members));
+        CLX_TRY(clx_folder_largest(&r->first, &members, &r->largest, &n_cluster));
+    }
+done:
+    clast_table_free(&members);
+    return status;
+}
+
 /// The finished aggregate's numbers and rows join those before it.
 static clast_status collect(run *r)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_repeats_add(&r->repeats, r->repeat, r->aggregate));
     if (r->repeat == 0) {
-        CLX_TRY(clast_assembly_copy(clast_aggregate_assembly(r->aggregate), &r->first));
+        CLX_TRY(collect_first(r));
     }
 done:
     drop_aggregate(r);
@@ -242,17 +261,67 @@ static clast_status check_stop(const run *r)
     return CLAST_OK;
 }
 
+/// What the numbers of the first repeat are of.
+static const clast_assembly *body_of(const run *r)
+{
+    return r->largest.n_grain > 0 ? &r->largest : &r->first;
+}
+
+/// The printable body, which a run is whole without: what goes wrong with it is kept in `why`.
+static clast_status add_printable(const run *r, char why[CLX_DETAIL_SIZE])
+{
+    const clast_aggregate_config *c = r->config;
+    const clx_folder_place place = {r->folder, clx_run_folder_place(r->own)};
+    const clast_printable_config config = {.neck = c->neck, .spacing = c->spacing};
+    clast_printable_report report;
+    why[0] = '\0';
+    if (!c->printable) {
+        return CLAST_OK;
+    }
+    clx_folder_note_largest(r->monitor, body_of(r), r->first.n_grain,
+                            r->report.result[0].n_cluster);
+    const clast_status status =
+        clx_folder_write_printable(&place, body_of(r), &config, r->monitor, &report);
+    if (status != CLAST_OK) {
+        (void)snprintf(why, CLX_DETAIL_SIZE, "%s", clast_error_detail());
+    }
+    return status;
+}
+
+/// The outcome of a whole run: a body that cannot be printed and a criterion that is not met are
+/// told as one kind of end, which a study keeps; a full disk and too little memory stay what they
+/// are.
+static clast_status tell_outcome(const run *r, clast_status printed, const char *why)
+{
+    const clast_status status = check_stop(r);
+    const char *place = clast_run_folder_path(r->own);
+    if (printed == CLAST_OK) {
+        return status;
+    }
+    char stop[CLX_DETAIL_SIZE] = "";
+    if (status != CLAST_OK) {
+        (void)snprintf(stop, sizeof stop, "%s; ", clast_error_detail());
+    }
+    const bool is_machine = printed == CLAST_E_MEMORY || printed == CLAST_E_DISK;
+    return clx_fail(is_machine ? printed : CLAST_E_CONVERGE,
+                    "%s%s holds the whole run but no printable body: %s", stop, place, why);
+}
+
 /// Rank 0: all files of a run that went well, and the end of the manifest.
 static clast_status finish(run *r, clast_status status)
 {
+    clast_status printed = CLAST_OK;
+    char why[CLX_DETAIL_SIZE] = "";
     if (status == CLAST_OK && r->has_folder) {
         const clx_folder_results results = {.config = r->config,
                                             .report = &r->report,
                                             .sizes = r->source.input.sizes,
                                             .history = &r->history,
                                             .first = &r->first,
+                                            .body = body_of(r),
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
+        printed = status == CLAST_OK ? add_printable(r, why) : CLAST_OK;
         status = status == CLAST_OK ? clx_run_folder_seal(r->own) : status;
         status = status == CLAST_OK
                      ? clast_report_write_run(r->folder, clx_run_folder_place(r->own))
@@ -262,7 +331,8 @@ static clast_status finish(run *r, clast_status status)
     if (status == CLAST_OK && r->has_folder) { // a resumed run may have taken another's place
         status = clx_alloc_text(&r->report.folder, clast_run_folder_path(r->own));
     }
-    return status == CLAST_OK ? check_stop(r) : status;
+    r->is_whole = status == CLAST_OK;
+    return status == CLAST_OK ? tell_outcome(r, printed, why) : status;
 }
 
 /// Loads; rank 0 makes the first repeat, so that bad input is refused before anything is written.
@@ -320,7 +390,7 @@ static clast_status go(run *r, clast_status begun, clast_aggregate_report *repor
         status = finish(r, status);
     }
     status = clast_comm_agree(r->comm, status, NULL);
-    if (is_first(r) && (status == CLAST_OK || status == CLAST_E_CONVERGE)) {
+    if (r->is_whole) {
         *report = r->report;
         r->report = (clast_aggregate_report){0};
     }
@@ -334,6 +404,7 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
     CLX_ARGUMENTS(config, report);
     CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     CLX_GUARD(clx_aggregate_idle(config, monitor));
+    CLX_GUARD(clx_aggregate_check_printable(config));
     clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own,
              .has_folder = folder != NULL,

@@ -10,6 +10,7 @@
 #include "base/monitor.h"
 #include "io/config_files.h"
 #include "io/h5.h"
+#include "io/start_file.h"
 #include "pack/pack.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
@@ -364,6 +365,9 @@ static clast_status find_origin(run *r, const char *folder, int64_t max_steps, o
     CLX_TRY(clast_fields_parse(from->found.path, from->found.config, clast_pack_fields, config));
     if (config->start[0] != '\0' && config->density.n == 1 && config->density.item[0] == 2650.0) {
         config->density.n = 0; // what runs of a start had until 0.1.0, and nothing acted on
+    }
+    if (config->start[0] != '\0' && strstr(from->found.config, "\"start_frame\"") == NULL) {
+        config->start_frame = CLX_START_OLD; // the grains are the checkpoint's, read as then
     }
     config->max_steps = max_steps > 0 || from->is_end ? max_steps : config->max_steps;
     if (is_first(r)) {

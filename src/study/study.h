@@ -1,6 +1,7 @@
 #pragma once
 // Files of a study's folder.
 #include <clast/study.h>
+#include <jansson.h>
 
 enum { CLX_STUDY_PATH = 4096 };
 
@@ -13,6 +14,28 @@ bool clx_study_is_done(const char *folder, int64_t row);
 
 /// Exit codes with which a run has an answer: done, answered no, did not converge.
 bool clx_study_is_answer(int exit_code);
+
+/// What a study is now, and study.json as it was.
+typedef struct clx_study_record {
+    char *text;          ///< the study as JSON
+    json_t *study;       ///< the same
+    json_t *before;      ///< study.json, or NULL: a new study
+    char config_hex[65]; ///< digest of its configuration; "" for none
+} clx_study_record;
+
+/// Reads study.json and compares the study and its configuration. `record` must be {0}.
+///
+/// @return CLAST_E_USAGE for another study or another configuration
+clast_status clx_study_record_read(const clast_study_config *config, const char *folder,
+                                   clx_study_record *record);
+void clx_study_record_free(clx_study_record *record); ///< may be called twice
+
+/// Writes study.json where something is new: the versions that work on it, the digests of its
+/// configuration, table and arguments. That of an older clast, without them, stays as it is.
+///
+/// @return CLAST_E_USAGE when an argument's file is not the one that a run was made with
+clast_status clx_study_record_update(const clast_study_config *config, const char *folder,
+                                     const clast_table *plan, const clx_study_record *record);
 
 /// Keeps what the study is (study.json, plan.csv), or checks that the folder holds the same.
 ///

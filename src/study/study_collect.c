@@ -74,24 +74,43 @@ static bool as_number(const json_t *value, double *number)
     return json_is_number(value) || json_is_boolean(value);
 }
 
-/// Every number of an object and of objects within; lists are left to --keep.
-static void put_all(gatherer *g, const char *prefix, json_t *object)
+static void put_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around);
+
+/// A number, the numbers of an object, or those of the only entry of a list, by the name that
+/// --keep takes: "grains.0.volume". Lists of more are left to --keep.
+///
+/// @param twin  the number or object of the same name around the list that the value is in, or NULL
+static void put_value(gatherer *g, const char *name, const json_t *value, const json_t *around,
+                      const json_t *twin)
+{
+    double number = 0.0;
+    char entry[KEY];
+    if (json_is_object(value)) {
+        put_all(g, name, value, twin);
+    } else if (json_is_array(value) && json_array_size(value) == 1) {
+        const int n = snprintf(entry, sizeof entry, "%s.0", name);
+        if (n > 0 && n < KEY) {
+            put_value(g, entry, json_array_get(value, 0), around, around);
+        }
+    } else if (as_number(value, &number) && (is_time(name) || !g->only_times) &&
+               !json_equal(value, twin)) {
+        append_result(g, name, number);
+    }
+}
+
+/// Every number of an object and of objects within, without those that the object around a list
+/// has, too: a mean of one repeat is that repeat.
+static void put_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around)
 {
     const char *key = NULL;
     json_t *value = NULL;
     char name[KEY];
-    double number = 0.0;
-    json_object_foreach(object, key, value)
+    json_object_foreach((json_t *)object, key, value)
     {
         const int n =
             snprintf(name, sizeof name, "%s%s%s", prefix, prefix[0] != '\0' ? "." : "", key);
-        if (n < 0 || n >= KEY) {
-            continue;
-        }
-        if (json_is_object(value)) {
-            put_all(g, name, value);
-        } else if (as_number(value, &number) && (is_time(name) || !g->only_times)) {
-            append_result(g, name, number);
+        if (n > 0 && n < KEY) {
+            put_value(g, name, value, object, json_object_get(around, key));
         }
     }
 }
@@ -151,7 +170,7 @@ static clast_status read_run(gatherer *g, const char *folder, bool whole)
         if (g->config->keep.n > 0) {
             put_kept(g, root);
         }
-        put_all(g, "", root);
+        put_all(g, "", root, NULL);
         ++g->n_read;
     }
     status = g->status;

@@ -82,7 +82,10 @@ done:
     return status;
 }
 
-static clast_status keep_plan(const char *folder, const clast_table *plan)
+/// Writes the plan, or checks that the folder holds the same: but for the table nothing of a study
+/// that is the same can make another.
+static clast_status keep_plan(const clast_study_config *config, const char *folder,
+                              const clast_table *plan)
 {
     clast_status status = CLAST_OK;
     char path[CLX_STUDY_PATH];
@@ -93,7 +96,10 @@ static clast_status keep_plan(const char *folder, const clast_table *plan)
               CLAST_E_DISK, "path too long: %s", folder);
     CLX_TRY(clast_table_write_csv(plan, path));
     CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &text, &n));
-    CLX_TRY(keep_text(folder, "plan.csv", text, (size_t)n));
+    status = keep_text(folder, "plan.csv", text, (size_t)n);
+    if (status == CLAST_E_USAGE && config->table[0] != '\0') {
+        clx_fail_prefix("%s is not the table that this study was begun with", config->table);
+    }
 done:
     (void)unlink(path);
     clx_free(text);
@@ -104,29 +110,22 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
                             const clast_table *plan)
 {
     clast_status status = CLAST_OK;
-    char hex[65] = "";
-    char *json = NULL;
-    char *text = NULL;
     char path[CLX_STUDY_PATH];
-    int64_t n_byte = 0;
-    clast_study_config same = *config; // who works, and what is tabulated, may change
-    same.shard = "";
-    same.keep = (clast_text_list){0};
+    clx_study_record record = {0};
     CLX_TRY(check_free(folder));
     CLX_CHECK(snprintf(path, sizeof path, "%s/runs", folder) < (int)sizeof path, CLAST_E_DISK,
               "path too long: %s", folder);
     CLX_TRY(clx_folder_make(path));
-    if (config->config[0] != '\0') {
-        CLX_TRY(clast_sha256_file(config->config, hex, &n_byte));
+    CLX_TRY(clx_study_record_read(config, folder, &record));
+    const bool is_new = record.before == NULL;
+    if (is_new) { // study.json first: the folder is a study's from then on
+        CLX_TRY(clx_study_record_update(config, folder, plan, &record));
     }
-    CLX_TRY(clast_fields_json(clast_study_fields, &same, &json));
-    const int64_t n = (int64_t)strlen(json) + 100;
-    CLX_TRY(clx_alloc(&text, n, 1));
-    (void)snprintf(text, (size_t)n, "{\"study\": %s,\n\"config_sha256\": \"%s\"}\n", json, hex);
-    CLX_TRY(keep_text(folder, "study.json", text, strlen(text)));
-    CLX_TRY(keep_plan(folder, plan));
+    CLX_TRY(keep_plan(config, folder, plan));
+    if (!is_new) {
+        CLX_TRY(clx_study_record_update(config, folder, plan, &record));
+    }
 done:
-    clx_free(text);
-    clast_text_free(json);
+    clx_study_record_free(&record);
     return status;
 }

@@ -31,7 +31,7 @@ const clast_field clast_study_fields[] = {
     {"seed", .offset = offsetof(clast_study_config, seed), CLAST_FIELD_U64, 1, 0,
      9007199254740992.0, "-", "seed of the first realisation, then one more each", NULL},
     {"keep", .offset = offsetof(clast_study_config, keep), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
-     "result to tabulate, a.b for b within a; none: every number", ""},
+     "result to tabulate, a.b for b within a; none: every number but those of longer lists", ""},
     {"shard", .offset = offsetof(clast_study_config, shard), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "K/N: do every N-th run from the K-th, for job arrays", ""},
     {0}};
@@ -80,14 +80,39 @@ done:
     return status;
 }
 
-static bool has_key(const axes *all, const char *key)
+/// Whether two keys are one, '-' being '_'; the first ends at '=' at the latest.
+static bool is_same_key(const char *pair, const char *key)
+{
+    while (*pair != '\0' && *pair != '=' &&
+           (*pair == '-' ? '_' : *pair) == (*key == '-' ? '_' : *key)) {
+        ++pair;
+        ++key;
+    }
+    return (*pair == '\0' || *pair == '=') && *key == '\0';
+}
+
+/// The key of an axis that is the same, as it is spelled there, or NULL.
+static const char *find_key(const axes *all, const char *key)
 {
     for (int32_t i = 0; i < all->n; ++i) {
-        if (clast_table_find(&all->item[i].values, key) >= 0) {
-            return true;
+        const clast_table *values = &all->item[i].values;
+        for (int32_t c = 0; c < values->n_column; ++c) {
+            if (is_same_key(values->column[c].name, key)) {
+                return values->column[c].name;
+            }
         }
     }
-    return false;
+    return NULL;
+}
+
+static clast_status check_new_key(const axes *all, const char *key)
+{
+    const char *before = find_key(all, key);
+    return before == NULL ? CLAST_OK
+                          : clx_fail(CLAST_E_CONFIG,
+                                     "key '%s' varies twice: there is '%s' already; take it out of "
+                                     "one of the two",
+                                     key, before);
 }
 
 /// "key = a | b" as a column of an axis: a new one, or the one that is there (zip).
@@ -99,7 +124,7 @@ static clast_status add_vary(axes *all, const char *text, bool is_zip, bool join
     int64_t n = 1;
     CLX_CHECK(equals != NULL, CLAST_E_CONFIG, "vary takes 'key = a | b | c', not '%s'", text);
     CLX_TRY(copy_trimmed(text, equals, word));
-    CLX_CHECK(!has_key(all, word), CLAST_E_CONFIG, "key '%s' varies twice", word);
+    CLX_TRY(check_new_key(all, word));
     for (const char *c = equals; *c != '\0'; ++c) {
         n += *c == '|';
     }
@@ -153,9 +178,12 @@ static clast_status add_table(axes *all, const char *path)
     char text[KEY_LIMIT];
     axis *to = &all->item[all->n];
     CLX_TRY(clast_table_read_csv(path, NULL, &read, NULL));
+    CLX_CHECK(read.n_row > 0, CLAST_E_FORMAT,
+              "%s: a header and no rows; the table of a study has a row for each run", path);
     CLX_TRY(clast_table_init(&to->values, "table", read.n_row));
     ++all->n;
     for (int32_t c = 0; c < read.n_column; ++c) {
+        CLX_TRY(check_new_key(all, read.column[c].name));
         CLX_TRY(clast_table_add_text(&to->values, read.column[c].name));
         for (int64_t r = 0; r < read.n_row; ++r) {
             CLX_TRY(cell_text(&read.column[c], r, text));
@@ -178,22 +206,12 @@ static clast_status find_axes(const clast_study_config *config, axes *all)
         const bool is_zip = config->design == CLAST_STUDY_ZIP;
         CLX_TRY(add_vary(all, config->vary.item[i], is_zip, is_zip && i > 0));
     }
-    CLX_CHECK(!has_key(all, "run") && (config->seeds == 1 || !has_key(all, "seed")), CLAST_E_CONFIG,
-              "'%s' cannot vary: it names the %s", has_key(all, "run") ? "run" : "seed",
-              has_key(all, "run") ? "run's number" : "realisation (option seeds)");
+    const bool has_run = find_key(all, "run") != NULL;
+    CLX_CHECK(!has_run && (config->seeds == 1 || find_key(all, "seed") == NULL), CLAST_E_CONFIG,
+              "'%s' cannot vary: it names the %s", has_run ? "run" : "seed",
+              has_run ? "run's number" : "realisation (option seeds)");
 done:
     return status;
-}
-
-/// Whether two keys are one, '-' being '_'; the first ends at '=' at the latest.
-static bool is_same_key(const char *pair, const char *key)
-{
-    while (*pair != '\0' && *pair != '=' &&
-           (*pair == '-' ? '_' : *pair) == (*key == '-' ? '_' : *key)) {
-        ++pair;
-        ++key;
-    }
-    return (*pair == '\0' || *pair == '=') && *key == '\0';
 }
 
 /// Refuses what is fixed and varies: the runs would take one of the two without a word.
@@ -229,6 +247,7 @@ static clast_status fill_plan(const clast_study_config *config, const axes *all,
     }
     for (int32_t a = 0; a < all->n; ++a) {
         const clast_table *values = &all->item[a].values;
+        CLAST_ASSERT(values->n_row > 0);
         inner /= values->n_row;
         for (int32_t c = 0; c < values->n_column; ++c) {
             CLX_TRY(clast_table_add_text(plan, values->column[c].name));
@@ -239,7 +258,7 @@ static clast_status fill_plan(const clast_study_config *config, const axes *all,
             ++at;
         }
     }
-    if (!has_key(all, "seed")) {
+    if (find_key(all, "seed") == NULL) {
         CLX_TRY(clast_table_add_number(plan, "seed", "-", &seed));
         for (int64_t r = 0; r < plan->n_row; ++r) {
             seed[r] = (double)(config->seed + (uint64_t)(r % config->seeds));

@@ -187,6 +187,61 @@ class Export(Case):
                 self.assert_fails(3, "export", bad, "-o", self.folder / "a.csv", says=[str(bad)])
         self.assertFalse((self.folder / "a.csv").exists())
 
+    def test_lammps_gets_step_and_period_of_a_run(self):
+        """TIMESTEP was 0, and the box of a periodic run that of its grains: another packing for who reads it as p p p."""
+        cell = ["pack", "--domain", "cell", "--curve", "4mm", "--mass", "1g", "--width", "16mm", "--depth", "20mm", "--height", "20mm", "--floor=no", "--gravity", "0",
+                "--fluid-density", "0", "-j", "1", "-q"]
+
+        def bounds(run, ending):
+            out = self.folder / f"out.{ending}"
+            self.assertEqual(clast("export", run, "-o", out).code, 0)
+            return out.read_text(encoding="utf-8").splitlines()
+
+        run = self.folder / "still"
+        self.assertEqual(clast(*cell, "--stages", "hold until time 1s", "--max-steps", "7", "-o", run).code, 0)
+        data = bounds(run, "data")
+        self.assertIn("-0.008 0.008 xlo xhi", data)
+        self.assertIn("-0.01 0.01 ylo yhi", data)
+        self.assertIn("0 0.02 zlo zhi", data)
+        self.assertFalse([line for line in data if "xy xz yz" in line])
+        self.assertIn("boundary p p p", data[0])
+        dump = bounds(run, "dump")
+        at = dump.index("ITEM: BOX BOUNDS pp pp pp")
+        self.assertEqual(dump[at + 1:at + 4], ["-0.008 0.008", "-0.01 0.01", "0 0.02"])
+        self.assertEqual(dump[dump.index("ITEM: TIMESTEP") + 1], "7")
+
+        run = self.folder / "sheared"
+        made = clast(*cell, "--stages", "shear 20/s until strain 0.1", "--json", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        shift = made.json["cell"]["shear_strain"] * made.json["cell"]["height"]
+        self.assertGreater(shift, 1e-3)
+        data = bounds(run, "data")
+        tilt = [line for line in data if "xy xz yz" in line]
+        self.assertEqual(len(tilt), 1)
+        numbers = [float(word) for word in tilt[0].split()[:3]]
+        self.assertEqual((numbers[0], numbers[2]), (0, 0))
+        self.assertAlmostEqual(numbers[1], shift, 12)
+        self.assertIn("-0.008 0.008 xlo xhi", data)
+        dump = bounds(run, "dump")
+        at = dump.index("ITEM: BOX BOUNDS xy xz yz pp pp pp")
+        row = [float(word) for word in dump[at + 1].split()]
+        self.assertEqual(row[0], -0.008)
+        self.assertAlmostEqual(row[1], 0.008 + shift, 12)  # as LAMMPS writes it: the bounds hold the tilt
+        self.assertEqual(row[2], 0)
+        self.assertAlmostEqual(float(dump[at + 2].split()[2]), shift, 12)
+        self.assertEqual(dump[dump.index("ITEM: TIMESTEP") + 1], str(made.json["n_step"]))
+        for ending in ("data", "dump"):  # and clast reads both again
+            back = clast("export", self.folder / f"out.{ending}", "-o", self.folder / "back.xyzd")
+            self.assertEqual(back.code, 0, back.err)
+
+        run = self.folder / "periodic"
+        self.assertEqual(clast("pack", "--domain", "periodic", "--curve", "4mm", "--mass", "1g", "--width", "20mm", "--height", "0.1m", "--max-steps", "9", "-q", "-o",
+                               run).code, 0)
+        data, dump = bounds(run, "data"), bounds(run, "dump")
+        self.assertIn("boundary p p f", data[0])
+        self.assertIn("-0.01 0.01 xlo xhi", data)
+        self.assertIn("ITEM: BOX BOUNDS pp pp ff", dump)
+
 
 if __name__ == "__main__":
     unittest.main()

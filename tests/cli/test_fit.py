@@ -106,7 +106,7 @@ class Fit(Case):
         path = self.write("\n".join(rows) + "\n", "results.csv")
         fit = clast("fit", path, "--target", "porosity_bulk", "--n-term", 1, "--json")
         self.assertEqual(fit.code, 0, fit.err)
-        self.assertEqual((fit.json["n_candidate"], fit.json["n_bed"]), (2, 24))
+        self.assertEqual((fit.json["n_candidate"], fit.json["n_bed"]), (1, 24))  # no seed
         self.assertEqual(fit.json["terms"][1]["term"], "width")
         for words in (("--columns", "mass,porosity_untrimmed", "--n-term", 1), ("--use", "porosity_untrimmed")):
             fit = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", *words, "--json")
@@ -120,6 +120,77 @@ class Fit(Case):
                           says=("breadth", "columns"))
         none = self.write("run,exit_code,porosity_bulk\n" + "".join(f"{k},0,0.{k}\n" for k in range(30, 60)), "none.csv")
         self.assert_fails(3, "fit", none, "--target", "porosity_bulk", says=("no column of numbers is a candidate", "--columns"))
+
+    def study(self, sizes, column="size"):
+        """Results of a study of a varied size, shape and seed."""
+        rows = [f"run,{column},shape,seed,exit_code,porosity_bulk,wall_ratio"]
+        for k in range(24):
+            porosity = 0.36 + 0.002 * (k % len(sizes)) + 1e-4 * math.sin(k * k)
+            rows.append(f"{k + 1},{sizes[k % len(sizes)]},{('box', 'rod')[k % 2]},{k % 3 + 1},0,{porosity!r},{'' if k % 2 else k}")
+        return self.write("\n".join(rows) + "\n", "results.csv")
+
+    def test_varied_quantities_with_units_are_numbers(self):
+        path = self.study(["100um", "0.15 mm", "200um", "2.5e-4m", "300um"])
+        fit = clast("fit", path, "--target", "porosity_bulk", "--n-term", 1, "--json", "-o", self.folder / "run")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertEqual((fit.json["n_candidate"], fit.json["terms"][1]["term"]), (1, "size"))
+        self.assertAlmostEqual(fit.json["terms"][1]["coefficient"], 0.002 / 50e-6, delta=1.0)
+        for bound, size in (("low", 1e-4), ("high", 3e-4)):
+            self.assertAlmostEqual(fit.json["terms"][1][bound], size, places=15)
+        self.assertEqual(fit.err, f"clast fit: {path}: 1 column of words is no candidate: shape\n")
+        answer = clast("predict", self.write("size\n220um\n0.00022\n0.22mm\n", "new.csv"), "--model", self.folder / "run/model.json")
+        self.assertEqual(answer.code, 3)  # a bare length, as in a study: 0.00022 of what?
+        answer = clast("predict", self.write("size\n220um\n0.22mm\n", "new.csv"), "--model", self.folder / "run/model.json", "--json").json
+        self.assertEqual(answer["beds"][0]["porosity"], answer["beds"][1]["porosity"])
+        self.assertTrue(answer["beds"][0]["in_range"])
+
+    def test_columns_of_words_are_told(self):
+        # units of two dimensions, and a bare length among them: words
+        fit = clast("fit", self.study(["1mm", "2s", "3mm", "4mm"]), "--target", "porosity_bulk", "--columns", "wall_ratio", "--n-fold", 5)
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertNotIn("words", fit.err)  # candidates were named
+        none = self.assert_fails(3, "fit", self.study(["1mm", "2s", "3mm", "4mm"]), "--target", "porosity_bulk", says=("no column of numbers",))
+        self.assertIn("--columns", none.err)
+        rows = "porosity,site,layer,a\n" + "".join(f"{0.3 + 0.01 * math.sin(3 * k)!r},x{k},top,{k}\n" for k in range(20))
+        path = self.write(rows)
+        fit = clast("fit", path, "--n-term", 1)
+        self.assertEqual(fit.err, f"clast fit: {path}: 2 columns of words are no candidates: site, layer\n")
+
+    def test_only_features_in_use_cost_a_row(self):
+        # periodic beds have no wall_ratio: they were left out though it was not used
+        path = self.study(["1mm", "2mm", "3mm"])
+        fit = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", "--use", "size", "--json")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertEqual((fit.json["n_bed"], fit.json["n_left_out"], fit.err), (24, 0, ""))
+        self.assertEqual([r["feature"] for r in fit.json["ranking"]], ["size"])
+        named = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", "--use", "size,wall_ratio", "--n-fold", 5, "--json")
+        self.assertEqual((named.json["n_bed"], named.json["n_left_out"]), (12, 12))
+
+    def test_the_published_validation_selects_once(self):
+        # it refused as its own message said that it would not
+        path = self.write("porosity,a\n0.3,1\n0.35,2\n0.41,3\n0.43,4\n0.5,5\n")
+        words = ("fit", path, "--n-term", 1, "--n-fold", 2, "--n-permutation", 0)
+        fit = clast(*words, "--validation", "published", "--json")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertIsNone(fit.json["r2_held_out"])
+        refused = self.assert_fails(3, *words, says=("(--validation published leaves it out): fit: 2 beds are too few",))
+        self.assertNotIn(": :", refused.err)
+
+    def test_fewer_features_than_asked_for_are_told(self):
+        rows = "porosity,a,b,c\n" + "".join(
+            f"{0.3 + 0.01 * math.sin(3 * k) + 0.003 * k!r},{k},{2 * k + 0.1 * math.sin(k)!r},7\n" for k in range(20))
+        path = self.write(rows)
+        fit = clast("fit", path, "--n-term", 3, "--json")
+        self.assertEqual(len(fit.json["terms"]), 2)
+        self.assertEqual(fit.err, "clast fit: 1 of 3 features: no candidate is left of 3 (1 like a chosen one, 1 constant or not finite in some row)\n")
+        few = self.write("porosity,a,b,c\n" + "".join(
+            f"{0.3 + 0.01 * math.sin(3 * k)!r},{k},{math.sin(k)!r},{math.cos(2 * k)!r}\n" for k in range(6)), "few.csv")
+        fit = clast("fit", few, "--n-term", 3, "--n-fold", 3, "--correlation-limit", 1, "--validation", "published", "--n-permutation", 0)
+        self.assertEqual(fit.err, "")
+        fit = clast("fit", few, "--n-term", 3, "--n-fold", 2, "--correlation-limit", 1, "--validation", "published", "--n-permutation", 0)
+        self.assertEqual(fit.err, "clast fit: 2 of 3 features: with one more no candidate can be fitted to each training set\n")
+        self.assertEqual(clast("fit", path, "--n-term", 1).err, "")
+        self.assertEqual(clast("fit", path, "--use", "a").err, "")
 
     def test_a_studys_folder_holds_the_grains_of_its_beds(self):
         rows = []
@@ -164,6 +235,8 @@ class Fit(Case):
         self.assert_fails(3, "fit", self.write("porosity,a\n0.3,1\n0.31,2\n"), says=["too few"])
         self.assert_fails(3, "fit", self.write(beds()), "--use", "beauty", says=["beauty"])
         self.assert_fails(2, "fit", self.write(beds()), "--features", "mixture", says=["--grains"])
+        alike = self.write("porosity,a,b\n" + "".join(f"0.3{k},{k},{2 * k}\n" for k in range(10, 30)), "alike.csv")
+        self.assert_fails(3, "fit", alike, "--use", "a,b", says=["fold 1 of 10: regression: the 3 columns depend"])
         self.assert_fails(3, "fit", self.folder / "none.csv", says=["none.csv"])
         self.assert_fails(3, "predict", self.write("FL,EL\n0.5,0.6\n"), "--model", self.write("{}", "m.json"),
                           says=["no model file"])

@@ -97,6 +97,35 @@ class Grading(Case):
         self.assertIn("0.7500", result.out)
         self.assertIn("D50", result.out)
 
+    def test_grains_of_a_class_are_those_of_the_count(self):
+        """--count exact printed the grains of equation 9: 57.7 and 47.6 beside "10 g hold 100.6 grains"."""
+        file = self.folder / "sieve.csv"
+        file.write_text("sieve_mm,retained\n2,0\n2.8,30\n4,70\n5.6,0\n")
+        for curve, mass in ((file, 10e-3), ("B50", 1.0)):
+            exact = clast("grading", curve, "--mass", f"{mass}kg", "--count", "exact", "--json").json
+            for one in exact["classes"]:
+                a = 3 * math.log(one["high"] / one["low"])
+                count = one["mass"] * mass / (2650 * math.pi / 6 * one["mean"] ** 3 * math.sinh(a / 2) / (a / 2))
+                self.assertAlmostEqual(one["count"], count, delta=1e-12 * count)
+            self.assertAlmostEqual(sum(one["count"] for one in exact["classes"]), exact["n_expected"], 9)
+            mean = clast("grading", curve, "--mass", f"{mass}kg", "--json").json
+            for one in mean["classes"]:
+                self.assertAlmostEqual(one["count"] * 2650 * math.pi / 6 * one["mean"] ** 3, one["mass"] * mass, 12)  # eq. 9
+        out = clast("grading", file, "--mass", "10g", "--count", "exact").out
+        self.assertEqual([float(line.split()[-1]) for line in out.splitlines()[3:5]], [55.0, 45.6])
+
+    def test_cumulative_columns_are_read_as_such(self):
+        """They were taken for the masses of single sieves: 0.588 and 0.412 for 0.3 and 0.7."""
+        file = self.folder / "sieve.csv"
+        for name in ("retained cumulative", "retained_cumulative_pct", "cumulative_retained", "cum. retained"):
+            file.write_text(f"sieve_mm,{name}\n4,0\n2,70\n1,100\n")
+            got = clast("grading", file, "--json")
+            self.assertEqual(got.code, 0, got.err)
+            self.assertAlmostEqual(got.json["classes"][1]["mass"], 0.7, 14, name)
+            self.assertAlmostEqual(got.json["curve_by_mass"]["d50"], 2e-3 * 2 ** (2 / 7), 15)  # 2.438 mm
+        file.write_text("sieve_mm,mass above\n4,0\n2,70\n1,100\n")
+        self.assert_fails(3, "grading", file, says=["'above' is not understood", "cumulative retained"])
+
     def test_laws_need_no_classes(self):
         got = clast("grading", "lognormal:8mm,2mm", "--mass", "1", "--json").json
         self.assertNotIn("classes", got)

@@ -177,7 +177,9 @@ class Load(Case):
         self.assertEqual(resumed.code, 0, resumed.err)
         straight = clast(*hold[:-3], "--start", run / "state.h5", "--json")
         self.assertEqual(resumed.json["state_hash"], straight.json["state_hash"])
-        self.assert_fails(2, *hold, "--start", dump, says=("start", "start_unit"))
+        self.assertEqual(clast(*hold, "--start", dump).code, 0)  # which says that it is in SI units
+        self.assert_fails(2, *hold, "--start", dump, "--start-unit", "mm", says=("in m, not in mm", "start_unit"))
+        self.assert_fails(2, *hold, "--start", text, "--start-columns", "x,y,z,r", says=("start", "start_unit"))
         self.assert_fails(2, *hold, "--start", run, says=("is a folder",))
         self.assert_fails(2, *hold, "--start", run / "state.h5", "--mass", "1g", says=("mass does nothing with start, which brings the grains",))
         poured = ["pack", "--start", run / "state.h5", "--width", "40mm", "--height", "40mm", "--quiet"]

@@ -47,6 +47,28 @@ class Pack(Case):
         self.assertAlmostEqual(out["wall_ratio"], 20 / 6, 12)
         self.assertAlmostEqual(porosity.json["wall_share"], out["wall_share"], 12)
 
+    def test_grains_that_fly_are_no_bed(self):
+        """A lattice in the air had a bulk porosity of 0.98, and walls their share of it."""
+        words = ("pack", "--curve", "4mm", "--mass", "2g", "--width", "25mm", "--height", "0.1m", "--shaking-time", "0", "--max-steps", "20", "-q")
+        said = clast(*words)
+        self.assertEqual(said.code, 0, said.err)
+        self.assertIn("none: there is no bed yet", said.out)
+        self.assertNotIn("porosity is theirs", said.out)
+        told = clast(*words, "--json").json
+        self.assertEqual((told["phase"], told["porosity_none"]), ("generate", "no bed yet"))
+        for name in ("porosity_bulk", "porosity_untrimmed", "porosity_least", "bed_top", "z_low", "z_high", "wall_share"):
+            self.assertIsNone(told[name], name)
+
+    def test_domain_open_is_a_container_alone(self):
+        """It was offered and refused everywhere; the refusal left the cell out."""
+        small = ("pack", "--curve", "4mm", "--mass", "1g", "--domain", "open", "--max-steps", "1", "-q")
+        self.assert_fails(2, *small, says=("domain cylinder, periodic, box or cell", "container"))
+        held = clast(*small, "--container", "data/standin63/grain00.ply", "--container-unit", "m", "--floor=no", "--json")
+        self.assertEqual(held.code, 0, held.err)
+        self.assert_fails(2, "pack", "--curve", "4mm", "--mass", "1g", "--domain", "box", "--container", "data/standin63/grain00.ply", "--container-unit", "m",
+                          says=("domain does nothing with container",))
+        self.assertIn("open: container alone", " ".join(clast("pack", "--help-all").out.split()))
+
     def test_stopped_and_killed_runs_end_in_the_same_bytes(self):
         whole = self.folder / "whole"
         self.assertEqual(self.run_small("-o", whole, "--checkpoint-time", "0.02s").code, 0)

@@ -43,6 +43,37 @@ class Predict(Case):
         self.assertEqual(one["kind"], "single_form")
         self.assertAlmostEqual(one["porosity"], 0.278 + 0.019 / 0.35 + 0.014 / 0.7, places=14)
 
+    def test_equal_grains_are_a_single_form(self):
+        # "auto (mixture where the forms vary, else single)": rounding was a spread, the porosity -8.9e12
+        for count in (2, 3, 67, 1000):
+            path = self.table("flatness,elongation\n" + "0.3,0.9\n" * count)
+            for grading, a, b, c in (("U1", 0.019, 0.014, 0.278), ("B50", 0.014, -0.006, 0.217)):
+                out = self.answer(path, "--grading", grading)
+                self.assertEqual(out["model"], f"single_form_{grading}")
+                self.assertAlmostEqual(out["porosity"], c + a / 0.27 + b / 0.9, places=14)
+                self.assertEqual((out["inputs"]["flatness_deviation"], out["inputs"]["equancy_deviation"]), (0, 0))
+                self.assertNotIn("sampling", out["errors"])
+        self.assertIn("spread", self.refusal(3, path, "--model", "mixture"))
+        self.assertIn("flatness   0.3000 +- 0.0000\n", clast("predict", path).out)
+        # one form at many sizes: its ratios differ by rounding
+        path = self.table("L,I,S\n" + "".join(f"{k},{0.9 * k},{0.3 * 0.9 * k}\n" for k in (1 + 0.1 * j for j in range(60))))
+        self.assertEqual(self.answer(path)["kind"], "single_form")
+
+    def test_words_say_which_deviations_are_known(self):
+        given = clast("predict", "--flatness", "0.647+-0", "--elongation", "0.682+-0").out
+        self.assertIn("flatness   0.6470 +- 0.0000\nelongation 0.6820 +- 0.0000\n", given)
+        self.assertNotIn("no deviations", given)
+        self.assertIn("single_form_U1", given)
+        self.assertIn("no deviations were given", clast("predict", "--flatness", "0.647", "--elongation", "0.682").out)
+        one = clast("predict", self.table("FL,EL\n0.6,0.7\n")).out
+        self.assertIn("of one grain", one)
+        self.assertNotIn("no deviations", one)
+        # a deviation that a program computed of equal grains
+        self.assertEqual(self.answer("--flatness", "0.65+-1.1e-16", "--elongation", "0.7+-0")["kind"], "single_form")
+
+    def test_a_row_without_an_answer_is_named(self):
+        self.assertIn("row 2: model single_form_U1", self.refusal(3, self.table("FL,EL\n0.6,0.7\n0.05,0.05\n"), "--each"))
+
     def test_bad_rows_are_told_and_left_out(self):
         path = self.table("flatness,elongation\n0.5,0.7\n,0.6\n0.6,-0.8\n0.6,inf\n0.7,0.6\n")
         done = clast("predict", str(path), "--json", "-o", str(self.folder / "run"))

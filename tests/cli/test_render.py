@@ -72,6 +72,36 @@ class Render(Case):
         self.assertEqual(result.json["n_triangle"], 578 + 2 * 650)
         self.assertEqual(read_png(self.folder / "run.png"), (200, 150, 3))
 
+    def test_a_picture_needs_no_volume(self):
+        """Ended in "clast_shape_copy: shape: its volume is not above 0" and code 2, of which file was not said."""
+        corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+        sides = ("0 3 2 1", "4 5 6 7", "0 1 5 4", "1 2 6 5", "2 3 7 6", "3 0 4 7")
+        files = {"cube": f"OFF\n8 6 0\n{corners}" + "".join(f"4 {s}\n" for s in sides),
+                 "inside_out": f"OFF\n8 6 0\n{corners}" + "".join(f"4 {' '.join(reversed(s.split()))}\n" for s in sides),
+                 "mixed": f"OFF\n8 6 0\n{corners}" + "".join(f"4 {' '.join(reversed(s.split())) if k % 2 else s}\n" for k, s in enumerate(sides)),
+                 "flat": "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n3 0 2 1\n3 1 2 3\n",
+                 "facet": "OFF\n3 1 0\n100 0 0\n101 0 0\n100 1 0\n3 0 1 2\n"}
+        for name, text in files.items():
+            (self.folder / f"{name}.off").write_text(text)
+            done = clast("render", self.folder / f"{name}.off", "-o", self.folder / f"{name}.png", "--shading", "flat", *SMALL)
+            self.assertEqual((done.code, done.err), (0, ""), name)
+        pictures = {name: (self.folder / f"{name}.png").read_bytes() for name in files}
+        self.assertEqual(pictures["inside_out"], pictures["cube"])
+        self.assertNotEqual(len(set(zlib.decompress(self.packed(pictures["facet"])))), 1)
+        done = clast("render", *(self.folder / f"{name}.off" for name in files), "-o", self.folder / "all.png", "--colour", "size", "--json", *SMALL)
+        self.assertEqual((done.code, done.json["n_grain"], done.err), (0, 5, ""))
+
+    def packed(self, data):
+        at = data.index(b"IDAT")
+        return data[at + 4:at + 4 + struct.unpack(">I", data[at - 4:at])[0]]
+
+    def test_what_has_no_triangles_is_named(self):
+        points, dot = self.folder / "points.off", self.folder / "dot.off"
+        points.write_text("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")
+        dot.write_text("OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n")
+        for path, why in ((points, "points.off has no triangles"), (dot, "dot.off is one point")):
+            self.assert_fails(3, "render", STL / "Menger2.stl", path, "-o", self.folder / "a.png", *SMALL, says=[why])
+
     def test_failures_are_one_line(self):
         picture = self.folder / "a.png"
         menger = STL / "Menger2.stl"

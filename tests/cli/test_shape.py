@@ -144,6 +144,52 @@ class Shape(Case):
         self.assertTrue(check["closed"])
         self.assertEqual(check["n_triangle"], 320)
 
+    def test_no_surface_takes_the_place_of_another(self):
+        """They are named by the file alone: of two g.ply, which one stayed hung on the number of threads."""
+        for name in "ab":
+            (self.folder / name).mkdir()
+        out = self.folder / "out"
+        first, second = self.put("a/g.off", BOX), self.put("b/g.off", BOX)
+        for files in ((first, second), (second, self.put("a/h.off", BOX), first), (first, first)):
+            self.assert_fails(2, "shape", *files, "--surfaces", out, says=("g.off and ", "would both write", "out/g.ply"))
+        labels = "Xsize: 8\nYsize: 8\nZsize: 8\nResolution: 1\n" + "\n".join(str(int(0 < min(x, y, z) and max(x, y, z) < 7))
+                                                                             for z in range(8) for y in range(8) for x in range(8)) + "\n"
+        voxels, like, marked = self.put("a/g.txt", labels), self.put("b/g.txt", labels), self.put("b/g#1.off", BOX)
+        self.assert_fails(2, "shape", voxels, like, "--surfaces", out, says=("a/g.txt and ", "b/g.txt would both write", "out/g#LABEL.ply"))
+        self.assert_fails(2, "shape", marked, voxels, "--surfaces", out, says=("g#1.off and ", "g.txt would both write", "out/g#1.ply"))
+        self.assertEqual(list(out.glob("*")) if out.exists() else [], [])
+        out.mkdir(exist_ok=True)
+        other = self.put("b/g#2.off", BOX)
+        table, points = self.put("b/g.csv", "L,I,S\n3,2,1\n"), self.put("a/g.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+        for files, names in (((first, voxels, table), ["g#1.ply", "g.ply"]), ((first, self.put("b/g-1.off", BOX)), ["g-1.ply", "g.ply"])):
+            done = clast("shape", *files, "--surfaces", out)
+            self.assertEqual((done.code, sorted(p.name for p in out.iterdir())), (0, names), done.err)
+            for path in out.iterdir():
+                path.unlink()
+        self.assert_fails(2, "shape", other, voxels, "--surfaces", out, says=("g#2.off",))  # which labels are there is not known yet
+        self.assert_fails(2, "shape", first, points, "--surfaces", out, says=("g.off and ", "g.csv would both write"))
+        self.assertEqual(clast("shape", first, second).code, 0)
+
+    def test_words_of_tables_do_not_name_a_definition(self):
+        """\"2 grains; L, I, S by ellipsoid\" of a table's own."""
+        table, one = self.put("t.csv", "L,I,S\n3,2,1\n2,2,2\n"), self.put("one.csv", "L,I,S\n3,2,1\n")
+        self.assertIn("2 grains; L, I, S by the table; ", clast("shape", table).out)
+        self.assertIn("form factors of L, I, S by the table:", clast("shape", one).out)
+        self.assertIn("3 grains; L, I, S by box, of rows by their table; ", clast("shape", table, self.put("b.off", BOX), "--axes", "box").out)
+        self.assertIn("2 grains; L, I, S by feret; ", clast("shape", self.put("b.off", BOX), self.put("c.off", BOX), "--axes", "feret").out)
+        self.assertEqual([clast("shape", f, "--json").json["axes"] for f in (table, self.folder / "b.off")], ["table", "ellipsoid"])
+
+    def test_a_class_does_not_hang_on_the_unit(self):
+        """I/L of a box 3:2:1 is 2/3, the rounder side; a tenth of it was a blade by 1e-16, in an STL by 1e-8."""
+        box = self.folder / "box.off"
+        sides = [(float(x) * 1 / 2, float(y) * 2 / 3, float(z) * 3 / 6) for x, y, z in (line.split() for line in BOX.splitlines()[2:10])]
+        box.write_text("\n".join(["OFF", "8 6 0", *("{} {} {}".format(*v) for v in sides), *BOX.splitlines()[10:]]) + "\n")
+        self.assertEqual(clast("shape", box, "--json").json["grains"][0]["zingg"], "disc")
+        for scale in (0.1, 0.7, 1e-3, 3e-6, 1.1):
+            for name in ("out.ply", "out.stl"):
+                self.assertEqual(clast("mesh", "convert", box, "--scale", scale, "-o", self.folder / name).code, 0)
+                self.assertEqual(clast("shape", self.folder / name, "--json").json["grains"][0]["zingg"], "disc", (scale, name))
+
     def test_threads_do_not_change_a_byte(self):
         files = sorted(DATA.glob("scarlet/stl/27sk21*.stl")) + [self.put("box.off", BOX)]
         one = clast("shape", *files, "--json", "-j", "1").out
@@ -198,7 +244,7 @@ class Output(Case):
         table = self.folder / "t.csv"
         table.write_text("L,I,S\n3,2,1\n4,3,2\n")
         for file, option in ((ROOT / "data/standin63/grain00.ply", ("--columns", "L,I,S")), (ROOT / "data/standin63/grain00.ply", ("--voxel-edge", 2)),
-                             (table, ("--hull",)), (table, ("--surfaces", self.folder / "none"))):
+                             (table, ("--hull",)), (table, ("--axes", "feret")), (table, ("--surfaces", self.folder / "none"))):
             self.assert_fails(2, "shape", file, *option, says=(f"{option[0]} does nothing with files of these kinds",))
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """clast export and clast pack --start: packings of other programs come and go without losing a digit."""
 import csv
+import math
 import struct
 import unittest
 
@@ -9,6 +10,18 @@ from clitest import ROOT, Case, clast
 LONE = ["--domain", "cell", "--width", "40mm", "--height", "40mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
         "--stages", "hold until time 1s", "--max-steps", "1", "--quiet", "-j", "1"]
 SPHERES = ("data", "dump", "txt", "voro", "xyzd", "conf")
+BOX = ["--domain", "box", "--width", "40mm", "--height", "50mm", "--shaking-time", "0", "--shake-amplitude", "0", "--max-steps", "1", "--quiet", "--json"]
+
+
+def snapshot(step, rows, columns="id x y z radius", units=""):
+    """One snapshot of a LAMMPS dump."""
+    head = f"ITEM: UNITS\n{units}\n" if units else ""
+    return (f"{head}ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: BOX BOUNDS pp pp ff\n0 20\n0 20\n0 20\n"
+            f"ITEM: ATOMS {columns}\n" + "".join(" ".join(map(str, row)) + "\n" for row in rows))
+
+
+def ball(diameter, density=2650.0):
+    return math.pi / 6 * diameter ** 3 * density
 
 
 class Starts(Case):
@@ -39,7 +52,7 @@ class Starts(Case):
         converted = clast("export", first, "-o", plain)
         self.assertEqual(converted.code, 0, (ending, converted.err))
         text = plain.read_bytes().replace(b"plain.shp", b"").replace(b"lengths in model", b"lengths in m")
-        self.assertEqual(first.read_bytes().replace(b"first.shp", b"").replace(b"ITEM: UNITS\nsi\n", b""), text, ending)
+        self.assertEqual(first.read_bytes().replace(b"first.shp", b""), text, ending)
         if ending == "conf":
             self.assertEqual(first.with_suffix(".shp").read_bytes(), again.with_suffix(".shp").read_bytes())
 
@@ -165,6 +178,141 @@ class Starts(Case):
         wrong("a.conf", "Rockable\n" + "Particles 0\n", "no shapeFile")
         (self.folder / "b.xyzd").write_bytes(struct.pack("<5d", 1, 2, 3, 4, 5))
         self.assert_fails(3, "porosity", self.folder / "b.xyzd", "--bed", "periodic:0,0,0,1,1,1", says=("40 bytes",))
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def masses(self, start, *options):
+        """Mass of the bed that begins with a file, without a step's change."""
+        made = clast("pack", "--start", start, *BOX, *options)
+        self.assertEqual(made.code, 0, made.err)
+        return made.json["mass"]
+
+    def test_a_given_diameter_is_in_metres_whatever_the_unit_of_places(self):
+        """start_unit scaled it a second time: grains of 4 mm were 4 um, exit code 0."""
+        places = "2,2,2\n6,2,2\n2,6,2\n6,6,2\n"
+        csv4 = self.write("c4.csv", "x,y,z\n" + places)
+        xyz = self.write("c4.xyz", "4\nfour\n" + "".join("C " + row.replace(",", " ") + "\n" for row in places.split()))
+        known = self.write("mm.csv", "x_mm,y_mm,z_mm\n" + places)
+        for start, unit in ((csv4, ("--start-unit", "mm")), (xyz, ("--start-unit", "mm")), (known, ()), (known, ("--start-unit", "mm"))):
+            self.assertAlmostEqual(self.masses(start, *unit, "--start-diameter", "4mm") / (4 * ball(4e-3)), 1.0, 12, start)
+        dump = self.write("c4.dump", snapshot(0, [(1, 0.2, 0.2, 0.2)], "id x y z", "cgs"))
+        self.assertAlmostEqual(self.masses(dump, "--start-diameter", "4mm") / ball(4e-3), 1.0, 12)
+        clumps = self.write("clump.txt", "#format x_y_z_r_clumpId\n3 3 3 9 0\n6 3 3 9 0\n")
+        self.assertAlmostEqual(self.masses(clumps, "--start-unit", "mm", "--start-diameter", "2mm") / (2 * ball(2e-3)), 1.0, 3)
+
+    def test_the_last_of_several_snapshots_is_read_and_told(self):
+        """The first was, without a word: LAMMPS's dumps begin with grains that have not settled."""
+        dump = self.write("two.dump", snapshot(0, [(1, 2, 2, 12, 1)]) + snapshot(500, [(1, 5, 5, 2, 2)]))
+        xyz = self.write("two.xyz", "1\nfirst\nC 2 2 12 1\n1\nsecond\nC 5 5 2 2\n")
+        for path, says in ((dump, "snapshot 2 of 2, TIMESTEP 500"), (xyz, "snapshot 2 of 2")):
+            begun = clast("pack", "--start", path, "--start-unit", "mm", *BOX)
+            self.assertEqual(begun.code, 0, begun.err)
+            self.assertIn(says, begun.err)
+            self.assertEqual((begun.json["start_snapshot"], begun.json["n_start_snapshot"]), (2, 2))
+            self.assertEqual(begun.json.get("start_step"), 500 if path == dump else None)
+            self.assertAlmostEqual(begun.json["mass"] / ball(4e-3), 1.0, 12)
+            bulk = clast("porosity", path, "--bed", "box:0,0,20,20", "--layer", 1, "--cut", 1, "--json")
+            self.assertEqual(bulk.code, 0, bulk.err)
+            self.assertIn(says, bulk.err)
+            self.assertEqual((bulk.json["snapshot"], bulk.json["n_snapshot"]), (2, 2))
+            self.assertAlmostEqual(bulk.json["solid"] / ball(4, 1), 1.0, 12)
+            out = clast("export", path, "-o", self.folder / "out.dump", "--json")
+            self.assertEqual(out.code, 0, out.err)
+            self.assertIn(says, out.err)
+            self.assertEqual((out.json["snapshot"], out.json["n_snapshot"]), (2, 2))
+            if path == dump:
+                self.assertEqual(out.json["step"], 500)
+                self.assertIn("ITEM: TIMESTEP\n500\n", (self.folder / "out.dump").read_text(encoding="utf-8"))
+        first = clast("pack", "--start", dump, "--start-unit", "mm", "--start-frame", "0", *BOX)
+        self.assertAlmostEqual(first.json["mass"] / ball(2e-3), 1.0, 12)
+        self.assertIn("snapshot 1 of 2, TIMESTEP 0", first.err)
+        self.assert_fails(3, "pack", "--start", dump, "--start-unit", "mm", "--start-frame", "2", *BOX, says=("no snapshot 2 among 2",))
+        self.assert_fails(3, "pack", "--start", xyz, "--start-unit", "mm", "--start-frame", "-3", *BOX, says=("no snapshot -3 among 2",))
+        one = self.write("one.csv", "x,y,z,d\n5,5,2,4\n")
+        self.assert_fails(2, "pack", "--start", one, "--start-unit", "mm", "--start-frame", "0", *BOX, says=("--start-frame 0: snapshots are those of",))
+        lone = self.write("lone.dump", snapshot(7, [(1, 5, 5, 2, 2)]))
+        self.assertNotIn("snapshot", clast("pack", "--start", lone, "--start-unit", "mm", *BOX).err)
+
+    def test_a_density_of_a_table_counts_in_its_unit(self):
+        """A table's densities were passed over without a word, for 2650."""
+        for column, value in (("density", 2000), ("density_kg/m^3", 2000), ("density_g/cm3", 2), ("rho", 2000), ("Density (g/cm^3)", 2), ("rho [kg/m3]", 2000),
+                              ("mass_g", 1e3 * ball(4e-3, 2000)), ("mass_kg", ball(4e-3, 2000))):
+            table = self.write("d.csv", f"x_mm,y_mm,z_mm,d_mm,{column}\n5,5,2,4,{value}\n")
+            self.assertAlmostEqual(self.masses(table) / ball(4e-3, 2000), 1.0, 12, column)
+            self.assert_fails(2, "pack", "--start", table, "--density", "2500", *BOX, says=("density is the file's own; leave it out",))
+            plain = self.write("p.csv", f"x,y,z,d,{column}\n5,5,2,4,{value}\n")
+            self.assertAlmostEqual(self.masses(plain, "--start-unit", "mm") / ball(4e-3, 2000), 1.0, 12, column)
+        listed = self.write("l.txt", "5 5 2 4 2000\n5 15 2 4 2000\n")
+        options = ("--start-unit", "mm", "--start-columns")
+        self.assertAlmostEqual(self.masses(listed, *options, "x,y,z,d,density") / (2 * ball(4e-3, 2000)), 1.0, 12)
+        self.assertAlmostEqual(self.masses(listed, *options, "x,y,z,d") / (2 * ball(4e-3)), 1.0, 12)
+        self.assert_fails(3, "pack", "--start", self.write("b.csv", "x_mm,y_mm,z_mm,d_mm,density\n5,5,2,4,0\n"), *BOX, says=("row 1", "density 0"))
+        self.assert_fails(3, "pack", "--start", self.write("b.csv", "x_mm,y_mm,z_mm,d_mm,density (lb/ft3)\n5,5,2,4,160\n"), *BOX,
+                          says=("density (lb/ft3)", "kg/m^3"))
+
+    def test_units_of_a_dump_count(self):
+        """ITEM: UNITS was passed over, even in clast's own dumps, and the hint that followed made a bed 1000 times too small."""
+        for word, metre, density, mass in (("si", 1, 1, 1), ("cgs", 1e-2, 1e3, 1e-3), ("micro", 1e-6, 1e3, 1e-15), ("nano", 1e-9, 1e6, 1e-21),
+                                           ("real", 1e-10, 1e3, 1e-3 / 6.02214076e23), ("metal", 1e-10, 1e3, 1e-3 / 6.02214076e23)):
+            sizes = [1e-2 / metre, 1e-2 / metre, 2e-3 / metre, 2e-3 / metre]
+            for column, value in (("density", 2000 / density), ("mass", ball(4e-3, 2000) / mass)):
+                dump = self.write("u.dump", snapshot(0, [(1, *sizes, value)], f"id x y z radius {column}", word))
+                self.assertAlmostEqual(self.masses(dump) / ball(4e-3, 2000), 1.0, 12, (word, column))
+            self.assertAlmostEqual(self.masses(self.write("u.dump", snapshot(0, [(1, *sizes)], units=word))) / ball(4e-3), 1.0, 12, word)
+        cgs = self.write("cgs.dump", snapshot(0, [(1, 1, 1, 0.2, 0.2)], units="cgs"))
+        self.assertAlmostEqual(self.masses(cgs, "--start-unit", "cm") / ball(4e-3), 1.0, 12)
+        self.assert_fails(2, "pack", "--start", cgs, "--start-unit", "mm", *BOX, says=("cm", "not in mm", "start_unit"))
+        lj = self.write("lj.dump", snapshot(0, [(1, 1, 1, 0.2, 0.2)], units="lj"))
+        self.assert_fails(2, "pack", "--start", lj, *BOX, says=("unit of its lengths is not known",))
+        self.assertAlmostEqual(self.masses(lj, "--start-unit", "cm") / ball(4e-3), 1.0, 12)
+        run, own = self.bed(), self.folder / "own.dump"
+        self.assertEqual(clast("export", run, "-o", own).code, 0)
+        back = clast("pack", "--start", own, *LONE, "--json")
+        self.assertEqual(back.code, 0, back.err)
+        state = clast("pack", "--start", run / "state.h5", *LONE, "--json")
+        self.assertAlmostEqual(back.json["mass"] / state.json["mass"], 1.0, 12)
+
+    def test_messages_name_options_that_the_command_has(self):
+        """They were those of clast porosity."""
+        ids, five, named = (self.write("i.txt", "1 5 5 2\n2 5 15 2\n"), self.write("f.txt", "7 5 5 2 4\n9 5 15 2 4\n"), self.write("n.csv", "x,y,z\n1,2,3\n"))
+        for start, options in ((ids, ("--start-diameter", "--start-columns")), (five, ("--start-columns",)), (named, ("--start-diameter",))):
+            said = self.assert_fails(3, "pack", "--start", start, "--start-unit", "mm", *BOX, says=options).err
+            self.assertNotIn("--diameter", said)
+            self.assertNotIn("--columns", said)
+            self.assert_fails(3, "porosity", start, "--bed", "box:0,0,20,20", says=tuple(o.replace("start-", "") for o in options))
+        self.assert_fails(2, "pack", "--start", ids, "--start-unit", "mm", "--start-columns", "id,x", *BOX, says=("--start-columns",))
+
+    def test_an_export_invents_no_density(self):
+        """1 kg/m3 went out as a fact: LAMMPS got stone 2650 times too light."""
+        bare = self.write("bare.csv", "x_mm,y_mm,z_mm,d_mm\n5,5,2,4\n15,5,2,4\n")
+        for ending in ("data", "conf"):
+            self.assert_fails(2, "export", bare, "-o", self.folder / f"no.{ending}", says=("density", "--density"))
+            self.assertFalse((self.folder / f"no.{ending}").exists())
+        for ending in ("csv", "json", "dump", "vtu", "txt", "voro", "xyzd"):
+            out = self.folder / f"out.{ending}"
+            self.assertEqual(clast("export", bare, "-o", out).code, 0, ending)
+            for word in (b"density", b"mass"):
+                self.assertNotIn(word, out.read_bytes(), ending)
+        for ending, says in (("data", " 2500 "), ("conf", "density 0 2500"), ("dump", " 2500\n"), ("csv", "density_kg/m^3"), ("vtu", "density")):
+            out = self.folder / f"given.{ending}"
+            made = clast("export", bare, "-o", out, "--density", "2.5g/cm3")
+            self.assertEqual(made.code, 0, made.err)
+            self.assertIn(says, out.read_text(encoding="utf-8"), ending)
+        self.assert_fails(2, "export", bare, "-o", self.folder / "no.voro", "--density", "2500", says=("--density does nothing",))
+        told = self.write("told.csv", "x_mm,y_mm,z_mm,d_mm,density\n5,5,2,4,2000\n")
+        self.assert_fails(2, "export", told, "-o", self.folder / "no.data", "--density", "2500", says=("density is the file's own; leave it out",))
+        out = self.folder / "told.data"
+        self.assertEqual(clast("export", told, "-o", out).code, 0)
+        self.assertIn(" 2000 ", out.read_text(encoding="utf-8"))
+        self.assertAlmostEqual(self.masses(bare, "--density", "2500") / (2 * ball(4e-3, 2500)), 1.0, 12)  # a start has its own option
+        ids = self.write("ids.txt", "1 5 5 2\n2 5 15 2\n")  # voro++
+        self.assert_fails(3, "export", ids, "-o", out, says=("--diameter", "--columns"))
+        made = clast("export", ids, "-o", out, "--diameter", "4", "--density", "2500")
+        self.assertEqual(made.code, 0, made.err)
+        self.assertIn("\n1 1 4 2500 5 5 2\n", out.read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -110,7 +110,7 @@ class Study(Case):
 
     def test_fit_reads_the_results_of_packings(self):
         """Seven beds of one form each; clast fit finds the forms in results.csv."""
-        plan = self.plan("run: pack\nfix: [curve=6 mm, mass=8g, width=30mm, height=60mm, max_steps=9000, cut=0.95]\nvary:\n"
+        plan = self.plan("run: pack\nfix: [curve=6 mm, mass=8g, width=30mm, height=60mm, max_steps=45000, cut=0.95]\nvary:\n"
                          "  - shapes = " + " | ".join(f"ellipsoid:{1 + k / 5},{1 + (k * k % 7) / 40},1" for k in range(1, 8)) + "\n")
         done = clast("study", plan, "-o", self.folder / "out", "--json")
         self.assertEqual(done.code, 0, done.err)
@@ -137,6 +137,13 @@ class Study(Case):
         # the last of the two was taken without a word
         self.assert_fails(2, "study", plan, *out, "--fix", "spheres=3", "--vary", "spheres=1|2", says=["fix: 'spheres=3'", "varies"])
         self.assert_fails(2, "study", plan, *out, "--fix", "seed=3", says=["fix: 'seed=3'", "option seed"])
+        # both varied, and the runs took the last of the two
+        self.assert_fails(2, "study", "--run", "aggregate", *out, "--vary", "core-size=100um|300um", "--vary", "core_size=200um",
+                          says=["'core_size' varies twice", "'core-size'"])
+        # a division by 0
+        header = self.folder / "header.csv"
+        header.write_text("rays\n")
+        self.assert_fails(3, "study", "--run", "aggregate", *out, "--table", header, says=[str(header), "a header and no rows"])
         self.assertFalse((self.folder / "out").exists())
 
     def test_a_result_that_no_run_has_is_named(self):
@@ -182,6 +189,28 @@ class Study(Case):
         self.assertEqual([row["exit_code"] for row in self.rows()], ["0"] * 3)
         sizes.unlink()  # whoever only tabulates does not need it
         self.assertEqual(clast(*study).code, 0)
+
+    def test_a_grain_that_changed_between_shards_is_named(self):
+        """Runs of shape have no manifest: the table was of two grains, without a word."""
+        grain = self.folder / "grain.stl"
+        grain.write_bytes((ROOT / SURFACE).read_bytes())
+        study = ["study", "--run", "shape", "--argument", grain, "--vary", "axes=feret|fitted", "-o", self.folder / "out", "-q"]
+        self.assertEqual(clast(*study, "--shard", "1/2").code, 0)
+        grain.write_bytes((ROOT / "data/scarlet/stl/27sk21_shape_coarse.stl").read_bytes())
+        self.assert_fails(2, *study, "--shard", "2/2", says=(str(grain), "is not the file that run 1 of this study was made with", "put the old one back"))
+        grain.write_bytes((ROOT / SURFACE).read_bytes())
+        self.assertEqual(clast(*study, "--shard", "2/2").code, 0)
+        self.assertEqual([row["exit_code"] for row in self.rows()], ["0", "0"])
+
+    def test_a_study_of_one_grain_has_its_numbers(self):
+        """Its table had hull and n_grain alone."""
+        done = clast("study", "--run", "shape", "--argument", SURFACE, "--fix", "unit=um", "--vary", "axes=feret|fitted", "-o", self.folder / "out", "-q", cwd=ROOT)
+        self.assertEqual(done.code, 0, done.err)
+        alone = clast("shape", SURFACE, "--unit", "um", "--axes", "fitted", "--json", cwd=ROOT).json["grains"][0]
+        row = self.rows()[1]
+        for key in ("L", "I", "S", "volume", "flatness"):
+            self.assertEqual(float(row[f"grains.0.{key}"]), alone[key], key)
+        self.assertEqual(float(row["grains.0.inverse.flatness"]), alone["inverse"]["flatness"])
 
     def test_stop_and_go_on_give_the_same_table(self):
         plan = self.plan(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 40 | 41 | 42 | 43 | 44 | 45]\n")

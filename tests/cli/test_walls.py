@@ -73,6 +73,17 @@ class Walls(Case):
         self.assertEqual(result.code, 0, result.err)
         self.assertLess(max(row["lid_force_z_N"] for row in rows(run / "walls.csv")), 1.1 * 2e3 * math.pi * 12e-3 ** 2)
 
+    def test_a_lone_grain_between_plates_comes_to_rest(self):
+        """No two grains touch: a stage until rest never ended, though the lid carried what it was to carry."""
+        for mass, n in (("0.05g", 1), ("0.7g", 8)):  # a grain; a layer, side by side on its lattice
+            run = self.folder / f"run{n}"
+            result = clast("pack", "--curve", "4mm", "--mass", mass, "--domain", "box", "--width", "24mm", "--height", "20mm", "--lid", "--fluid-density", "0",
+                           "--shaking-time", "0", "--shake-amplitude", "0", "--wall", "lid", "--stages", "lid=1N until rest", "--max-load-time", "0.5s",
+                           "--load-rate", "8/s", "--series-time", "0.2ms", "--rule", "speed", "-j", "1", "-q", "--json", "-o", run)
+            self.assertEqual(result.code, 0, result.err)
+            self.assertEqual((result.json["n_grain"], result.json["n_contact"]), (n, 0))
+            self.assertLess(abs(rows(run / "walls.csv")[-1]["lid_force_z_N"] - 1), 0.02)
+
     def silo(self):
         plate, gate = self.folder / "plate.stl", self.folder / "gate.stl"
         write_plate(plate, 15, 0, 7)

@@ -25,13 +25,17 @@ static void check(clast_status status, const clast_assembly *a)
 
 static void read_data(const uint8_t *bytes, size_t n)
 {
-    const clast_packing_options options = {0};
+    const clx_packing_wanted wanted = {.frame = -1};
+    clast_packing_frame frame;
     clast_table table = {0};
     clast_assembly a = {0};
-    bool has_density = false;
-    clast_status status = clx_lammps_data("fuzz", bytes, n, &table);
+    char unit[16];
+    clast_status status = clx_lammps_data("fuzz", bytes, n, &table, &frame);
     if (status == CLAST_OK) {
-        status = clx_packing_of_table(&table, &options, true, &a, &has_density);
+        status = clx_packing_of_table(&table, &wanted.spheres, true, &a, unit);
+    }
+    if (status == CLAST_OK) {
+        status = clx_packing_densities(&table, &wanted, true, NULL, &a);
     }
     check(status, &a);
     clast_table_free(&table);
@@ -43,14 +47,14 @@ static void read_yade(const uint8_t *bytes, size_t n)
     char columns[CLX_YADE_COLUMNS];
     clast_table table = {0};
     clast_assembly a = {0};
-    bool has_density = false;
+    char unit[16];
     if (!clx_yade_columns(bytes, n, columns)) {
         return;
     }
-    const clast_packing_options options = {.columns = columns};
+    const clx_spheres_wanted wanted = {.options = {.columns = columns}};
     clast_status status = clast_table_parse_csv("fuzz", bytes, n, NULL, &table, NULL);
     if (status == CLAST_OK && table.n_row < 1000) {
-        status = clx_packing_of_table(&table, &options, false, &a, &has_density);
+        status = clx_packing_of_table(&table, &wanted, false, &a, unit);
     }
     check(status, &a);
     clast_table_free(&table);
@@ -60,7 +64,6 @@ static void read_yade(const uint8_t *bytes, size_t n)
 static void read_rockable(const uint8_t *bytes, size_t n)
 {
     clast_assembly a = {0};
-    bool has_density = false;
     const char *text = (const char *)bytes;
     const char *zero = memchr(text, 0, n);
     const char *shapes = zero != NULL ? zero + 1 : text + n;
@@ -71,7 +74,7 @@ static void read_rockable(const uint8_t *bytes, size_t n)
                                 .n_shape = (size_t)(text + n - shapes)};
     clast_status status = clx_rockable_library(&files);
     if (status == CLAST_OK) {
-        status = clx_rockable(&files, &a, &has_density);
+        status = clx_rockable(&files, &a);
     }
     check(status, &a);
     clast_assembly_free(&a);

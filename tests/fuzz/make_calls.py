@@ -23,7 +23,7 @@ OPTIONAL = {
     "clast_mesh_read_welded.weld", "clast_mesh_require_solid.otherwise", "clast_mesh_parse.report", "clast_mesh_write.options",
     "clast_mesh_weld.n_merged", "clast_mesh_repair.config", "clast_mesh_repair.report", "clast_mesh_weld_auto.report",
     "clast_mesh_simplify.report", "clast_assembly_find_contacts_periodic.period", "clast_assembly_overlaps.period",
-    "clast_pack_run.folder", "clast_evolve_run.folder", "clast_packing_read.options", "clast_cloud_read.options",
+    "clast_pack_run.folder", "clast_evolve_run.folder", "clast_packing_read.options", "clast_packing_read.report", "clast_cloud_read.options",
     "clast_cloud_parse.options",
     "clast_form_inputs_of.pick", "clast_form_inputs_from_moments.deviation", "clast_porosity_predict_set.bootstrap",
     "clast_report_write.config", "clast_assembly_rigid.added", "clast_run_folder_end.run", "clast_spheres_read.name",
@@ -40,6 +40,15 @@ CHANGED = {
     "clast_workspace_collide.particles", "clast_statistics_limit_pca.statistics", "clast_volume_fill.volume",
     "clast_volume_parts.volume", "clast_bed_wrap.assembly", "clast_grain_scale.grain", "clast_grains_to_metres.grains",
     "clast_workspace_collide.population", "clast_bed_read.surface", "clast_bed_load.surface"}
+# Objects of these types are made anew for each call (calls.h); others are NULL.
+LIVE = {"clast_aggregate", "clast_bvh", "clast_dem", "clast_grading", "clast_manifest", "clast_workspace"}
+# Of these one that is good but for one number alone: what they write is spread by the caller's stride.
+SPREAD = {"clast_workspace"}
+# Structs of which calls.h has one that holds together, for calls of which one number alone is wrong.
+GOOD = {"clast_assembly", "clast_bed", "clast_cloud", "clast_curve", "clast_domain", "clast_mesh", "clast_points", "clast_shape",
+        "clast_sizes", "clast_spheres", "clast_table"}
+# What a caller asks for: none of its numbers may be NaN, no enumerator unknown.
+ASKED = re.compile(r"_(options|config|drive|period|bootstrap|motion|fluid|step|policy|grain)$")
 # Not called with filled structs: what they do is outside the process or takes minutes by design. Each is called with NULL.
 PASSING = {"clast_comm_agree", "clast_run_folder_end"}  # give back the status that they are given
 LONG = {"clast_outputs_abandon", "clast_study_run", "clast_pack_run", "clast_pack_resume", "clast_evolve_run",
@@ -50,9 +59,10 @@ LONG = {"clast_outputs_abandon", "clast_study_run", "clast_pack_run", "clast_pac
 class Writer:
     def __init__(self, headers):
         self.h = headers
+        self.h.copied = {n for n in GOOD if f"{n}_copy(" in headers.raw}
         self.lines = []
 
-    def value(self, d, where):
+    def value(self, d, where, owner=""):
         """C that fills the object `where` of the declared type."""
         pointer = d.stars > 0
         if d.is_function or (pointer and d.type == "void"):
@@ -76,11 +86,15 @@ class Writer:
             flat = where + "".join("[0]" for _ in d.dims)
             one = Declared(f"{d.type} {d.name}")
             return (f"for (size_t k = 0; k < sizeof {where} / sizeof {flat}; ++k) "
-                    f"{{ {self.value(one, f'(&{flat})[k]')} }}")
+                    f"{{ {self.value(one, f'(&{flat})[k]', owner)} }}")
         if d.type in self.h.structs:
             return f"fill_{d.type}(s, &{where});"
+        if d.type in self.h.enums and owner:
+            return f'{where} = ({d.type})take_number_choice(s, "{owner}.{d.name}");'
         if d.type in self.h.enums:
             return f"{where} = ({d.type})take_choice(s);"
+        if d.type == "double" and owner:
+            return f'{where} = take_number(s, "{owner}.{d.name}");'
         if d.type in SCALARS:
             kind = "count" if COUNTS.match(d.name) and SCALARS[d.type] in ("int", "i32", "i64", "size") else SCALARS[d.type]
             return f"{where} = ({d.type})take_{kind}(s);"
@@ -89,10 +103,16 @@ class Writer:
     def struct(self, name, fields):
         self.lines += [f"static void fill_{name}(source *s, {name} *p)", "{", "    memset(p, 0, sizeof *p);",
                        "    if (s->depth > 3) { return; }", "    ++s->depth;"]
-        self.lines += [f"    {self.value(d, 'p->' + d.name)}" for d in fields]
-        self.lines += ["    --s->depth;", "}", f"static {name} *take_{name}(source *s)", "{",
-                       f"    {name} *p = take_items(s, sizeof *p);",
-                       f"    for (int i = 0; p != NULL && i < ITEMS; ++i) {{ fill_{name}(s, p + i); }}", "    return p;", "}"]
+        if name.endswith("_config") and name[:-len("_config")] + "_fields" in self.h.raw:
+            self.lines += [f"    if (s->is_good) {{ (void)clast_fields_default({name[:-len('_config')]}_fields, p); --s->depth; return; }}"]
+        owner = name if ASKED.search(name) else ""
+        self.lines += [f"    {self.value(d, 'p->' + d.name, owner)}" for d in fields]
+        self.lines += ["    --s->depth;", "}", f"static {name} *take_{name}(source *s)", "{"]
+        if name in GOOD:
+            self.lines += [f"    if (s->is_good) {{ return good_{name}(); }}"]
+        self.lines += [
+            f"    {name} *p = take_items(s, sizeof *p);",
+            f"    for (int i = 0; p != NULL && i < ITEMS; ++i) {{ s->is_other = i > 0; fill_{name}(s, p + i); }}", "    s->is_other = false;", "    return p;", "}"]
 
     def argument(self, name, a, k):
         """Declaration, value and clean-up of argument k."""
@@ -100,7 +120,7 @@ class Writer:
         pointer = a.stars > 0 or a.dims
         null = f"null == {k} ? NULL : "
         if not pointer:
-            return [f"{a.type} a{k} = {{0}};" if a.type in self.h.structs else f"{a.type} a{k};", self.value(a, f"a{k}")], f"a{k}", []
+            return [f"{a.type} a{k} = {{0}};" if a.type in self.h.structs else f"{a.type} a{k};", self.value(a, f"a{k}", name)], f"a{k}", []
         if a.type == "clast_idle":  # a list that ends with {0}
             return [], f'{null}(const clast_idle[]){{{{true, "level|domain", "here"}}, {{0}}}}', []
         if a.type == "clast_field":
@@ -114,11 +134,17 @@ class Writer:
         if a.type == "void":
             return [], f"{null}take_bytes(s)", []
         if a.type in self.h.opaque and a.stars == 1:
-            return [], f"{null}NULL", []
+            live = a.type in LIVE and not name.endswith("_destroy")
+            if a.type in SPREAD and live:
+                return [], f"{null}s->is_good || null >= 0 ? live_{a.type}() : NULL", []
+            return [], null + (f"live_{a.type}()" if live else "NULL"), []
         if name.endswith(("_free", "_unload")) or key in CHANGED:
             lines = [f"{a.type} a{k} = {{0}};"]
             if key in CHANGED:
-                lines.append(f"s->is_hollow = true; fill_{a.type}(s, &a{k}); s->is_hollow = false;")
+                copy = a.type in self.h.copied
+                lines.append(f"s->is_hollow = true; fill_{a.type}(s, &a{k}); s->is_hollow = false;" if not copy else
+                             f"if (s->is_good) {{ (void){a.type}_copy(good_{a.type}(), &a{k}); }} "
+                             f"else {{ s->is_hollow = true; fill_{a.type}(s, &a{k}); s->is_hollow = false; }}")
             return lines, f"{null}&a{k}", []
         if a.is_const or (a.type == "char" and a.stars > 1 and a.name in ("argv",)):
             one = Declared(a.text)

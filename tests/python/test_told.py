@@ -240,5 +240,28 @@ class Results(Case):
         self.assertEqual(found.n_repeated, 59)
 
 
+class Models(Case):
+    def test_equal_grains_are_a_single_form(self):
+        """"auto" took the mixture of 67 equal grains: rounding was their spread, the porosity -8.9e12."""
+        found = clast.predict(table={"flatness": np.full(67, 0.3), "elongation": np.full(67, 0.9)})
+        self.assertEqual((found.model, found.inputs["equancy_deviation"]), ("single_form_U1", 0.0))
+        self.assertAlmostEqual(found.porosity, 0.278 + 0.019 / 0.27 + 0.014 / 0.9, 14)
+        self.assertEqual(clast.predict((0.3, 1.1e-16), (0.9, 0.0)).model, "single_form_U1")  # numpy.std of equal grains
+        self.assertEqual(clast.predict((0.65, 0.0), (0.7, 0.1), model="single").inputs["elongation_deviation"], 0.1)
+
+    def test_words_and_few_features_are_told(self):
+        k = np.arange(20.0)
+        beds = {"a": k, "site": [f"x{i}" for i in range(20)], "porosity": 0.3 + 0.01 * np.sin(3 * k)}
+        self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0)), ["1 column of words is no candidate: site",
+            "1 of 2 features: no candidate is left of 1 (0 like a chosen one, 0 constant or not finite in some row)"])
+        self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, columns="a", n_term=1)), [])
+        self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, features="columns", use="a")), [])
+        study = {"run": k + 1, "size": [f"{100 + 10 * i}um" for i in range(20)], "seed": k, "exit_code": 0 * k, "note": ["n"] * 20,
+                 "porosity": 0.3 + 0.001 * k + 1e-4 * np.sin(k * k)}
+        found = clast.fit(study, n_term=1, n_permutation=0)
+        self.assertEqual((list(found.model.coefficients), self.heard(lambda: clast.fit(study, n_term=1, n_permutation=0))), (["size"], []))
+        self.assertEqual(len(clast.predict_beds({"size": ["150um", "0.2mm"]}, model=found.model)), 2)
+
+
 if __name__ == "__main__":
     unittest.main()

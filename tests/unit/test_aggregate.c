@@ -1,8 +1,10 @@
 /* Unit: aggregates whose geometry is known. */
 #include "aggregates.h"
 
+#include <clast/aggregate_run.h>
 #include <clast/settling.h>
 #include <stdio.h>
+#include <string.h>
 
 static double distance(const double a[3], const double b[3])
 {
@@ -190,6 +192,90 @@ static void refused_memory_leaves_nothing(void **state)
     }
 }
 
+static void grow_and_measure(const double (*axes)[3], const char *options,
+                             clast_aggregate_result *result)
+{
+    support_aggregate s;
+    support_aggregate_make(&s, axes, 1, options);
+    clast_aggregate *a = support_aggregate_run(&s, 0);
+    CHECK_OK(clast_aggregate_measure(a, result));
+    clast_aggregate_destroy(a);
+    support_aggregate_free(&s);
+}
+
+/* What is left apart, and which solid overlaps, is part of the result and said in one line. */
+static void results_say_what_they_are_of(void **state)
+{
+    (void)state;
+    static const double axes[1][3] = {{3.0, 2.0, 1.0}};
+    clast_aggregate_result r[2];
+    clast_aggregate_report report = {.n = 1, .result = r};
+    char text[400];
+    grow_and_measure(NULL,
+                     "n_particle=12;size_law=uniform;size_low=1;size_high=1;mode=cluster;n_final=5",
+                     &r[0]);
+    assert_int_equal(r[0].n_cluster, 5);
+    assert_int_equal(r[0].n_grain_all, 12);
+    assert_true(r[0].n_grain >= 3 && r[0].n_grain <= 8);
+    char expected[80];
+    (void)snprintf(expected, sizeof expected, "largest of 5 clusters, %d of 12 grains (",
+                   r[0].n_grain);
+    assert_ptr_equal(clast_aggregate_report_scope(&report, sizeof text, text), text);
+    assert_ptr_equal(strstr(text, expected), text);
+    r[1] = r[0];
+    r[1].n_cluster = 7;
+    report.n = 2;
+    (void)clast_aggregate_report_scope(&report, sizeof text, text);
+    assert_ptr_equal(text, strstr(text, "largest of 5 to 7 clusters of each repeat ("));
+    (void)clast_aggregate_report_scope(&report, 11, text);
+    assert_string_equal(text, "largest of");
+    report.n = 1;
+    grow_and_measure(axes, "n_particle=6;size_law=uniform;size_low=2;size_high=2", &r[0]);
+    assert_int_equal(r[0].n_grain_all, 7);
+    assert_int_equal(r[0].contact, CLAST_CONTACT_EXACT);
+    assert_string_equal(clast_aggregate_report_scope(&report, sizeof text, text), "");
+    grow_and_measure(axes, "n_particle=6;size_law=uniform;size_low=2;size_high=2;contact=spheres",
+                     &r[0]);
+    assert_true(r[0].max_overlap < 1e-12 && r[0].solid_union < 0.999 * r[0].solid_sum);
+    (void)clast_aggregate_report_scope(&report, sizeof text, text);
+    assert_non_null(strstr(text, "porosity by the sum of the grains' volumes, which overlap by "));
+    assert_non_null(strstr(text, "; max_overlap that of the sphere composites"));
+    grow_and_measure(axes,
+                     "n_particle=6;size_law=uniform;size_low=2;size_high=2;contact=march;"
+                     "solid_union=false",
+                     &r[0]);
+    assert_true(isnan(r[0].max_overlap) && isnan(r[0].max_overlap_relative));
+    (void)clast_aggregate_report_scope(&report, sizeof text, text);
+    assert_non_null(strstr(text, "which may overlap; max_overlap is not looked for in the march"));
+}
+
+/* Clusters side by side went in as one rigid core. */
+static void a_core_is_one_piece(void **state)
+{
+    (void)state;
+    static const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    support_aggregate s;
+    clast_aggregate *a = NULL;
+    support_aggregate_make(&s, NULL, 1, "n_particle=2;size_law=uniform;size_low=1;size_high=1");
+    for (int k = 1; k < 4; ++k) {
+        const double at[3] = {k < 3 ? k : 9.0, 0.0, 0.0};
+        CHECK_OK(clast_assembly_add_grain(&s.core, 0, at, unturned, 1.0, 2500.0));
+    }
+    CHECK_OK(clast_aggregate_create(&s.config.params, &s.input, 0, &a)); /* contacts not known */
+    clast_aggregate_destroy(a);
+    a = NULL;
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_assembly_add_contact(&s.core, k, k + 1, (double[3]){k + 0.5, 0.0, 0.0}));
+    }
+    CHECK_STATUS(clast_aggregate_create(&s.config.params, &s.input, 0, &a), CLAST_E_GEOMETRY);
+    assert_non_null(
+        strstr(clast_error_detail(), "core: its 4 grains are 2 pieces that do not touch"));
+    CHECK_OK(clast_assembly_add_contact(&s.core, 3, 0, (double[3]){4.5, 0.0, 0.0}));
+    CHECK_OK(clast_aggregate_create(&s.config.params, &s.input, 0, &a));
+    clast_aggregate_destroy(a);
+    support_aggregate_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +284,8 @@ int main(void)
         cmocka_unit_test(coat_has_a_permeability),
         cmocka_unit_test(parameters_alone_are_enough),
         cmocka_unit_test(refused_memory_leaves_nothing),
+        cmocka_unit_test(results_say_what_they_are_of),
+        cmocka_unit_test(a_core_is_one_piece),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

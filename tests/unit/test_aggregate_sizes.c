@@ -5,6 +5,8 @@
 #include "aggregate/sizes.h"
 #include "base/alloc.h"
 #include <clast/aggregate_run.h>
+#include <clast/grain.h>
+#include <clast/mesh.h>
 #include <string.h>
 
 static void default_config(clast_aggregate_config *config)
@@ -67,6 +69,32 @@ static void histograms_are_drawn_by_number_or_mass(void **state)
     }
     clast_sizes_free(&sizes);
     clast_fields_free(clast_aggregate_fields, &c);
+}
+
+/* It said "end the column's name in it (size_mm, Size (mm), phi)" and cut "Size (mm)" at its blank
+   where no comma stood in the line. */
+static void a_lone_name_holds_its_unit_in_brackets(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double size, count;
+    } list[] = {{"Size (mm)\n0.02\n0.04\n", 2e-5, 1.0},
+                {"Size (um)\n20\n40\n", 2e-5, 1.0},
+                {"Size (\xc2\xb5m)\r\n20\r\n40\r\n", 2e-5, 1.0},
+                {"  size [mm]\n0.02\n0.04\n", 2e-5, 1.0},
+                {"Size (phi)\n5.643856189774724\n4\n", 2e-5, 1.0},
+                {"Size (mm) count\n0.02 3\n0.04 5\n", 2e-5, 3.0},
+                {"count Size (mm)\n3 0.02\n5 0.04\n", 2e-5, 3.0},
+                {"Size (mean) (mm),count\n0.02,3\n0.04,5\n", 2e-5, 3.0}};
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        clast_sizes sizes = {0};
+        CHECK_OK(clast_sizes_parse("list", list[k].text, "", "", &sizes));
+        assert_int_equal(sizes.n, 2);
+        CHECK_REL(sizes.low[0], list[k].size, 1e-12);
+        CHECK_REL(sizes.count[0], list[k].count, 1e-15);
+        clast_sizes_free(&sizes);
+    }
 }
 
 static void sizes_of_a_caller_must_be_above_0(void **state)
@@ -190,6 +218,41 @@ static void meanings_of_size_agree_for_an_ellipsoid(void **state)
     support_aggregate_free(&s);
 }
 
+/* (L I S)^(1/3) is of the axes that clast shape --axes fitted prints, as help and documents say;
+   not of its default, the ellipsoid of equal moments. */
+static void mean_diameters_are_of_the_fitted_axes(void **state)
+{
+    (void)state;
+    double point[8][3] = {{0.0, 0.0, 0.0}, {3.0, 0.2, 0.1}, {0.5, 2.0, 0.3},  {0.4, 0.6, 1.4},
+                          {2.6, 1.1, 0.9}, {1.2, 1.8, 1.1}, {2.2, -0.4, 0.7}, {1.0, 0.3, -0.5}};
+    const clast_mesh points = {.n_vert = 8, .vert = point};
+    clast_mesh hull = {0};
+    clast_shape rock = {0};
+    clast_assembly grain = {0};
+    clast_grain measured;
+    clx_kit kit = {0};
+    support_aggregate s;
+    support_aggregate_make(&s, NULL, 1, "size_meaning=mean_diameter");
+    CHECK_OK(clast_mesh_hull(&points, &hull));
+    CHECK_OK(clast_grain_measure(&hull, &measured));
+    CHECK_OK(clast_shape_mesh("rock", &hull, &rock));
+    CHECK_OK(clast_assembly_add_shape(&grain, &rock, NULL));
+    CHECK_OK(clast_assembly_add_grain(&grain, 0, (double[3]){0.0, 0.0, 0.0},
+                                      (double[4]){1.0, 0.0, 0.0, 0.0}, 1.0, 2500.0));
+    s.input.coat = &grain;
+    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
+    const double *fitted = measured.axes[CLAST_AXES_FITTED].lis;
+    const double *equal = measured.axes[CLAST_AXES_ELLIPSOID].lis;
+    const double mean = clx_kit_size(&kit.group[1], CLAST_SIZE_MEAN);
+    CHECK_REL(mean, cbrt(fitted[0] * fitted[1] * fitted[2]), 1e-12);
+    assert_true(fabs(mean / cbrt(equal[0] * equal[1] * equal[2]) - 1.0) > 0.05);
+    clx_kit_free(&kit);
+    support_aggregate_free(&s);
+    clast_assembly_free(&grain);
+    clast_shape_free(&rock);
+    clast_mesh_free(&hull);
+}
+
 static void intervals_are_students(void **state)
 {
     (void)state;
@@ -282,6 +345,7 @@ static void wanted_sizes_stand_beside_placed_ones(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lone_name_holds_its_unit_in_brackets),
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
         cmocka_unit_test(sizes_of_a_caller_must_be_above_0),
@@ -289,6 +353,7 @@ int main(void)
         cmocka_unit_test(classes_and_weights_choose_shapes),
         cmocka_unit_test(form_of_groups_is_exact),
         cmocka_unit_test(meanings_of_size_agree_for_an_ellipsoid),
+        cmocka_unit_test(mean_diameters_are_of_the_fitted_axes),
         cmocka_unit_test(intervals_are_students),
         cmocka_unit_test(bands_are_means_over_repeats),
         cmocka_unit_test(wanted_sizes_stand_beside_placed_ones),

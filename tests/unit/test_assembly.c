@@ -1,6 +1,7 @@
 /* Unit: placed shapes add up, and their box touches the true surfaces. */
 #include "support.h"
 
+#include "assembly/pieces.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <string.h>
@@ -211,6 +212,114 @@ static void assembly_survives_refused_memory(void **state)
     support_refuse_each_allocation(make_many, NULL);
 }
 
+static const int32_t joined[4][2] = {{4, 2}, {2, 0}, {5, 1}, {0, 4}};
+
+/* Six balls in a row; contacts make {0, 2, 4}, {1, 5} and {3}. */
+static clast_status six_balls(clast_assembly *a)
+{
+    clast_shape ball = {0};
+    clast_status status = clast_shape_sphere("ball", 1.0, &ball);
+    status = status == CLAST_OK ? clast_assembly_add_shape(a, &ball, NULL) : status;
+    for (int32_t i = 0; i < 6 && status == CLAST_OK; ++i) {
+        status = add(a, 0, 3.0 * i, 0.0, 0.0, 1.0 + i);
+    }
+    for (int32_t c = 0; c < 4 && status == CLAST_OK; ++c) {
+        status = clast_assembly_add_contact(a, joined[c][0], joined[c][1],
+                                            (double[3]){(double)c, 0.0, 0.0});
+    }
+    clast_shape_free(&ball);
+    return status;
+}
+
+static void contacts_join_grains_to_groups(void **state)
+{
+    (void)state;
+    static const int32_t expected[6] = {0, 1, 0, 2, 0, 1};
+    clast_assembly a = {0};
+    clast_assembly part = {0};
+    int32_t piece[6];
+    int32_t n = 0;
+    CHECK_OK(six_balls(&a));
+    a.id[4] = 17;
+    CHECK_OK(clx_assembly_pieces(&a, piece, &n));
+    assert_int_equal(n, 3);
+    assert_memory_equal(piece, expected, sizeof piece);
+    CHECK_OK(clx_assembly_part(&a, piece, 0, &part));
+    assert_int_equal(part.n_grain, 3);
+    assert_int_equal(part.n_contact, 3);
+    CHECK_REL(part.position[2][0], 12.0, 0.0);
+    CHECK_REL(part.scale[1], 3.0, 0.0);
+    assert_int_equal(part.id[2], 17);
+    assert_int_equal(part.contact[0][0], 2);
+    assert_int_equal(part.contact[0][1], 1);
+    CHECK_REL(part.contact_point[2][0], 3.0, 0.0);
+    clast_assembly_free(&part);
+    CHECK_OK(clx_assembly_part(&a, piece, 2, &part));
+    assert_int_equal(part.n_grain, 1);
+    assert_int_equal(part.n_contact, 0);
+    clast_assembly_free(&part);
+    clast_assembly_free(&a);
+}
+
+static clast_status make_part(void *context)
+{
+    (void)context;
+    clast_assembly a = {0};
+    clast_assembly part = {0};
+    int32_t piece[6];
+    int32_t n = 0;
+    clast_status status = six_balls(&a);
+    status = status == CLAST_OK ? clx_assembly_pieces(&a, piece, &n) : status;
+    status = status == CLAST_OK ? clx_assembly_part(&a, piece, 0, &part) : status;
+    clast_assembly_free(&part);
+    clast_assembly_free(&a);
+    return status;
+}
+
+static void parts_survive_refused_memory(void **state)
+{
+    (void)state;
+    support_refuse_each_allocation(make_part, NULL);
+}
+
+static double structure_value(const clast_table *t, const char *name)
+{
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        if (strcmp(t->column[0].text[i], name) == 0) {
+            return t->column[1].number[i];
+        }
+    }
+    return (double)NAN;
+}
+
+/* Porosity, packing and density are by the sum of the grains' volumes, as in summary.json and the
+   paper; porosity was by the union, of which summary.json had none. */
+static void porosity_is_by_the_sum_and_by_the_union(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_shape ball = {0};
+    clast_table t = {0};
+    const clast_structure_options options = clast_structure_options_default();
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &ball));
+    CHECK_OK(clast_assembly_add_shape(&a, &ball, NULL));
+    CHECK_OK(add(&a, 0, 0.0, 0.0, 0.0, 1.0));
+    CHECK_OK(add(&a, 0, 1.0, 0.0, 0.0, 1.0));
+    CHECK_OK(clast_structure(&a, &options, &t));
+    const double hull = 4.0 / 3.0 * CLAST_PI + CLAST_PI; /* a capsule */
+    const double sum = 8.0 / 3.0 * CLAST_PI;
+    const double lens = 5.0 / 12.0 * CLAST_PI;
+    CHECK_REL(structure_value(&t, "porosity_surface_hull"), 1.0 - sum / hull, 1e-10);
+    CHECK_REL(structure_value(&t, "packing_surface_hull"), sum / hull, 1e-10);
+    CHECK_REL(structure_value(&t, "density_surface_hull"), 1000.0 * sum / hull, 1e-10);
+    CHECK_REL(structure_value(&t, "porosity_union_surface_hull"), 1.0 - (sum - lens) / hull, 1e-10);
+    CHECK_REL(structure_value(&t, "max_overlap_surfaces"), 1.0, 1e-12);
+    assert_true(isnan(structure_value(&t, "max_overlap")));
+    clast_table_free(&t);
+    clast_shape_free(&ball);
+    clast_assembly_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +330,9 @@ int main(void)
         cmocka_unit_test(wrong_grains_are_refused),
         cmocka_unit_test(clump_with_a_sphere_of_no_size_is_refused),
         cmocka_unit_test(assembly_survives_refused_memory),
+        cmocka_unit_test(contacts_join_grains_to_groups),
+        cmocka_unit_test(parts_survive_refused_memory),
+        cmocka_unit_test(porosity_is_by_the_sum_and_by_the_union),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

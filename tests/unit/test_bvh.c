@@ -437,6 +437,51 @@ static void bad_meshes_are_refused(void **state)
     clast_mesh_free(&box);
 }
 
+/* Before, points with a NaN that lay in the plane of a box's face by another coordinate were
+ * inside: no comparison threw them out. */
+static void points_beside_numbers_are_outside(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN;
+    const double point[][3] = {{nan, 0.0, 0.0}, {0.0, nan, 0.0}, {0.0, 0.0, nan},
+                               {nan, 2.0, 1.0}, {nan, 0.0, 0.5}, {nan, nan, nan}};
+    clast_mesh box = {0};
+    clast_bvh *bvh = NULL;
+    CHECK_OK(clast_mesh_box(3.0, 2.0, 1.0, &box));
+    CHECK_OK(clast_bvh_create(&box, &bvh));
+    for (int k = 0; k < 6; ++k) {
+        assert_false(clast_bvh_inside(bvh, point[k]));
+        assert_true(isnan(clast_bvh_signed_distance(bvh, point[k])));
+    }
+    clast_bvh_destroy(bvh);
+    clast_mesh_free(&box);
+}
+
+static void points_that_are_nowhere_are_outside(void **state)
+{
+    (void)state;
+    const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
+    for (int removed = 0; removed < 2; ++removed) { // closed, and open by two triangles
+        clast_mesh ball = {0};
+        clast_bvh *bvh = NULL;
+        CHECK_OK(clast_mesh_ellipsoid((double[3]){1.0, 1.0, 1.0}, 3, &ball));
+        ball.n_tri -= 2 * removed;
+        CHECK_OK(clast_bvh_create(&ball, &bvh));
+        for (int k = 0; k < 3 * 7; ++k) {
+            double point[3] = {0.1, 0.2, 0.3};
+            for (int j = 0; j < 3; ++j) {
+                point[j] = ((k % 7 + 1) >> j & 1) != 0 ? bad[k / 7] : point[j];
+            }
+            assert_false(clast_bvh_inside(bvh, point));
+            const double d = clast_bvh_signed_distance(bvh, point);
+            assert_true(k / 7 == 0 ? isnan(d) : d == (double)INFINITY);
+        }
+        assert_true(clast_bvh_inside(bvh, (double[3]){0.1, 0.2, 0.3}));
+        clast_bvh_destroy(bvh);
+        clast_mesh_free(&ball);
+    }
+}
+
 static clast_status make_bvh(void *context)
 {
     clast_bvh *bvh = NULL;
@@ -472,6 +517,8 @@ int main(void)
         cmocka_unit_test(depth_is_bounded_for_a_geometric_series),
         cmocka_unit_test(degenerate_meshes_keep_the_depth),
         cmocka_unit_test(bad_meshes_are_refused),
+        cmocka_unit_test(points_beside_numbers_are_outside),
+        cmocka_unit_test(points_that_are_nowhere_are_outside),
         cmocka_unit_test(create_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -575,6 +575,55 @@ static void wrong_cells_are_refused(void **state)
     CHECK_STATUS(clast_collide(&p, &good, 0.5, 3, &b, NULL), CLAST_E_CONFIG);
 }
 
+/* Before, counts went round: two particles of 2^63 - 6 and 100 monomers became one of -2^63 + 94,
+ * and a parcel of 2^62 doubled to 2^63, both with CLAST_OK. */
+static void counts_beyond_64_bits_are_refused(void **state)
+{
+    (void)state;
+    const int64_t first[] = {INT64_MAX - 5, INT64_MAX, INT64_MAX - 101};
+    const clast_status wanted[] = {CLAST_E_LIMIT, CLAST_E_LIMIT, CLAST_OK};
+    const double volume[2] = {1.0, 1.0};
+    const clast_collide_config c = kernel("constant");
+    for (int k = 0; k < 3; ++k) {
+        clast_population p = singles(2);
+        clast_collide_cells cells = one_cell(volume);
+        int64_t n = -7;
+        double x[6];
+        memcpy(x, position, sizeof x);
+        monomers[0] = first[k];
+        monomers[1] = 100;
+        CHECK_STATUS(clast_collide(&p, &cells, 1e6, 3, &c, &n), wanted[k]);
+        if (wanted[k] == CLAST_OK) {
+            assert_true(n == 1 && monomers[0] + monomers[1] == INT64_MAX - 1);
+        } else {
+            assert_true(n == -7 && monomers[0] == first[k] && monomers[1] == 100);
+            assert_memory_equal(x, position, sizeof x);
+        }
+    }
+    clast_population p = singles(2); /* each in a cell of its own: they never meet */
+    clast_collide_cells cells = {.n = 2, .of_particle = cell, .volume = volume};
+    monomers[0] = monomers[1] = INT64_MAX - 1;
+    cell[1] = 1;
+    CHECK_OK(clast_collide(&p, &cells, 1e6, 3, &c, NULL));
+}
+
+static void parcels_beyond_64_bits_are_refused(void **state)
+{
+    (void)state;
+    double heavy[1] = {1e18};
+    const double volume = 1.0;
+    clast_collide_config c = kernel("constant");
+    clast_population p = singles(1);
+    const clast_collide_cells cells = one_cell(&volume);
+    int64_t n = -7;
+    c.self_collisions = true;
+    p.weight = heavy;
+    monomers[0] = INT64_C(1) << 62;
+    CHECK_STATUS(clast_collide(&p, &cells, 1e-16, 3, &c, &n), CLAST_E_LIMIT);
+    assert_true(n == -7 && monomers[0] == INT64_MAX);
+    assert_non_null(strstr(clast_error_detail(), "count_unit"));
+}
+
 /* Independent uniform samples are called changed at the stated rate, 5 % of 1000: 4 standard
  * deviations are 2.8 %. A moved sample is found. */
 static void change_test_has_its_level(void **state)
@@ -621,6 +670,8 @@ int main(void)
         cmocka_unit_test(any_thread_count_gives_the_same_aggregates),
         cmocka_unit_test(every_refused_allocation_is_told),
         cmocka_unit_test(wrong_cells_are_refused),
+        cmocka_unit_test(counts_beyond_64_bits_are_refused),
+        cmocka_unit_test(parcels_beyond_64_bits_are_refused),
         cmocka_unit_test(change_test_has_its_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

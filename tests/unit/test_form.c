@@ -153,6 +153,18 @@ static void zingg_has_four_corners(void **state)
     assert_string_equal(clast_zingg_name(clast_form_zingg(0.9, 0.3)), "rod");
     assert_string_equal(clast_zingg_name(clast_form_zingg(0.3, 0.3)), "blade");
     assert_int_equal(clast_form_zingg(2.0 / 3.0, 2.0 / 3.0), CLAST_ZINGG_SPHERE);
+    assert_int_equal(clast_form_zingg(2.0 / 3.0 - 1e-4, 2.0 / 3.0 - 1e-4), CLAST_ZINGG_BLADE);
+}
+
+/* Measured on a box 3:2:1 a tenth as large: 1e-16 below 2/3, from an STL's 24 bits 1e-8. */
+static void a_ratio_of_two_thirds_forgets_its_rounding(void **state)
+{
+    (void)state;
+    const double below = 0.6666666666666665;
+    assert_true(below < 2.0 / 3.0);
+    assert_int_equal(clast_form_zingg(below, below), CLAST_ZINGG_SPHERE);
+    assert_int_equal(clast_form_zingg(0.5, 2.0 / 3.0 - 2e-8), CLAST_ZINGG_DISC);
+    assert_int_equal(clast_form_zingg(2.0 / 3.0 - 2e-8, 0.5), CLAST_ZINGG_ROD);
 }
 
 int main(void)
@@ -167,6 +179,7 @@ int main(void)
         cmocka_unit_test(lengths_give_back_flatness_elongation_and_size),
         cmocka_unit_test(differences_of_rounding_have_no_ratio),
         cmocka_unit_test(zingg_has_four_corners),
+        cmocka_unit_test(a_ratio_of_two_thirds_forgets_its_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

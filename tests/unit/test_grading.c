@@ -509,6 +509,67 @@ static void files_say_retained_or_passing(void **state)
     }
 }
 
+/* "retained cumulative" was read as masses of single sieves, "mass passing" as a mass retained. */
+static void words_beside_a_columns_name_count(void **state)
+{
+    (void)state;
+    static const char *const cumulative[] = {"retained cumulative",     "retained_cumulative_%",
+                                             "retained_cumulative_pct", "cumulative_retained",
+                                             "Cum. retained (%)",       "cumulative % retained"};
+    static const char *const passing[] = {"mass passing (%)", "% passing",
+                                          "Percent finer",    "cumulative_passing",
+                                          "fraction_finer",   "passing cumulative (%)"};
+    static const char *const retained[] = {"mass retained (g)",     "% retained",
+                                           "retained on sieve (%)", "percent_retained",
+                                           "mass_fraction",         "individual retained (%)"};
+    const struct {
+        const char *const *name;
+        const char *values[4]; // on 8, 4, 2, 1 mm
+    } of[] = {{cumulative, {"0", "75", "100", "100"}},
+              {passing, {"100", "25", "0", "0"}},
+              {retained, {"0", "75", "25", "0"}}};
+    for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
+        for (size_t i = 0; i < 6; ++i) {
+            char text[256];
+            clast_curve curve = {0};
+            const char *const *v = of[k].values;
+            (void)snprintf(text, sizeof text, "sieve_mm,%s\n8,%s\n4,%s\n2,%s\n1,%s\n",
+                           of[k].name[i], v[0], v[1], v[2], v[3]);
+            const clast_status status = parse(text, &curve);
+            if (status != CLAST_OK || fabs(curve.mass[2] - 0.75) > 1e-14 || curve.mass[0] != 0.0) {
+                fail_msg("%s: %s", of[k].name[i], status != CLAST_OK ? clast_error_detail() : "");
+            }
+            clast_curve_free(&curve);
+        }
+    }
+}
+
+static void columns_of_odd_words_are_refused(void **state)
+{
+    (void)state;
+    clast_curve c = {0};
+    CHECK_REFUSED(parse("sieve_mm,mass above\n1,2\n2,0\n", &c),
+                  "column 'mass above': 'above' is not understood");
+    CHECK_REFUSED(parse("sieve_mm,fraction (number)\n1,2\n2,0\n", &c), "'number' is not underst");
+    CHECK_REFUSED(parse("sieve_mm,passing not\n1,0\n2,1\n", &c), "'not' is not understood");
+    CHECK_REFUSED(parse("sieve_mm,retained passing\n1,0\n2,1\n", &c), "both retained and passing");
+    CHECK_REFUSED(parse("sieve_mm,cum_retained\n8,0\n4,70\n2,60\n1,100\n", &c),
+                  "row 3: 60 on 2 mm and coarser, less than the 70 on 4 mm");
+    CHECK_REFUSED(parse("sieve_mm,cum_retained\n4,5\n2,70\n1,100\n", &c), "add a larger one");
+    CHECK_REFUSED(parse("sieve_mm,cum_retained\n4,0\n2,70\n1,98\n", &c),
+                  "row 3: 98 of 100 stay on 1 mm and coarser; add the size that nothing passes");
+    CHECK_REFUSED(parse("sieve_mm,cum_retained\n4,0\n2,70\n1,98\n0,100\n", &c),
+                  "finer than every sieve");
+    // the total in a unit of mass, an empty pan, and a column that was there before
+    CHECK_OK(parse("sieve_mm,cum_retained_g\n4,0\n2,350\n1,500\n0,500\n", &c));
+    CHECK_REL(c.mass[1], 0.7, 1e-14);
+    clast_curve_free(&c);
+    CHECK_OK(parse("sieve_mm,retained_g,cumulative_retained\n4,0,0\n2,70,70\n1,30,100\n", &c));
+    CHECK_REL(c.mass[1], 0.7, 1e-14);
+    CHECK_REL(clast_curve_size(&c, 0.5), 2e-3 * exp2(2.0 / 7.0), 1e-14);
+    clast_curve_free(&c);
+}
+
 static void a_file_reads_as_its_text(void **state)
 {
     (void)state;
@@ -686,6 +747,8 @@ int main(void)
         cmocka_unit_test(bad_laws_are_refused),
         cmocka_unit_test(lists_are_drawn_by_number_or_mass),
         cmocka_unit_test(files_say_retained_or_passing),
+        cmocka_unit_test(words_beside_a_columns_name_count),
+        cmocka_unit_test(columns_of_odd_words_are_refused),
         cmocka_unit_test(a_file_reads_as_its_text),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(one_text_names_any_distribution),

@@ -127,6 +127,52 @@ static void the_table_has_nan_for_what_is_not_known(void **state)
     clast_grains_free(&grains);
 }
 
+/* Two tetrahedra, the inner one outward as the outer: it counts twice. */
+static const char *const DOUBLED =
+    "OFF\n8 8 0\n0 0 0\n8 0 0\n0 8 0\n0 0 8\n1 1 1\n2 1 1\n1 2 1\n1 1 2\n3 0 2 1\n3 0 1 3\n3 0 3 "
+    "2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
+
+static void a_surface_that_counts_twice_is_noted(void **state)
+{
+    (void)state;
+    const char *path[2] = {put("doubled.off", DOUBLED), put("t.csv", TABLE)};
+    const clast_grains_options options = plain();
+    clast_grains grains = {0};
+    CHECK_OK(clast_grains_read(2, path, &options, NULL, &grains));
+    assert_int_equal(grains.n_note, 2);
+    assert_int_equal(grains.note[0].status, CLAST_E_GEOMETRY);
+    assert_non_null(strstr(grains.note[0].text, "doubled.off: 1 of its 2 parts counts twice"));
+    assert_int_equal(grains.note[1].status, CLAST_OK); /* rows left out */
+    clast_grains_free(&grains);
+}
+
+static void two_files_of_one_surface_are_refused(void **state)
+{
+    (void)state;
+    const char *path[2] = {put("q.dat", SERIES), put("q.xyz", POINTS)};
+    clast_grains_options options = plain();
+    clast_grains grains = {0};
+    options.folder = support_scratch();
+    CHECK_STATUS(clast_grains_read(2, path, &options, NULL, &grains), CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "q.dat and "));
+    assert_non_null(strstr(clast_error_detail(), "q.xyz would both write"));
+    assert_int_equal(grains.n, 0);
+    options.folder = NULL;
+    CHECK_OK(clast_grains_read(2, path, &options, NULL, &grains));
+    assert_int_equal(grains.n, 2);
+    clast_grains_free(&grains);
+}
+
+static clast_status read_two(void *context)
+{
+    clast_grains_options options = plain();
+    clast_grains grains = {0};
+    options.folder = support_scratch();
+    const clast_status status = clast_grains_read(2, context, &options, NULL, &grains);
+    clast_grains_free(&grains);
+    return status;
+}
+
 static clast_status read_all(void *context)
 {
     const clast_grains_options options = plain();
@@ -148,6 +194,10 @@ static void reading_survives_refused_memory(void **state)
     const char *points[1] = {put("p.xyz", POINTS)};
     support_refuse_each_allocation(read_all, table);
     support_refuse_each_allocation(read_all, points);
+    const char *doubled[1] = {put("doubled.off", DOUBLED)};
+    support_refuse_each_allocation(read_all, doubled);
+    const char *two[2] = {put("two.csv", TABLE), put("two.xyz", POINTS)};
+    support_refuse_each_allocation(read_two, two);
 }
 
 int main(void)
@@ -158,6 +208,8 @@ int main(void)
         cmocka_unit_test(series_say_what_their_last_degrees_hold),
         cmocka_unit_test(a_tables_own_unit_counts_before_the_given_one),
         cmocka_unit_test(the_table_has_nan_for_what_is_not_known),
+        cmocka_unit_test(a_surface_that_counts_twice_is_noted),
+        cmocka_unit_test(two_files_of_one_surface_are_refused),
         cmocka_unit_test(reading_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

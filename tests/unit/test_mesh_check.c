@@ -1,6 +1,7 @@
 /* Unit: each fault of a surface is found, counted and told; a sound surface has none. */
 #include "mesh_maker.h"
 
+#include "geom/check.h"
 #include "geom/intersect.h"
 #include "math/predicates.h"
 #include "math/rng.h"
@@ -162,6 +163,79 @@ static void cavity_is_nested_and_no_fault_of_orientation(void **state)
     assert_true(has_fault(&r, "nested_parts", "1 wound inward"));
     clast_mesh_check_free(&r);
     clast_mesh_free(&deep);
+    clast_mesh_free(&mesh);
+}
+
+/* Every outward part inside another was said to count twice, the island of a cavity too. */
+static void nested_parts_count_as_their_windings_say(void **state)
+{
+    (void)state;
+    const int facing[] = {1, -1, 1, 1, -1, -1, -1};
+    const int32_t winding[] = {1, 0, 1, 2, 1, 0, -1};
+    clast_mesh mesh = {0};
+    for (int i = 6; i >= 0; --i) { /* the innermost first */
+        mesh_add_box(&mesh, 20.0 - 2.0 * i, i, i, i);
+        for (int32_t t = mesh.n_tri - 12; t < mesh.n_tri && facing[i] < 0; ++t) {
+            mesh_flip(&mesh, t);
+        }
+    }
+    for (int turn = 0; turn < 2; ++turn) { /* inside out they nest alike */
+        clast_mesh_check_result r = check(&mesh);
+        for (int i = 0; i <= 6; ++i) {
+            assert_int_equal(r.part[6 - i].winding, winding[i]);
+        }
+        assert_int_equal(r.n_nested, 6);
+        assert_int_equal(r.n_doubled, 2); /* 3 and 6 */
+        assert_true(has_fault(&r, "nested_parts", "4 of 7 parts lie inside another: 3 wound"));
+        assert_true(has_fault(&r, "doubled_parts", "2 of 7 parts count twice"));
+        clast_mesh_check_free(&r);
+        mesh_flip_all(&mesh);
+    }
+    clast_mesh_free(&mesh);
+}
+
+/* Vertices of its own hid the copy from every count: volume 2 of a hull of 1, and no word. */
+static void a_copy_of_a_part_counts_twice(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    mesh_add_box(&mesh, 1.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&mesh, 1.0, 0.0, 0.0, 0.0);
+    const int32_t keep[3] = {mesh.tri[13][0], mesh.tri[13][1], mesh.tri[13][2]};
+    memcpy(mesh.tri[13], mesh.tri[20], sizeof keep); /* in another order */
+    memcpy(mesh.tri[20], keep, sizeof keep);
+    mesh_add_box(&mesh, 1.0, 2.0, 0.0, 0.0); /* like both, elsewhere */
+    clast_mesh_check_result r = check(&mesh);
+    assert_int_equal(r.n_part, 3);
+    assert_int_equal(r.n_nested, 1);
+    assert_int_equal(r.n_doubled, 1);
+    assert_int_equal(r.part[0].depth, 0);
+    assert_int_equal(r.part[1].winding, 2);
+    clast_mesh_check_free(&r);
+    clast_mesh_free(&mesh);
+}
+
+/* The quick answer is never a wrong yes. */
+static void star_shaped_surfaces_need_no_search(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_doubles found = {.n_doubled = 7};
+    CHECK_OK(clast_mesh_ellipsoid((double[3]){3.0, 2.0, 1.0}, 2, &mesh));
+    mesh_tilt(&mesh);
+    assert_true(clx_is_star_shaped(&mesh));
+    CHECK_OK(clx_find_doubles(&mesh, &found));
+    assert_int_equal(found.n_doubled + found.n_intersection, 0);
+    mesh_flip_all(&mesh);
+    assert_false(clx_is_star_shaped(&mesh));
+    clast_mesh_free(&mesh);
+    mesh_add_box(&mesh, 4.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&mesh, 2.0, 1.0, 1.0, 1.0);
+    assert_false(clx_is_star_shaped(&mesh)); /* all face away from the middle, but twice */
+    CHECK_OK(clx_find_doubles(&mesh, &found));
+    assert_int_equal(found.n_part, 2);
+    assert_int_equal(found.n_doubled, 1);
+    assert_int_equal(found.n_intersection, 0);
     clast_mesh_free(&mesh);
 }
 
@@ -415,6 +489,9 @@ int main(void)
         cmocka_unit_test(turned_triangle_is_three_edges),
         cmocka_unit_test(inside_out_part_is_not_oriented),
         cmocka_unit_test(cavity_is_nested_and_no_fault_of_orientation),
+        cmocka_unit_test(nested_parts_count_as_their_windings_say),
+        cmocka_unit_test(a_copy_of_a_part_counts_twice),
+        cmocka_unit_test(star_shaped_surfaces_need_no_search),
         cmocka_unit_test(boxes_that_share_an_edge_are_not_manifold),
         cmocka_unit_test(boxes_that_share_a_vertex_are_not_manifold),
         cmocka_unit_test(degenerate_and_repeated_triangles_are_counted),

@@ -231,6 +231,36 @@ static void keeping_the_largest_keeps_its_cavities(void **state)
     clast_mesh_free(&mesh);
 }
 
+/* "Nothing had to be changed" of a box of volume 64 that was told to hold 72. */
+static void parts_that_bound_nothing_go(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clast_mesh_repair_config config = config_default();
+    clast_mesh out = {0};
+    clast_mesh_repair_report r = {0};
+    mesh_add_box(&mesh, 1.0, 1.5, 1.5, 1.5);
+    mesh_add_box(&mesh, 2.0, 1.0, 1.0, 1.0);
+    mesh_add_box(&mesh, 4.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&mesh, 1.0, 9.0, 0.0, 0.0);
+    config.unite = false;
+    CHECK_OK(clast_mesh_repair(&mesh, &config, &out, &r));
+    assert_int_equal(r.n_part_dropped, 0);
+    CHECK_REL(r.volume_after, 74.0, 1e-14);
+    clast_mesh_free(&out);
+    config.unite = true;
+    config.keep = CLAST_KEEP_LARGEST;
+    CHECK_OK(clast_mesh_repair(&mesh, &config, &out, &r));
+    assert_int_equal(r.n_part_dropped, 3); /* two within, one beside */
+    CHECK_REL(r.volume_after, 64.0, 1e-14);
+    clast_mesh_free(&out);
+    mesh_flip_all(&mesh); /* turned outward first */
+    const clast_mesh_repair_report turned = repair_parts_to(&mesh, 2, 65.0, 1e-14);
+    assert_int_equal(turned.n_part_dropped, 2);
+    assert_int_equal(mesh.n_vert, 16);
+    clast_mesh_free(&mesh);
+}
+
 static void bad_triangles_go(void **state)
 {
     (void)state;
@@ -441,6 +471,11 @@ static void repair_survives_refused_memory(void **state)
     mesh_flip(&mesh, 3);
     mesh_explode(&mesh, &cracked);
     support_refuse_each_allocation(make_repair, &cracked);
+    clast_mesh nested = {0};
+    mesh_add_box(&nested, 4.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&nested, 2.0, 1.0, 1.0, 1.0);
+    support_refuse_each_allocation(make_repair, &nested);
+    clast_mesh_free(&nested);
     clast_mesh_free(&cracked);
     clast_mesh_free(&mesh);
 }
@@ -458,6 +493,7 @@ int main(void)
         cmocka_unit_test(mixed_windings_end_outward),
         cmocka_unit_test(cavity_turns_with_its_body),
         cmocka_unit_test(keeping_the_largest_keeps_its_cavities),
+        cmocka_unit_test(parts_that_bound_nothing_go),
         cmocka_unit_test(bad_triangles_go),
         cmocka_unit_test(common_wall_goes),
         cmocka_unit_test(tjunctions_are_split),

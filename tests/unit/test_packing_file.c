@@ -4,12 +4,14 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "io/start_file.h"
 #include <clast/assembly.h>
 #include <clast/field.h>
 #include <clast/mesh.h>
 #include <clast/pack.h>
 #include <clast/porosity.h>
 #include <clast/state.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,7 +28,7 @@ static clast_status read_text(const char *name, const char *text, const char *co
     assert_non_null(file);
     assert_int_equal(fputs(text, file) >= 0, 1);
     assert_int_equal(fclose(file), 0);
-    return clast_packing_read(path, &options, a);
+    return clast_packing_read(path, &options, a, NULL);
 }
 
 static void check_read(const char *name, const char *text, const char *columns, double diameter,
@@ -80,6 +82,82 @@ static void what_is_not_said_is_asked_for(void **state)
     assert_int_equal(a.n_grain, 0);
 }
 
+#define SNAPSHOT(step, n, bounds, names, rows)                                                     \
+    "ITEM: TIMESTEP\n" step "\nITEM: NUMBER OF ATOMS\n" n "\nITEM: BOX BOUNDS " bounds             \
+    "\nITEM: ATOMS id " names "\n" rows
+
+/* The last of several snapshots, its step and its box without what a tilt adds to the bounds. */
+static void the_last_snapshot_is_read_with_its_frame(void **state)
+{
+    (void)state;
+    static const char text[] = "ITEM: UNITS\ncgs\n" SNAPSHOT("5", "1", "pp ff pp\n0 3\n0 3\n0 3",
+                                                             "x y z radius", "1 1 1 1 1\n")
+        SNAPSHOT("70", "1", "xy xz yz pp pp ff\n-1 5 -1\n0 3 2\n0 3 0", "x y z radius mass",
+                 "1 .5 0 2.5 .75 2\n");
+    const char *path = support_scratch_file("several.dump");
+    clast_packing_report report;
+    clast_assembly a = {0};
+    CHECK_OK(read_text("several.dump", text, "", 0.0, &a));
+    assert_string_equal(a.unit, "m");
+    CHECK_REL(a.position[0][2], 2.5e-2, 1e-15);
+    CHECK_REL(a.density[0], 2e-3 / (4.0 / 3.0 * CLAST_PI * pow(0.75e-2, 3.0)), 1e-14);
+    assert_false(a.no_density);
+    clast_assembly_free(&a);
+    CHECK_OK(clast_packing_read(path, NULL, &a, &report));
+    assert_int_equal(report.snapshot, 2);
+    assert_int_equal(report.n_snapshot, 2);
+    assert_int_equal(report.frame.step, 70);
+    CHECK_ABS(report.frame.low[0], 0.0, 1e-15);
+    CHECK_REL(report.frame.high[0], 3e-2, 1e-14);
+    CHECK_REL(report.frame.tilt[0], -1e-2, 1e-14);
+    CHECK_REL(report.frame.tilt[1], 2e-2, 1e-14);
+    assert_true(report.frame.is_periodic[0] && report.frame.is_periodic[1]);
+    assert_false(report.frame.is_periodic[2]);
+    clast_assembly_free(&a);
+    CHECK_OK(read_text("lone.xyz", "1\none\nC 2 1 1 1\n\n", "", 0.0, &a));
+    clast_assembly_free(&a);
+    CHECK_OK(clast_packing_read(support_scratch_file("lone.xyz"), NULL, &a, &report));
+    assert_int_equal(report.n_snapshot, 1);
+    assert_int_equal(report.frame.step, -1);
+    clast_assembly_free(&a);
+}
+
+/* Densities that no file tells are 1 and marked, through copies too; a writer that needs them
+ * refuses, the others leave them out, until one is set. */
+static void densities_that_are_not_told_are_not_written(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_assembly copy = {0};
+    clast_table table = {0};
+    CHECK_OK(read_text("e.csv", "x_mm,y_mm,z_mm,d_mm\n1,2,3,2\n", "", 0.0, &a));
+    assert_true(a.no_density && a.density[0] == 1.0);
+    CHECK_OK(clast_assembly_copy(&a, &copy));
+    assert_true(copy.no_density);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("e.data"), NULL, NULL),
+                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("e.conf"), NULL, NULL),
+                 CLAST_E_USAGE);
+    CHECK_OK(clast_assembly_table(&a, &table));
+    assert_int_equal(clast_table_find(&table, "density_kg/m^3"), -1);
+    assert_int_equal(clast_table_find(&table, "mass_kg"), -1);
+    clast_table_free(&table);
+    copy.density[0] = 2500.0;
+    CHECK_OK(clast_assembly_write(&copy, support_scratch_file("e.data"), NULL, NULL));
+    clast_assembly_free(&copy);
+    clast_assembly_free(&a);
+    CHECK_OK(read_text("e.csv", "x_mm,y_mm,z_mm,d_mm,Rho (g/cm3)\n1,2,3,2,2.5\n", "", 0.0, &a));
+    assert_false(a.no_density);
+    CHECK_REL(a.density[0], 2500.0, 1e-15);
+    clast_assembly_free(&a);
+    CHECK_STATUS(read_text("e.csv", "x,y,z,d,density (lb)\n1,2,3,2,2\n", "", 0.0, &a),
+                 CLAST_E_FORMAT);
+    CHECK_STATUS(read_text("e.csv", "x,y,z,d,density\n1,2,3,2,-2\n", "", 0.0, &a), CLAST_E_FORMAT);
+    CHECK_OK(read_text("e.csv", "x,y,z,d,mass_kg\n1,2,3,2,2\n", "", 0.0, &a)); // in what volume?
+    assert_true(a.no_density);
+    clast_assembly_free(&a);
+}
+
 /// Whole box, every cell and every contact of a packing that repeats in three directions.
 static void check_box(clast_assembly *a, const char *bed_text, double porosity, double tolerance,
                       int32_t n_contact, double gap)
@@ -121,7 +199,7 @@ static void close_packing_in_a_periodic_box_is_exact(void **state)
     clast_bed bed;
     clast_table local = {0};
     const double porosity = 1.0 - CLAST_PI / (3.0 * sqrt(2.0));
-    CHECK_OK(clast_packing_read(support_data("packings/fcc-108.txt"), NULL, &a));
+    CHECK_OK(clast_packing_read(support_data("packings/fcc-108.txt"), NULL, &a, NULL));
     assert_int_equal(a.n_grain, 108);
     check_box(&a, FCC, porosity, 1e-13, 6 * 108, 1e-9);
     CHECK_OK(clast_bed_parse(FCC, &bed));
@@ -191,7 +269,7 @@ static void the_jammed_packing_has_its_published_porosity(void **state)
     if (path == NULL) {
         skip();
     }
-    CHECK_OK(clast_packing_read(path, &scaled, &a));
+    CHECK_OK(clast_packing_read(path, &scaled, &a, NULL));
     assert_int_equal(a.n_grain, 10000);
     check_box(&a, "periodic:0,0,0,20.0823593086113,20.0823593086113,20.0823593086113", 0.353520998,
               5e-9, 29753, 1e-4);
@@ -201,7 +279,7 @@ static void the_jammed_packing_has_its_published_porosity(void **state)
 static clast_status make_packing(void *context)
 {
     clast_assembly a = {0};
-    const clast_status status = clast_packing_read(context, NULL, &a);
+    const clast_status status = clast_packing_read(context, NULL, &a, NULL);
     clast_assembly_free(&a);
     return status;
 }
@@ -227,6 +305,39 @@ static void set_text(char **field, const char *text)
 {
     clx_free(*field);
     CHECK_OK(clx_alloc_text(field, text));
+}
+
+/* A run that an older clast began goes on with what that one read: the first snapshot, places and a
+ * diameter in start_unit whatever ITEM: UNITS says, no densities of tables. */
+static void old_runs_read_their_start_as_then(void **state)
+{
+    (void)state;
+    static const char dump[] = "ITEM: UNITS\nsi\n" SNAPSHOT("5", "1", "ff ff ff\n0 3\n0 3\n0 3",
+                                                            "x y z radius mass", "1 1 1 1 1 7\n")
+        SNAPSHOT("70", "1", "ff ff ff\n0 3\n0 3\n0 3", "x y z radius mass", "1 .5 0 2.5 .75 7\n");
+    clast_pack_config config = {0};
+    clast_pack_source source = {0};
+    clast_assembly a = {0};
+    CHECK_OK(clast_fields_default(clast_pack_fields, &config));
+    CHECK_OK(read_text("old.dump", dump, "", 0.0, &a));
+    clast_assembly_free(&a);
+    set_text(&config.start, support_scratch_file("old.dump"));
+    set_text(&config.start_unit, "mm");
+    CHECK_STATUS(clast_pack_load(&config, &source), CLAST_E_CONFIG);
+    config.start_frame = CLX_START_OLD;
+    CHECK_OK(clast_pack_load(&config, &source));
+    CHECK_REL(source.start.scale[0], 1e-3, 1e-15);
+    CHECK_REL(source.start.density[0], 2650.0, 1e-15);
+    clast_pack_unload(&source);
+    CHECK_OK(read_text("old.csv", "x,y,z,density\n1,2,3,2.65\n", "", 1.0, &a));
+    clast_assembly_free(&a);
+    set_text(&config.start, support_scratch_file("old.csv"));
+    config.start_diameter = 4e-3;
+    CHECK_OK(clast_pack_load(&config, &source));
+    CHECK_REL(source.start.scale[0], 2e-6, 1e-15);
+    CHECK_REL(source.start.density[0], 2650.0, 1e-15);
+    clast_pack_unload(&source);
+    clast_fields_free(clast_pack_fields, &config);
 }
 
 /// Starts from a file and writes that again over it: the same bytes, those of a file of shapes too.
@@ -332,11 +443,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_other_programs_are_packings),
         cmocka_unit_test(what_is_not_said_is_asked_for),
+        cmocka_unit_test(the_last_snapshot_is_read_with_its_frame),
+        cmocka_unit_test(densities_that_are_not_told_are_not_written),
         cmocka_unit_test(close_packing_in_a_periodic_box_is_exact),
         cmocka_unit_test(overlaps_count_across_borders),
         cmocka_unit_test(beds_in_three_directions_read_back),
         cmocka_unit_test(the_jammed_packing_has_its_published_porosity),
         cmocka_unit_test(refused_memory_leaves_nothing),
+        cmocka_unit_test(old_runs_read_their_start_as_then),
         cmocka_unit_test(beds_come_back_in_equal_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -319,6 +319,97 @@ static void beds_are_read_and_written(void **state)
     }
 }
 
+static void with_ball(clast_assembly *a)
+{
+    const double position[3] = {0.0, 0.0, 1.6};
+    clast_shape shape = {0};
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &shape));
+    one_grain(&shape, position, upright, 1.0, a);
+    clast_shape_free(&shape);
+}
+
+/* Before: methods that there are not measured true shapes, a cut of NaN ended the bed below all,
+ * and a trim below 0 went beyond it. */
+static void options_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN;
+    const double inf = (double)INFINITY;
+    const clast_porosity_options bad[] = {
+        {(clast_porosity_method)9, 0.1, 0.5, 0.0, false},
+        {(clast_porosity_method)-1, 0.1, 0.5, 0.0, false},
+        {CLAST_POROSITY_EXACT, nan, 0.5, 0.0, false},
+        {CLAST_POROSITY_EXACT, inf, 0.5, 0.0, false},
+        {CLAST_POROSITY_EXACT, 0.0, 0.5, 0.0, false},
+        {CLAST_POROSITY_EXACT, 0.1, nan, 0.0, false},
+        {CLAST_POROSITY_EXACT, 0.1, 0.5, -1.0, false},
+        {CLAST_POROSITY_EXACT, 0.1, 0.5, nan, false},
+    };
+    const clast_bed bed = {.kind = CLAST_BED_CYLINDER, .radius = 3.0};
+    const clast_porosity_options good = {CLAST_POROSITY_EXACT, 0.1, 0.999, 0.0, false};
+    clast_assembly a = {0};
+    clast_table profile = {0};
+    clast_table none = {0};
+    clast_porosity_bulk bulk = {.porosity = -7.0};
+    with_ball(&a);
+    CHECK_OK(clast_porosity_profile(&a, &bed, &good, &profile));
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        const bool is_layer = !(bad[k].layer == 0.1); // as before
+        const clast_status wanted = is_layer ? CLAST_E_USAGE : CLAST_E_ARGUMENT;
+        CHECK_STATUS(clast_porosity_profile(&a, &bed, &bad[k], &none), wanted);
+        CHECK_STATUS(clast_porosity_measure(&a, &bed, &profile, &bad[k], &bulk), wanted);
+        assert_true(none.n_column == 0 && bulk.porosity == -7.0);
+    }
+    clast_table_free(&profile);
+    clast_assembly_free(&a);
+}
+
+static void slabs_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN;
+    const double bad[][3] = {{nan, 1.0, 2.0}, {0.0, nan, 2.0}, {0.0, 1.0, nan},
+                             {1.0, 0.0, 2.0}, {0.0, 2.0, 1.0}, {0.0, 0.0, 1.0}};
+    const double good[3] = {-(double)INFINITY, 1.6, (double)INFINITY};
+    double solid[2] = {0.0, 0.0};
+    clast_assembly a = {0};
+    with_ball(&a);
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        CHECK_STATUS(clast_porosity_grain_slabs(&a, 0, CLAST_POROSITY_EXACT, 2, bad[k], solid),
+                     CLAST_E_ARGUMENT);
+    }
+    CHECK_STATUS(clast_porosity_grain_slabs(&a, 0, (clast_porosity_method)5, 2, good, solid),
+                 CLAST_E_ARGUMENT);
+    assert_true(solid[0] == 0.0 && solid[1] == 0.0);
+    CHECK_OK(clast_porosity_grain_slabs(&a, 0, CLAST_POROSITY_EXACT, 2, good, solid));
+    CHECK_REL(solid[0], 2.0 / 3.0 * CLAST_PI, 1e-12);
+    clast_assembly_free(&a);
+}
+
+/* Before, a period of -1 or NaN was none; the message told of points in grains. */
+static void pores_of_periods_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    const double bad[] = {(double)NAN, -1.0, (double)INFINITY};
+    const clast_bed bed = {.kind = CLAST_BED_CYLINDER, .radius = 3.0};
+    const double z[2] = {0.0, 3.0};
+    const double endless[2] = {0.0, (double)INFINITY};
+    clast_assembly a = {0};
+    clast_pores pores = {0};
+    clast_pore_options options = {.n_point = 50, .n_bin = 5};
+    with_ball(&a);
+    for (int k = 0; k < 9; ++k) {
+        options.period[k % 3] = bad[k / 3];
+        CHECK_STATUS(clast_pores_measure(&a, &bed, z, &options, &pores), CLAST_E_ARGUMENT);
+        assert_non_null(strstr(clast_error_detail(), "period"));
+        options.period[k % 3] = 0.0;
+    }
+    CHECK_STATUS(clast_pores_measure(&a, &bed, endless, &options, &pores), CLAST_E_USAGE);
+    CHECK_OK(clast_pores_measure(&a, &bed, z, &options, &pores));
+    clast_pores_free(&pores);
+    clast_assembly_free(&a);
+}
+
 static clast_status make_profile(void *context)
 {
     const clast_bed bed = {.kind = CLAST_BED_CYLINDER, .radius = 3.0};
@@ -359,6 +450,9 @@ int main(void)
         cmocka_unit_test(top_lies_where_the_profile_crosses),
         cmocka_unit_test(profile_is_the_same_for_any_threads),
         cmocka_unit_test(beds_are_read_and_written),
+        cmocka_unit_test(options_that_cannot_be_are_refused),
+        cmocka_unit_test(slabs_that_cannot_be_are_refused),
+        cmocka_unit_test(pores_of_periods_that_cannot_be_are_refused),
         cmocka_unit_test(profile_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -67,6 +67,38 @@ static double col_gap(int i)
     return i == 4 ? (double)NAN : cos(i);
 }
 
+static double col_share(int i)
+{
+    return 0.4 + 0.05 * sin(i) + 0.01 * sin(17.0 * i * i);
+}
+
+static double col_tenth(int i)
+{
+    (void)i;
+    return 0.1;
+}
+
+static double col_ulp(int i)
+{
+    return 0.1 * (1.0 + (i % 3) * 0x1p-52);
+}
+
+/* S / L of a form whose I is (L + S) / 2. */
+static double middle_ratio(int i)
+{
+    return 0.2 + 0.01 * i + 0.1 * sin(i);
+}
+
+static double col_middle_flatness(int i)
+{
+    return middle_ratio(i) / (0.5 * (1.0 + middle_ratio(i)));
+}
+
+static double col_middle_elongation(int i)
+{
+    return 0.5 * (1.0 + middle_ratio(i));
+}
+
 static void make_beds(clast_table *t)
 {
     CHECK_OK(clast_table_init(t, "beds", N));
@@ -397,6 +429,242 @@ static void noise_is_no_model(void **state)
     clast_fields_free(clast_porosity_fit_fields, &c);
 }
 
+static int count_states(const clast_porosity_fit *f, const char *name, const char *is)
+{
+    int n = 0;
+    for (int64_t k = 0; k < f->ranking.n_row; ++k) {
+        const char *feature = f->ranking.column[0].text[k];
+        n += strncmp(feature, name, strlen(name)) == 0 &&
+             strcmp(f->ranking.column[3].text[k], is) == 0;
+    }
+    return n;
+}
+
+/* Beds of 67 equal grains each: rounding of their means was a deviation of 1e-15, features with
+ * coefficients of 1e12 and among the chosen. */
+static void beds_of_one_form_have_no_deviation(void **state)
+{
+    (void)state;
+    enum { N_BED = 12, N_GRAIN = 67 };
+    clast_porosity_fit_config c = usual();
+    clast_table beds = {0};
+    clast_table grains = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    double *column[5] = {NULL};
+    CHECK_OK(clast_table_init(&beds, "beds", N_BED));
+    CHECK_OK(clast_table_add_number(&beds, "bed", "-", &column[0]));
+    CHECK_OK(clast_table_add_number(&beds, "porosity", "-", &column[1]));
+    CHECK_OK(clast_table_init(&grains, "grains", N_BED * N_GRAIN));
+    CHECK_OK(clast_table_add_number(&grains, "bed", "-", &column[2]));
+    CHECK_OK(clast_table_add_number(&grains, "flatness", "-", &column[3]));
+    CHECK_OK(clast_table_add_number(&grains, "elongation", "-", &column[4]));
+    for (int b = 0; b < N_BED; ++b) {
+        column[0][b] = b;
+        column[1][b] = 0.35 + 0.01 * sin(3.7 * b);
+        for (int i = b * N_GRAIN; i < (b + 1) * N_GRAIN; ++i) {
+            column[2][i] = b;
+            column[3][i] = 0.3 + 0.05 * b;
+            column[4][i] = 0.9 - 0.03 * ((5 * b) % 7);
+        }
+    }
+    c.n_permutation = 0;
+    CHECK_OK(clast_fit_data_mixture(&beds, &grains, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    assert_int_equal(count_states(&f, "deviation_", "constant"), CLAST_N_FORM_FEATURE);
+    assert_int_equal(count_states(&f, "inverse_deviation_", "not finite in some row"),
+                     CLAST_N_FORM_FEATURE);
+    for (int32_t k = 0; k < f.model.n_term; ++k) {
+        assert_null(strstr(f.model.term[k].feature, "deviation_"));
+    }
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&beds);
+    clast_table_free(&grains);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* The rounding of a sum of 20000 equal numbers exceeds 64 eps of them; so does a spread of it. */
+static void columns_of_rounding_are_constant(void **state)
+{
+    (void)state;
+    enum { MANY = 20000 };
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    CHECK_OK(clast_table_init(&t, "beds", MANY));
+    add_column(&t, "porosity", col_share);
+    add_column(&t, "a", col_b);
+    add_column(&t, "equal", col_tenth);
+    add_column(&t, "ulp", col_ulp);
+    c.n_fold = 2;
+    c.n_permutation = 0;
+    c.validation = CLAST_VALIDATION_PUBLISHED;
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    assert_int_equal(count_states(&f, "equal", "constant"), 1);
+    assert_int_equal(count_states(&f, "ulp", "constant"), 1);
+    assert_int_equal(f.model.n_term, 1);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* Forms with I = (L + S) / 2: their oblate-prolate index is 0, rounding besides. */
+static void an_index_of_rounding_is_constant(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    CHECK_OK(clast_table_init(&t, "beds", N));
+    add_column(&t, "porosity", col_y);
+    add_column(&t, "flatness", col_middle_flatness);
+    add_column(&t, "elongation", col_middle_elongation);
+    c.n_permutation = 0;
+    CHECK_OK(clast_fit_data_single(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    assert_int_equal(count_states(&f, "oblate_prolate_index", "constant"), 1);
+    assert_int_equal(count_states(&f, "disc_rod_index", "constant"), 1);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+static const double *candidate(const clast_fit_data *d, const char *name)
+{
+    return clast_table_numbers(&d->beds, name);
+}
+
+/* A study's table: the seed was the feature of most correlation, and a varied size, a text with a
+ * unit, was no candidate without a word. */
+static void candidates_of_a_study_are_what_was_varied(void **state)
+{
+    (void)state;
+    static const char text[] = "run,size,share,domain,mixed,bare,seed,exit_code,mass,porosity\n"
+                               "1,100um,5 %,box,1mm,1mm,1,0,1,0.30\n"
+                               "2,0.2mm,10%,box,2s,2,2,0,2,0.31\n"
+                               "3,0,2.5%,cylinder,3mm,3mm,3,0,3,0.33\n";
+    static const double size[3] = {100e-6, 200e-6, 0.0};
+    static const double share[3] = {0.05, 0.1, 0.025};
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    CHECK_OK(clast_table_parse_csv("results", text, sizeof text - 1, NULL, &t, NULL));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    assert_int_equal(d.beds.n_column, 2 + 2);
+    assert_string_equal(d.beds.column[2].unit, "m");
+    for (int i = 0; i < 3; ++i) {
+        CHECK_REL(candidate(&d, "size")[i], size[i], 1e-15);
+        CHECK_REL(candidate(&d, "share")[i], share[i], 1e-15);
+    }
+    clast_fit_data_free(&d);
+    set_use(&c, "mass"); /* what is named joins, what was varied stays */
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    assert_int_equal(d.beds.n_column, 2 + 3);
+    assert_null(candidate(&d, "seed"));
+    clast_fit_data_free(&d);
+    set_use(&c, "");
+    CHECK_OK(clast_field_set(clast_fields_find(clast_porosity_fit_fields, "columns"), &c,
+                             "size,seed", false));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d)); /* named, even a seed is one */
+    assert_int_equal(d.beds.n_column, 2 + 2);
+    clast_fit_data_free(&d);
+    assert_non_null(t.column[1].text); /* the table itself is as it was */
+    assert_null(t.column[1].number);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* With features named, a gap in another column cost the row (periodic beds have no wall_ratio). */
+static void only_features_in_use_cost_a_row(void **state)
+{
+    (void)state;
+    static const char text[] = "porosity,a,wall_ratio\n0.30,1,\n0.31,2,7\n0.32,3,\n0.33,,8\n"
+                               "0.34,5.5,9\n,6,4\n0.36,7,\n";
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    CHECK_OK(clast_table_parse_csv("beds", text, sizeof text - 1, NULL, &t, NULL));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    assert_int_equal(d.beds.n_row, 2);
+    clast_fit_data_free(&d);
+    set_use(&c, "a");
+    c.n_fold = 2;
+    c.n_permutation = 0;
+    c.validation = CLAST_VALIDATION_PUBLISHED;
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    assert_int_equal(d.beds.n_row, 5);
+    assert_int_equal(d.left_out.n_row, 2);
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    assert_int_equal(count_states(&f, "wall_ratio", "not finite in some row"), 1);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* Five beds are too few to select anew without one of two folds, and enough without doing so. */
+static void the_published_validation_selects_once(void **state)
+{
+    (void)state;
+    static const char text[] = "porosity,a\n0.3,1\n0.35,2\n0.41,3\n0.43,4\n0.5,5\n";
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    c.n_term = 1;
+    c.n_fold = 2;
+    c.n_permutation = 3;
+    CHECK_OK(clast_table_parse_csv("beds", text, sizeof text - 1, NULL, &t, NULL));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    CHECK_STATUS(clast_porosity_fit_data(&d, "m", "test", &c, &f), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "leaves it out): fit: "));
+    c.validation = CLAST_VALIDATION_PUBLISHED;
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    assert_true(isnan(f.r2_held_out) && isfinite(f.p_value) && f.model.cv_mean_error > 0.0);
+    assert_true(isfinite(clast_table_numbers(&f.rows, "held_out")[4]));
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* A model of a size takes new sizes as they were written in the study. */
+static void columns_with_units_predict(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "porosity,size\n0.31,1mm\n0.322,2mm\n0.33,3mm\n0.341,4mm\n0.35,5mm\n";
+    static const char fresh[] = "size\n2500um\n0.25 cm\n";
+    clast_porosity_fit_config c = usual();
+    clast_table t[3] = {{0}};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    c.n_term = 1;
+    c.n_fold = 5;
+    c.n_permutation = 0;
+    CHECK_OK(clast_table_parse_csv("beds", text, sizeof text - 1, NULL, &t[0], NULL));
+    CHECK_OK(clast_table_parse_csv("new", fresh, sizeof fresh - 1, NULL, &t[1], NULL));
+    CHECK_OK(clast_fit_data_columns(&t[0], &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    CHECK_OK(clast_porosity_predict_columns(&f.model, &t[1], &t[2]));
+    const double expected = f.model.intercept + 2.5e-3 * f.model.term[0].coefficient;
+    CHECK_REL(clast_table_numbers(&t[2], "porosity")[0], expected, 1e-14);
+    CHECK_REL(clast_table_numbers(&t[2], "porosity")[1], expected, 1e-14);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    for (int k = 0; k < 3; ++k) {
+        clast_table_free(&t[k]);
+    }
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
 typedef struct {
     clast_table beds;
     clast_porosity_fit_config config;
@@ -405,12 +673,17 @@ typedef struct {
 static clast_status fit_all(void *context)
 {
     job *j = context;
+    clast_table predicted = {0};
     clast_fit_data d = {0};
     clast_porosity_fit f = {0};
     clast_status status = clast_fit_data_columns(&j->beds, &j->config, &d);
     if (status == CLAST_OK) {
         status = clast_porosity_fit_data(&d, "m", "test", &j->config, &f);
     }
+    if (status == CLAST_OK) {
+        status = clast_porosity_predict_columns(&f.model, &j->beds, &predicted);
+    }
+    clast_table_free(&predicted);
     clast_porosity_fit_free(&f);
     clast_fit_data_free(&d);
     return status;
@@ -421,6 +694,10 @@ static void every_refused_allocation_is_told(void **state)
     (void)state;
     job j = {.config = usual()};
     make_beds(&j.beds);
+    CHECK_OK(clast_table_add_text(&j.beds, "size"));
+    for (int64_t i = 0; i < N; ++i) {
+        CHECK_OK(clast_table_set_text(&j.beds, 4, i, i % 3 == 0 ? "1mm" : "2mm"));
+    }
     j.config.n_fold = 3;
     j.config.n_permutation = 2;
     support_refuse_each_allocation(fit_all, &j);
@@ -440,6 +717,13 @@ int main(void)
         cmocka_unit_test(hopeless_tables_are_refused),
         cmocka_unit_test(columns_with_gaps_are_no_candidates),
         cmocka_unit_test(noise_is_no_model),
+        cmocka_unit_test(beds_of_one_form_have_no_deviation),
+        cmocka_unit_test(columns_of_rounding_are_constant),
+        cmocka_unit_test(an_index_of_rounding_is_constant),
+        cmocka_unit_test(candidates_of_a_study_are_what_was_varied),
+        cmocka_unit_test(only_features_in_use_cost_a_row),
+        cmocka_unit_test(the_published_validation_selects_once),
+        cmocka_unit_test(columns_with_units_predict),
         cmocka_unit_test(every_refused_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -205,6 +205,136 @@ static void equal_grains_have_no_mixture(void **state)
     clast_table_free(&t);
 }
 
+/* n grains of one form; with sizes its L, I and S are rounded anew at each size. */
+static void set_of_one_form(int n, double fl, double el, bool has_sizes, clast_form_set *s)
+{
+    clast_table t = {0};
+    double *column[3] = {NULL};
+    CHECK_OK(clast_table_init(&t, "equal", n));
+    for (int k = 0; k < (has_sizes ? 3 : 2); ++k) {
+        static const char *const name[2][3] = {{"flatness", "elongation", ""}, {"L", "I", "S"}};
+        CHECK_OK(clast_table_add_number(&t, name[has_sizes ? 1 : 0][k], "-", &column[k]));
+    }
+    for (int k = 0; k < t.n_column; ++k) {
+        column[k] = t.column[k].number;
+    }
+    for (int i = 0; i < n; ++i) {
+        const double size = 1.0 + 0.1 * (i % 37);
+        column[0][i] = has_sizes ? size : fl;
+        column[1][i] = has_sizes ? size * el : el;
+        if (has_sizes) {
+            column[2][i] = size * el * fl;
+        }
+    }
+    CHECK_OK(clast_form_set_of(&t, NULL, s));
+    assert_int_equal(s->n, n);
+    clast_table_free(&t);
+}
+
+/* 67 grains 0.3, 0.9 had deviations of 1e-15 of the mean, of a rounded sum: features of 1e15 and
+ * the porosity -8.9e12. The error of a sum grows with n, so n does. */
+static void equal_grains_have_no_deviation(void **state)
+{
+    (void)state;
+    static const int n[] = {2, 3, 10, 67, 100, 1000, 20000};
+    static const double form[][2] = {{0.3, 0.9},   {0.65, 0.68}, {0.75, 0.8},
+                                     {0.999, 0.7}, {0.5, 0.999}, {1.0, 1.0}};
+    for (size_t k = 0; k < sizeof n / sizeof n[0] * 6; ++k) {
+        for (int sizes = 0; sizes < 2; ++sizes) {
+            clast_form_set s = {0};
+            clast_form_inputs in = {0};
+            set_of_one_form(n[k / 6], form[k % 6][0], form[k % 6][1], sizes == 1, &s);
+            CHECK_OK(clast_form_inputs_of(&s, NULL, 0, &in));
+            assert_false(in.has_deviation);
+            for (int f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
+                const double deviation = in.mixture[CLAST_N_FORM_FEATURE + f];
+                assert_true(deviation == 0.0 || isnan(in.mixture[f]));
+                assert_true(isnan(in.mixture[3 * CLAST_N_FORM_FEATURE + f]));
+            }
+            CHECK_REL(in.flatness_mean, form[k % 6][0], 1e-15);
+            clast_form_set_free(&s);
+        }
+    }
+}
+
+/* numpy.std of equal grains is 1e-16: no spread either. */
+static void a_given_deviation_of_rounding_is_none(void **state)
+{
+    (void)state;
+    const double mean[2] = {0.65, 0.7};
+    const double rounding[2] = {1.1102230246251565e-16, 2.220446049250313e-16};
+    const double small[2] = {1e-12, 0.0};
+    clast_form_inputs in = {0};
+    CHECK_OK(clast_form_inputs_from_moments(mean, rounding, 9, &in));
+    assert_false(in.has_deviation);
+    CHECK_ABS(in.flatness_deviation, 0.0, 0.0);
+    assert_true(isnan(in.mixture[clast_mixture_feature_find("inverse_deviation_equancy")]));
+    CHECK_OK(clast_form_inputs_from_moments(mean, small, 9, &in));
+    assert_true(in.has_deviation);
+}
+
+/* I = (L + S) / 2 makes the oblate-prolate index 0 whatever the flatness: what rounding leaves of
+ * it has no spread. */
+static void an_index_that_vanishes_has_no_spread(void **state)
+{
+    (void)state;
+    char text[2048] = "L,I,S\n";
+    clast_table t = {0};
+    clast_form_set s = {0};
+    clast_form_inputs in = {0};
+    for (int i = 0; i < 40; ++i) {
+        const double ratio = 0.2 + 0.015 * i;
+        const size_t n = strlen(text);
+        (void)snprintf(text + n, sizeof text - n, "1,%.17g,%.17g\n", 0.5 * (1.0 + ratio), ratio);
+    }
+    read_text(text, &t);
+    CHECK_OK(clast_form_set_of(&t, NULL, &s));
+    CHECK_OK(clast_form_inputs_of(&s, NULL, 0, &in));
+    assert_true(in.has_deviation);
+    CHECK_ABS(in.mixture[CLAST_FORM_OBLATE_PROLATE], 0.0, 0.0);
+    CHECK_ABS(in.mixture[CLAST_N_FORM_FEATURE + CLAST_FORM_OBLATE_PROLATE], 0.0, 0.0);
+    CHECK_ABS(in.mixture[CLAST_N_FORM_FEATURE + CLAST_FORM_DISC_ROD], 0.0, 0.0);
+    clast_form_set_free(&s);
+    clast_table_free(&t);
+}
+
+/* Resamples of equal grains tell nothing of a sampling error: it was the rounding of their mean. */
+static void equal_grains_have_no_sampling_error(void **state)
+{
+    (void)state;
+    const clast_bootstrap b = {.n_resample = 100, .level = 0.95, .seed = 1};
+    clast_porosity_model m = {0};
+    CHECK_OK(clast_porosity_model_published(0, &m));
+    for (int k = 0; k < 20; ++k) {
+        clast_form_set s = {0};
+        clast_form_inputs in = {0};
+        clast_prediction p = {0};
+        set_of_one_form(3 + 7 * k, 0.31 + 0.01 * k, 0.9 - 0.02 * k, k % 2 == 1, &s);
+        CHECK_OK(clast_porosity_predict_set(&m, &s, &b, &in, &p));
+        assert_true(isnan(p.sampling_error));
+        clast_form_set_free(&s);
+    }
+    clast_porosity_model_free(&m);
+}
+
+/* The row that has no answer is named with one colon ("row 2: : model ..."). */
+static void rows_are_named_once(void **state)
+{
+    (void)state;
+    clast_table t = {0};
+    clast_table beds = {0};
+    clast_form_set s = {0};
+    clast_porosity_model m = {0};
+    read_text("FL,EL\n0.6,0.7\n0.05,0.05\n", &t);
+    CHECK_OK(clast_form_set_of(&t, NULL, &s));
+    CHECK_OK(clast_porosity_model_published(0, &m));
+    CHECK_STATUS(clast_porosity_predict_each(&m, &s, &beds), CLAST_E_LIMIT);
+    assert_non_null(strstr(clast_error_detail(), "row 2: model single_form_U1"));
+    clast_porosity_model_free(&m);
+    clast_form_set_free(&s);
+    clast_table_free(&t);
+}
+
 /* Needles: the model answers above 1, which is refused. */
 static void impossible_porosities_are_refused(void **state)
 {
@@ -446,6 +576,11 @@ int main(void)
         cmocka_unit_test(tables_without_forms_are_refused),
         cmocka_unit_test(complaint_counts_by_reason),
         cmocka_unit_test(equal_grains_have_no_mixture),
+        cmocka_unit_test(equal_grains_have_no_deviation),
+        cmocka_unit_test(a_given_deviation_of_rounding_is_none),
+        cmocka_unit_test(an_index_that_vanishes_has_no_spread),
+        cmocka_unit_test(equal_grains_have_no_sampling_error),
+        cmocka_unit_test(rows_are_named_once),
         cmocka_unit_test(impossible_porosities_are_refused),
         cmocka_unit_test(sampling_error_is_the_first_derivative),
         cmocka_unit_test(sampling_error_of_a_mixture_counts_its_deviations),

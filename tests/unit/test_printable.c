@@ -3,6 +3,7 @@
 
 #include "geom/isosurface.h"
 #include <clast/assembly.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
@@ -76,9 +77,38 @@ static void a_neck_too_thin_for_the_gap_is_refused(void **state)
     const clast_printable_config config = {.neck = 0.2, .spacing = 0.05};
     make_pair(&pair, false, 0.5);
     CHECK_STATUS(clast_assembly_printable(&pair, &config, NULL, &mesh, &report), CLAST_E_GEOMETRY);
-    assert_non_null(strstr(clast_error_detail(), "3 pieces"));
+    assert_non_null(
+        strstr(clast_error_detail(), "3 pieces with necks of 200 mm sampled at 50 mm;"));
     assert_null(mesh.vert);
     clast_assembly_free(&pair);
+}
+
+/* "use a thicker neck or a finer spacing" was said of grains that no neck joins, too. */
+static void grains_without_a_contact_are_told_as_such(void **state)
+{
+    (void)state;
+    clast_assembly three = {0};
+    clast_mesh mesh = {0};
+    clast_printable_report report;
+    clast_printable_config config = {.neck = 0.4, .spacing = 0.1};
+    const double away[3] = {8.0, 0.0, 0.0};
+    make_pair(&three, false, 0.0);
+    CHECK_OK(clast_assembly_add_grain(&three, 0, away, upright, 1.0, 2500.0));
+    CHECK_STATUS(clast_assembly_printable(&three, &config, NULL, &mesh, &report), CLAST_E_GEOMETRY);
+    assert_non_null(strstr(clast_error_detail(),
+                           "the 3 grains are 2 groups without a contact between them, which no "
+                           "neck joins"));
+    config.spacing = 1e-4;
+    CHECK_STATUS(clast_assembly_printable_plan(&three, &config, &report), CLAST_E_LIMIT);
+    assert_non_null(strstr(clast_error_detail(), "a spacing of 100 um on a body of extent 10 m"));
+    config.spacing = 6.0;
+    CHECK_STATUS(clast_assembly_printable_plan(&three, &config, &report), CLAST_E_USAGE);
+    assert_non_null(
+        strstr(clast_error_detail(), "a spacing of 6 m cannot show a body of extent 10 m"));
+    (void)snprintf(three.unit, sizeof three.unit, "model");
+    CHECK_STATUS(clast_assembly_printable_plan(&three, &config, &report), CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "a spacing of 6 cannot show a body of extent 10"));
+    clast_assembly_free(&three);
 }
 
 static void a_closed_void_is_filled_or_kept(void **state)
@@ -165,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangent_spheres_become_one_body),
         cmocka_unit_test(a_neck_too_thin_for_the_gap_is_refused),
+        cmocka_unit_test(grains_without_a_contact_are_told_as_such),
         cmocka_unit_test(a_closed_void_is_filled_or_kept),
         cmocka_unit_test(the_same_bytes_for_any_thread_count),
         cmocka_unit_test(survives_refused_memory),

@@ -404,6 +404,54 @@ static clast_status make_all(void *context)
     return status;
 }
 
+/* Before, a level of NaN, -1 or 2 and -1 resamples went through: intervals were NaN or turned. */
+static void levels_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    const clast_bootstrap bad[] = {{100, (double)NAN, 1}, {100, -1.0, 1},      {100, 0.0, 1},
+                                   {100, 1.0, 1},         {100, 2.0, 1},       {100, 95.0, 1},
+                                   {-1, 0.95, 1},         {INT32_MIN, 0.95, 1}};
+    clast_table t = {0};
+    clast_statistics s = {0};
+    make_columns(&t);
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        CHECK_STATUS(clast_statistics_of(&t, &bad[k], &s), CLAST_E_ARGUMENT);
+        assert_true(s.n == 0 && s.summary == NULL);
+        assert_non_null(strstr(clast_error_detail(), "bootstrap"));
+    }
+    CHECK_OK(clast_statistics_of(&t, &(clast_bootstrap){0}, &s)); /* no intervals: no level */
+    assert_true(isnan(s.summary[0].mean_low));
+    CHECK_STATUS(clast_statistics_limit_pca(&s, -1), CLAST_E_ARGUMENT);
+    assert_true(s.n_pca > 1);
+    assert_int_equal(clast_statistics_n_component(&s, (double)NAN), 0);
+    CHECK_OK(clast_statistics_limit_pca(&s, 1));
+    assert_int_equal(s.n_pca, 0); /* one column has no components */
+    clast_statistics_free(&s);
+    clast_table_free(&t);
+}
+
+/* Before, the edges were NaN. */
+static void histograms_beyond_a_double_are_refused(void **state)
+{
+    (void)state;
+    const double far[] = {1e308, -1e308, 0.0, 1.0};
+    const double large[] = {1.7e308, 1.6e308, 1.5e308};
+    const double even[] = {1.0, 1.0 + 0x1p-52, 1.0 + 0x1p-51};
+    const double least[] = {0.0, 5e-324, 1e-323};
+    clast_histogram h = {0};
+    CHECK_STATUS(clast_histogram_of(far, 4, &h), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_histogram_of(large, 3, &h), CLAST_E_FORMAT);
+    assert_null(h.edge);
+    const double *const narrow[] = {even, least};
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_histogram_of(narrow[k], 3, &h));
+        assert_int_equal(h.n_bin, 1);
+        assert_true(h.edge[0] < narrow[k][0] && narrow[k][2] < h.edge[1] && h.count[0] == 3);
+        assert_true(isfinite(h.density[0]));
+        clast_histogram_free(&h);
+    }
+}
+
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
@@ -429,6 +477,8 @@ int main(void)
         cmocka_unit_test(bootstrap_of_a_mean_is_the_normal_interval),
         cmocka_unit_test(threads_do_not_move_an_interval),
         cmocka_unit_test(histogram_counts_everything_once),
+        cmocka_unit_test(levels_that_cannot_be_are_refused),
+        cmocka_unit_test(histograms_beyond_a_double_are_refused),
         cmocka_unit_test(tables_name_every_column),
         cmocka_unit_test(every_refused_allocation_is_told),
     };

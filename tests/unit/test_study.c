@@ -90,6 +90,59 @@ static void table_rows_are_runs_and_cross_with_lists(void **state)
     clast_fields_free(clast_study_fields, &config);
 }
 
+static const char *write_file(const char *name, const char *text)
+{
+    const char *path = support_scratch_file(name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    return path;
+}
+
+/* A header without rows was a division by 0. */
+static void a_table_without_rows_is_refused(void **state)
+{
+    (void)state;
+    clast_study_config config = fresh();
+    clast_table plan = {0};
+    set(&config, "run", "fill");
+    set(&config, "table", write_file("header.csv", "rays,cone\n"));
+    CHECK_STATUS(clast_study_plan(&config, &plan), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "header.csv: a header and no rows"));
+    set(&config, "vary", "a=1|2");
+    CHECK_STATUS(clast_study_plan(&config, &plan), CLAST_E_FORMAT);
+    assert_null(plan.column);
+    clast_fields_free(clast_study_fields, &config);
+}
+
+/* "core-size" and "core_size" both varied, and the runs took the last of them. */
+static void a_key_of_two_spellings_varies_once(void **state)
+{
+    (void)state;
+    const struct {
+        const char *table, *vary[2], *design;
+    } twice[] = {{"", {"core-size=1|3", "core_size=2"}, "grid"},
+                 {"", {"core_size=1|3", "core-size=2|4"}, "zip"},
+                 {"core-size\n1\n", {"core_size=2", NULL}, "grid"},
+                 {"core-size,core_size\n1,2\n", {NULL, NULL}, "grid"}};
+    for (size_t i = 0; i < sizeof twice / sizeof twice[0]; ++i) {
+        clast_study_config config = fresh();
+        clast_table plan = {0};
+        set(&config, "run", "aggregate");
+        set(&config, "design", twice[i].design);
+        if (twice[i].table[0] != '\0') {
+            set(&config, "table", write_file("twice.csv", twice[i].table));
+        }
+        for (int k = 0; k < 2 && twice[i].vary[k] != NULL; ++k) {
+            set(&config, "vary", twice[i].vary[k]);
+        }
+        CHECK_STATUS(clast_study_plan(&config, &plan), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "varies twice"));
+        assert_null(plan.column);
+        clast_fields_free(clast_study_fields, &config);
+    }
+}
+
 static void malformed_designs_are_refused(void **state)
 {
     (void)state;
@@ -140,8 +193,11 @@ static clast_status pretend_start(void *context, const clast_study_item *item)
     char path[600];
     (void)snprintf(path, sizeof path, "%s/result.json", item->folder);
     FILE *file = fopen(path, "w");
-    (void)fprintf(file, "{\"x\": {\"y\": %d}, \"wall_s\": 3, \"list\": [5, 6], \"word\": \"a\"}\n",
-                  (int)item->row * 10);
+    const int y = (int)item->row * 10;
+    (void)fprintf(file,
+                  "{\"x\": {\"y\": %d}, \"wall_s\": 3, \"list\": [5, 6], \"word\": \"a\", "
+                  "\"only\": [{\"z\": %d, \"x\": {\"y\": %d}, \"wall_s\": 2}], \"one\": [7]}\n",
+                  y, y + 1, y);
     (void)fclose(file);
     for (int i = 0; i < item->n_argument; ++i) {
         p->n_resumed += strcmp(item->argument[i], "--resume") == 0;
@@ -226,6 +282,207 @@ static void failed_runs_are_noted_and_tried_again(void **state)
     clast_fields_free(clast_study_fields, &config);
 }
 
+static bool has_column(const char *folder, const char *file, const char *column)
+{
+    char path[600];
+    clast_table table = {0};
+    (void)snprintf(path, sizeof path, "%s/%s", folder, file);
+    CHECK_OK(clast_table_read_csv(path, NULL, &table, NULL));
+    const bool has = clast_table_find(&table, column) >= 0;
+    clast_table_free(&table);
+    return has;
+}
+
+/* A study of shape had no column but the number of grains: all else is in a list, of one grain. */
+static void numbers_of_a_list_of_one_are_columns(void **state)
+{
+    (void)state;
+    char folder[512];
+    pretender p = {0};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "listing");
+    set(&config, "run", "fill");
+    set(&config, "vary", "a=1|2");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    CHECK_ABS(result(folder, "results.csv", "only.0.z", 1), 11.0, 0.0);
+    CHECK_ABS(result(folder, "results.csv", "one.0", 1), 7.0, 0.0);
+    CHECK_ABS(result(folder, "times.csv", "only.0.wall_s", 0), 2.0, 0.0);
+    assert_false(has_column(folder, "results.csv", "only.0.x.y")); // told above, as x.y
+    assert_false(has_column(folder, "results.csv", "list.0"));
+    set(&config, "keep", "only.0.z");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    CHECK_ABS(result(folder, "results.csv", "only.0.z", 1), 11.0, 0.0);
+    clast_fields_free(clast_study_fields, &config);
+}
+
+static char *text_of(const char *folder, const char *name)
+{
+    static char text[4][4096];
+    static int k = 0;
+    char path[600];
+    char *at = text[k++ % 4];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    at[fread(at, 1, sizeof text[0] - 1, file)] = '\0';
+    (void)fclose(file);
+    return at;
+}
+
+static void check_says(const char *part)
+{
+    if (strstr(clast_error_detail(), part) == NULL) {
+        fail_msg("'%s' does not say '%s'", clast_error_detail(), part);
+    }
+}
+
+/* The runs of commands without a folder have no manifest: another file was taken without a word. */
+static void a_study_keeps_to_its_input(void **state)
+{
+    (void)state;
+    char folder[512];
+    pretender p = {0};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "inputs");
+    set(&config, "run", "shape");
+    set(&config, "argument", write_file("grain.ply", "one"));
+    set(&config, "vary", "axes=feret|fitted");
+    set(&config, "shard", "1/2");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    (void)write_file("grain.ply", "another");
+    set(&config, "shard", "2/2");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    check_says("grain.ply is not the file that run 1 of this study was made with");
+    assert_int_equal(p.n_started, 1);
+    (void)write_file("grain.ply", "one");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    assert_int_equal(p.n_started, 2);
+    (void)unlink(support_scratch_file("grain.ply")); // whoever only tabulates does not need it
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    clast_fields_free(clast_study_fields, &config);
+}
+
+/* Where no run has an answer, a mended input is what the same call is to be tried again with. */
+static void an_input_may_be_mended_before_a_run_is_done(void **state)
+{
+    (void)state;
+    char folder[512];
+    pretender p = {.code = {3, 3}};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "mended");
+    set(&config, "run", "grading");
+    char name[600];
+    (void)snprintf(name, sizeof name, "list:%s", write_file("sizes.csv", "broken"));
+    set(&config, "argument", name);
+    set(&config, "vary", "spread=step|means");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_NO);
+    (void)write_file("sizes.csv", "whole");
+    p.code[0] = 0;
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_NO);
+    (void)write_file("sizes.csv", "other");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    check_says("sizes.csv is not the file that run 1");
+    (void)write_file("sizes.csv", "whole");
+    p.code[1] = 0;
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    clast_fields_free(clast_study_fields, &config);
+}
+
+static void another_table_or_configuration_is_named(void **state)
+{
+    (void)state;
+    char folder[512];
+    pretender p = {0};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "named");
+    set(&config, "run", "fill");
+    set(&config, "table", write_file("rows.csv", "a\n1\n2\n"));
+    set(&config, "config", write_file("run.yaml", "b: 1\n"));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    (void)write_file("rows.csv", "# the same runs\na\n1\n2\n");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    (void)write_file("rows.csv", "a\n1\n3\n");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    check_says("rows.csv");
+    (void)write_file("rows.csv", "a\n1\n2\n");
+    (void)write_file("run.yaml", "b: 2\n");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    check_says("run.yaml");
+    set(&config, "fix", "c=1");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    check_says("holds another study (study.json differs)");
+    clast_fields_free(clast_study_fields, &config);
+}
+
+/* study.json of before: no versions, no inputs. It stays as it is, so that the clast that began the
+   study can go on with it, too. */
+static void a_study_of_an_older_clast_goes_on(void **state)
+{
+    (void)state;
+    static const char old[] = "{\"study\": {\"run\": \"fill\", \"config\": \"\", \"argument\": [], "
+                              "\"fix\": [], \"vary\": "
+                              "[\"a=1|2\"], \"design\": \"grid\", \"table\": \"\", \"seeds\": 1, "
+                              "\"seed\": 1, \"keep\": [], "
+                              "\"shard\": \"\"},\n\"config_sha256\": \"\"}\n";
+    char folder[512];
+    char path[600];
+    pretender p = {0};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "older");
+    assert_int_equal(mkdir(folder, 0777), 0);
+    (void)snprintf(path, sizeof path, "%s/study.json", folder);
+    FILE *file = fopen(path, "w");
+    assert_true(file != NULL && fputs(old, file) >= 0 && fclose(file) == 0);
+    set(&config, "run", "fill");
+    set(&config, "vary", "a=1|2");
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    assert_int_equal(report.n_done, 2);
+    assert_string_equal(text_of(folder, "study.json"), old);
+    set(&config, "seeds", "2");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
+    clast_fields_free(clast_study_fields, &config);
+}
+
+static void versions_that_worked_on_a_study_are_kept(void **state)
+{
+    (void)state;
+    char folder[512];
+    char path[600];
+    char wanted[128];
+    pretender p = {.code = {0, 3}};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "versions");
+    set(&config, "run", "fill");
+    set(&config, "vary", "a=1|2");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_NO);
+    (void)snprintf(wanted, sizeof wanted, "\"clast_versions\": [\"%s\"]", clast_version());
+    char *text = text_of(folder, "study.json");
+    char *at = strstr(text, wanted);
+    assert_non_null(at);
+    memcpy(strstr(at, "[\"") + 2, "9.8.7", 5); // begun by another
+    (void)snprintf(path, sizeof path, "%s/study.json", folder);
+    FILE *file = fopen(path, "w");
+    assert_true(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
+    p.code[1] = 0;
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    (void)snprintf(wanted, sizeof wanted, "\"clast_versions\": [\"9.8.7\", \"%s\"]",
+                   clast_version());
+    assert_non_null(strstr(text_of(folder, "study.json"), wanted));
+    clast_fields_free(clast_study_fields, &config);
+}
+
 static void stopped_study_goes_on(void **state)
 {
     (void)state;
@@ -288,9 +545,17 @@ int main(void)
         cmocka_unit_test(grid_takes_all_combinations_last_fastest),
         cmocka_unit_test(zip_goes_through_lists_together),
         cmocka_unit_test(table_rows_are_runs_and_cross_with_lists),
+        cmocka_unit_test(a_table_without_rows_is_refused),
+        cmocka_unit_test(a_key_of_two_spellings_varies_once),
         cmocka_unit_test(malformed_designs_are_refused),
         cmocka_unit_test(plan_survives_refused_memory),
         cmocka_unit_test(failed_runs_are_noted_and_tried_again),
+        cmocka_unit_test(numbers_of_a_list_of_one_are_columns),
+        cmocka_unit_test(a_study_keeps_to_its_input),
+        cmocka_unit_test(an_input_may_be_mended_before_a_run_is_done),
+        cmocka_unit_test(another_table_or_configuration_is_named),
+        cmocka_unit_test(a_study_of_an_older_clast_goes_on),
+        cmocka_unit_test(versions_that_worked_on_a_study_are_kept),
         cmocka_unit_test(stopped_study_goes_on),
         cmocka_unit_test(shards_share_the_runs),
     };

@@ -1,0 +1,115 @@
+// Columns of a table that were written with units, as clast study writes what it varies: "100um".
+#include "porosity/unit_columns.h"
+
+#include "base/alloc.h"
+#include "base/number.h"
+#include "base/status.h"
+#include <clast/field.h>
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+/// SI units of the dimensions that clast_unit_parse knows.
+static const char *const dimension[] = {
+    "-",     "m",   "m^2",   "m^3",    "1/m", "rad",  "rad/s", "kg",    "s",
+    "1/s",   "m/s", "m/s^2", "kg/m^3", "Pa",  "Pa s", "K",     "m^2/s", "m^2/s^3",
+    "m^3/s", "J",   "J/m^2", "J/m^3",  "N",   "N/m",  "1/m^3", "B"};
+
+static bool is_missing(const char *cell)
+{
+    return cell == NULL || cell[0] == '\0' || strcasecmp(cell, "na") == 0 ||
+           strcasecmp(cell, "n/a") == 0 || strcasecmp(cell, "nan") == 0;
+}
+
+/// Whether a cell is a number with something behind it.
+static bool has_unit(const char *cell)
+{
+    char *end = NULL;
+    (void)clx_number_read(cell, &end);
+    return end != cell && end[strspn(end, " \t")] != '\0';
+}
+
+/// SI unit of the first cell that has one, NULL where none has.
+static const char *unit_of(const clast_column *column, int64_t n_row)
+{
+    double unused = 0.0;
+    int64_t i = 0;
+    while (i < n_row && (is_missing(column->text[i]) || !has_unit(column->text[i]))) {
+        ++i;
+    }
+    for (size_t k = 0; i < n_row && k < sizeof dimension / sizeof dimension[0]; ++k) {
+        if (clast_unit_parse_asked(column->text[i], dimension[k], &unused) == CLAST_OK) {
+            return dimension[k];
+        }
+    }
+    return NULL;
+}
+
+/// Numbers of all cells, or false: one of them is none of this unit.
+static bool read_cells(const clast_column *column, int64_t n_row, const char *unit, double *number)
+{
+    for (int64_t i = 0; i < n_row; ++i) {
+        number[i] = NAN;
+        if (!is_missing(column->text[i]) &&
+            clast_unit_parse_asked(column->text[i], unit, &number[i]) != CLAST_OK) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The column as numbers, owned with its unit, where all of it is.
+static clast_status read_column(const clast_column *from, int64_t n_row, clast_column *to)
+{
+    CLAST_ASSERT(from->text != NULL && n_row >= 0);
+    clast_status status = CLAST_OK;
+    double *number = NULL;
+    char *own = NULL;
+    const char *unit = unit_of(from, n_row);
+    if (unit == NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&number, n_row, sizeof *number));
+    if (read_cells(from, n_row, unit, number)) {
+        CLX_TRY(clx_alloc_text(&own, unit));
+        *to = (clast_column){.name = from->name, .unit = own, .number = number};
+        number = NULL;
+    }
+done:
+    clx_free(number);
+    return status;
+}
+
+clast_status clx_unit_columns_read(const clast_table *from, clx_unit_columns *columns)
+{
+    clast_status status = CLAST_OK;
+    clx_unit_columns made = {.table = *from, .from = from};
+    made.table.n_column = 0; // so many are freed
+    CLX_TRY(clx_alloc(&made.table.column, from->n_column, sizeof *made.table.column));
+    for (int32_t c = 0; c < from->n_column; ++c) {
+        clast_column *to = &made.table.column[made.table.n_column++];
+        *to = from->column[c];
+        if (to->text != NULL) {
+            CLX_TRY(read_column(&from->column[c], from->n_row, to));
+        }
+    }
+    *columns = made;
+    made = (clx_unit_columns){0};
+done:
+    clx_unit_columns_free(&made);
+    return status;
+}
+
+void clx_unit_columns_free(clx_unit_columns *columns)
+{
+    for (int32_t c = 0; columns->from != NULL && c < columns->table.n_column; ++c) {
+        if (columns->from->column[c].text != NULL && columns->table.column[c].text == NULL) {
+            clx_free(columns->table.column[c].number);
+            clx_free(columns->table.column[c].unit);
+        }
+    }
+    if (columns->from != NULL) {
+        clx_free(columns->table.column);
+    }
+    *columns = (clx_unit_columns){0};
+}

@@ -1,0 +1,183 @@
+"""CLI: parts that lie in others: cavities and islands count once; a part in a solid, wound outward, would count twice."""
+import math
+import unittest
+
+from clitest import ROOT, Case, clast
+
+FACETS = ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3))
+
+
+def boxes(path, *given):
+    """OFF of cubes (edge, low corner, sign): wound outward with 1, inward with -1."""
+    vertices = [(x, y, z) for edge, low, _ in given for x in (low, low + edge) for y in (low, low + edge) for z in (low, low + edge)]
+    facets = [[8 * k + i for i in facet[::sign]] for k, (_, _, sign) in enumerate(given) for facet in FACETS]
+    lines = [f"OFF\n{len(vertices)} {len(facets)} 0", *("{} {} {}".format(*v) for v in vertices), *("3 {} {} {}".format(*f) for f in facets)]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def sphere(path, *given, n=24):
+    """OFF of spheres (radius, sign) about the origin, n by 2n quadrangles cut in two."""
+    vertices, facets = [], []
+    for radius, sign in given:
+        first = len(vertices)
+        vertices += [(0, 0, radius)] + [(radius * math.sin(math.pi * i / n) * math.cos(math.pi * k / n),
+                                         radius * math.sin(math.pi * i / n) * math.sin(math.pi * k / n), radius * math.cos(math.pi * i / n))
+                                        for i in range(1, n) for k in range(2 * n)] + [(0, 0, -radius)]
+
+        def at(i, k):
+            return first + (0 if i == 0 else 1 + (n - 1) * 2 * n if i == n else 1 + (i - 1) * 2 * n + k % (2 * n))
+        for i in range(n):
+            for k in range(2 * n):
+                facets += [t[::sign] for t in ((at(i, k), at(i + 1, k), at(i + 1, k + 1)), (at(i, k), at(i + 1, k + 1), at(i, k + 1)))
+                           if len(set(t)) == 3]
+    lines = [f"OFF\n{len(vertices)} {len(facets)} 0", *("{} {} {}".format(*v) for v in vertices), *("3 {} {} {}".format(*f) for f in facets)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+class Nested(Case):
+    def setUp(self):
+        super().setUp()
+        self.doubled = boxes(self.folder / "doubled.off", (4, 0, 1), (2, 1, 1))
+        self.cavity = boxes(self.folder / "cavity.off", (4, 0, 1), (2, 1, -1))
+        self.island = boxes(self.folder / "island.off", (6, 0, 1), (4, 1, -1), (2, 2, 1))
+        self.overlap = boxes(self.folder / "overlap.off", (2, 0, 1), (2, 1, 1))
+
+    def checked(self, path):
+        found = clast("mesh", "check", path, "--json").json
+        return found["n_nested"], found["n_doubled"], {fault["code"]: fault["text"] for fault in found["faults"]}
+
+    def test_an_island_in_a_cavity_counts_once(self):
+        """It was said to count twice, as every outward part inside another; volume 216 - 64 + 8."""
+        nested, doubled, faults = self.checked(self.island)
+        self.assertEqual((nested, doubled, list(faults)), (2, 0, ["nested_parts"]))
+        self.assertIn("1 wound inward (cavities), 1 outward in a cavity (islands)", faults["nested_parts"])
+        self.assertEqual([part["winding"] for part in clast("mesh", "check", self.island, "--json").json["parts"]], [1, 0, 1])
+
+    def test_a_part_that_counts_twice_is_told_with_its_cure(self):
+        nested, doubled, faults = self.checked(self.doubled)
+        self.assertEqual((nested, doubled, list(faults)), (1, 1, ["doubled_parts"]))
+        self.assertIn("1 of 2 parts counts twice", faults["doubled_parts"])
+        self.assertIn("`clast mesh repair` drops", faults["doubled_parts"])
+        thrice = boxes(self.folder / "thrice.off", (6, 0, 1), (4, 1, 1), (2, 2, 1))
+        self.assertEqual(self.checked(thrice)[:2], (2, 2))
+        hollow = boxes(self.folder / "hollow.off", (6, 0, 1), (4, 1, -1), (2, 2, -1))
+        self.assertEqual(self.checked(hollow)[:2], (2, 1))
+        turned = boxes(self.folder / "turned.off", (4, 0, -1), (2, 1, 1))  # a cavity once it is turned over
+        self.assertEqual(self.checked(turned)[1], 0)
+        self.assertIn("1 wound inward (cavities), 0 outward", self.checked(turned)[2]["nested_parts"])
+        self.assertEqual(self.checked(self.cavity)[:2], (1, 0))
+
+    def test_repair_drops_what_bounds_nothing(self):
+        out = self.folder / "out.off"
+        for parts, volume, n_dropped in ((((4, 0, 1), (2, 1, 1)), 64, 1), (((6, 0, 1), (4, 1, 1), (2, 2, 1)), 216, 2),
+                                         (((6, 0, 1), (4, 1, -1), (2, 2, -1)), 152, 1), (((6, 0, 1), (4, 1, 1), (2, 2, -1)), 216, 2),
+                                         (((4, 0, 1), (4, 0, 1)), 64, 1), (((4, 0, 1), (2, 1, -1)), 56, 0), (((6, 0, 1), (4, 1, -1), (2, 2, 1)), 160, 0)):
+            path = boxes(self.folder / "in.off", *parts)
+            done = clast("mesh", "repair", path, "-o", out, "--json")
+            self.assertEqual((done.code, done.json["volume"], done.json["changes"]["n_part_dropped"]), (0, volume, n_dropped), parts)
+        words = clast("mesh", "repair", self.doubled, "-o", out).out
+        self.assertIn("1 parts dropped that bound nothing", words)
+        self.assertNotIn("nothing had to be changed", words)
+        kept = clast("mesh", "repair", self.doubled, "--no-unite", "-o", out, "--json")
+        self.assertEqual((kept.code, kept.json["volume"], kept.json["changes"]["n_part_dropped"]), (0, 72, 0))
+
+    def test_repair_leaves_parts_that_cut_each_other(self):
+        """A part that pokes out of another is not within it, whatever three of its triangles say."""
+        bar = boxes(self.folder / "cut.off", (4, 0, 1), (2, 1, 1), (2, 3, 1))
+        done = clast("mesh", "repair", bar, "-o", self.folder / "out.off", "--json")
+        self.assertEqual((done.json["volume"], done.json["changes"]["n_part_dropped"]), (80, 0))
+        self.assertNotIn("drops", self.checked(bar)[2]["doubled_parts"])
+
+    def test_aggregates_refuse_it(self):
+        """Core row: porosity -0.125, density 2812 of a material of 2500."""
+        options = ("--core-size", "100um", "--coat", "sphere", "--size", "20um", "--core-density", "2500kg/m3", "-q")
+        result = self.assert_fails(3, "aggregate", "--core", "doubled.off", *options, "-o", "run", cwd=self.folder,
+                                   says=["core: doubled.off", "1 of its 2 parts counts twice", "clast mesh repair doubled.off -o doubled-closed.ply",
+                                         "--accept-faults"])
+        self.assertEqual(clast(*result.err.split("it: ")[1].split(", or")[0].split()[1:], cwd=self.folder).code, 0)
+        self.assertEqual(clast("aggregate", "--core", "doubled-closed.ply", *options, "-o", "run", cwd=self.folder).code, 0)
+        for name, more in (("island.off", ()), ("doubled.off", ("--accept-faults",))):
+            done = clast("aggregate", "--core", name, *options, *more, "-o", f"run-{name}", cwd=self.folder)
+            self.assertEqual(done.code, 0, done.err)
+
+    def test_shape_tells_it(self):
+        """convexity 1.125 and a hull of -11.111 % more than the surface, without a word."""
+        for options in ((), ("--hull",)):
+            result = clast("shape", self.doubled, *options)
+            self.assertEqual((result.code, result.err.count("\n")), (0, 1), result.err)
+            self.assertIn("clast shape: ", result.err)
+            self.assertIn("doubled.off: 1 of its 2 parts counts twice in its volume", result.err)
+            self.assertIn("clast mesh repair", result.err)
+        result = clast("shape", self.overlap)
+        self.assertIn("overlap.off: it cuts itself at 6 pairs of triangles; its volume counts overlaps twice", result.err)
+        found = clast("shape", self.overlap, self.doubled, self.island, self.cavity, "--json")
+        self.assertEqual([line["text"].split(":")[0] for line in found.json["warnings"]], [str(self.overlap), str(self.doubled)])
+        self.assertEqual(found.json["left_out"], [])
+        self.assertEqual(clast("shape", self.doubled, "-q").err, "")
+        self.assertEqual(clast("shape", self.island, self.cavity).err, "")
+
+    def test_shape_looks_at_seams_as_it_measures_them(self):
+        """Each facet has corners of its own: parts show only once they are merged."""
+        vertices, facets = [], []
+        lines = self.doubled.read_text().split("\n")[2:]
+        points, faces = [one for one in lines if len(one.split()) == 3], [one.split()[1:] for one in lines if len(one.split()) == 4]
+        for face in faces:
+            facets.append(f"3 {len(vertices)} {len(vertices) + 1} {len(vertices) + 2}")
+            vertices += [points[int(corner)] for corner in face]
+        seams = self.folder / "seams.off"
+        seams.write_text(f"OFF\n{len(vertices)} {len(facets)} 0\n" + "\n".join([*vertices, *facets]) + "\n")
+        self.assertIn("1 of its 2 parts counts twice", clast("shape", seams).err)
+
+    def test_fill_tells_it(self):
+        result = clast("fill", self.doubled, "--spheres", 2)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("1 of its 2 parts counts twice", result.err)
+        self.assertEqual(clast("fill", self.doubled, "--spheres", 2, "--json").json["n_doubled"], 1)
+        self.assertEqual(clast("fill", self.island, "--spheres", 2).err, "")
+
+    def test_hull_and_form_tell_it(self):
+        """The hull added -8 to a surface of volume 72."""
+        out = self.folder / "out.ply"
+        for path, why in ((self.doubled, "1 of its 2 parts counts twice"), (self.overlap, "cuts itself at 6 pairs")):
+            words = clast("mesh", "hull", path, "-o", out)
+            self.assertIn("what it adds is not known: the input counts volume twice", words.out)
+            self.assertIsNone(clast("mesh", "hull", path, "-o", out, "--json").json["added_volume"])
+            form = clast("mesh", "form", path, "--flatness", 0.6, "-o", out)
+            self.assertEqual((form.code, form.err.count("\n")), (0, 1), form.err)
+            self.assertIn(why, form.err)
+            self.assertEqual(clast("mesh", "form", path, "--flatness", 0.6, "--hull", 50, "-o", out).err, "")
+        self.assertIn("surface volume 160", clast("mesh", "hull", self.island, "-o", out).out)
+
+    def test_a_simpler_surface_that_is_no_solid_any_more_is_told(self):
+        """A cavity's wall was simplified through the outer one: written with code 0 and not a word."""
+        solid, out = self.cavity, self.folder / "out.ply"
+        result = clast("mesh", "simplify", solid, "--faces", 10, "-o", out)
+        self.assertEqual((result.code, result.err.count("\n")), (1, 1), result.err)
+        self.assertIn("is no solid any more: 1 part inside out", result.err)
+        self.assertIn("--faces", result.err)
+        self.assertEqual(clast("mesh", "check", out).code, 1)
+        found = clast("mesh", "simplify", solid, "--faces", 10, "-o", out, "--json")
+        self.assertEqual((found.code, found.json["is_solid"]), (1, False))
+
+    def test_a_simpler_surface_that_cuts_itself_is_told(self):
+        shell, out = self.folder / "shell.off", self.folder / "out.ply"
+        sphere(shell, (1.0, 1), (0.9, -1))
+        result = clast("mesh", "simplify", shell, "--faces", 60, "-o", out, "--json")
+        self.assertEqual((result.code, result.json["is_solid"], result.err.count("\n")), (0, True, 1), result.err)
+        self.assertGreater(result.json["n_intersection"], 0)
+        self.assertIn(f"now cuts itself at {result.json['n_intersection']} pairs of triangles", result.err)
+        fine = clast("mesh", "simplify", shell, "--faces", 1000, "-o", out, "--json")
+        self.assertEqual((fine.code, fine.err, fine.json["is_solid"], fine.json["n_intersection"]), (0, "", True, 0))
+
+    def test_faults_before_simplifying_are_no_news(self):
+        result = clast("mesh", "simplify", self.overlap, "--faces", 24, "-o", self.folder / "out.ply", "--json")
+        self.assertEqual((result.code, result.err, result.json["n_intersection"]), (0, "", 6))
+
+    def test_sound_surfaces_have_no_word(self):
+        for name in ("standin63/grain00.ply", "scarlet/stl/27sk21_shape_fine.stl", "scarlet/stl/Menger2.stl"):
+            self.assertEqual(clast("shape", ROOT / "data" / name).err, "", name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,81 @@
+/* Unit: values of configuration fields as text. Before, an item that a list does not have was read
+ * from behind the list. */
+#include "support.h"
+
+#include <string.h>
+
+typedef struct {
+    clast_f64_list number;
+    clast_text_list text;
+    int32_t choice;
+    char *word;
+} configuration;
+
+#define FIELD(type, name) #name, offsetof(configuration, name), type
+static const clast_field fields[] = {
+    {FIELD(CLAST_FIELD_F64_LIST, number), 0.0, 0.0, 10.0, "-", "numbers", .text = ""},
+    {FIELD(CLAST_FIELD_TEXT_LIST, text), 0.0, 0.0, 0.0, "-", "words", .text = ""},
+    {FIELD(CLAST_FIELD_CHOICE, choice), 0.0, 0.0, 1.0, "-", "one", .text = "this|that"},
+    {FIELD(CLAST_FIELD_TEXT, word), 0.0, 0.0, 0.0, "-", "a word", .text = "w"},
+    {0}};
+
+/* "-1" for none. */
+static void check_format(int field, const configuration *c, int32_t index, const char *wanted)
+{
+    char text[32] = "as it was";
+    const int n = clast_field_format(&fields[field], c, index, sizeof text, text);
+    if (wanted == NULL) {
+        assert_int_equal(n, -1);
+        assert_string_equal(text, "as it was");
+    } else {
+        assert_int_equal(n, strlen(wanted));
+        assert_string_equal(text, wanted);
+    }
+}
+
+static void items_that_there_are_not_have_no_text(void **state)
+{
+    (void)state;
+    configuration c;
+    CHECK_OK(clast_fields_default(fields, &c));
+    for (int list = 0; list < 2; ++list) {
+        check_format(list, &c, 0, NULL); /* empty */
+        CHECK_OK(clast_field_set(&fields[list], &c, "2", false));
+        CHECK_OK(clast_field_set(&fields[list], &c, "3", true));
+        check_format(list, &c, 1, "3");
+        check_format(list, &c, 2, NULL);
+        check_format(list, &c, -1, NULL);
+        check_format(list, &c, INT32_MAX, NULL);
+    }
+    check_format(2, &c, 0, "this");
+    c.choice = -1;
+    check_format(2, &c, 0, NULL);
+    c.choice = 2;
+    check_format(2, &c, 0, NULL);
+    check_format(3, &c, 0, "w");
+    clast_fields_free(fields, &c); /* the word is NULL now */
+    check_format(3, &c, 0, NULL);
+}
+
+/* As field.h says: what stands before a fault is set. */
+static void keys_before_a_fault_are_set(void **state)
+{
+    (void)state;
+    configuration c;
+    CHECK_OK(clast_fields_default(fields, &c));
+    CHECK_STATUS(
+        clast_fields_parse("here", "choice: that\nnumber: [1, 77]\nword: other\n", fields, &c),
+        CLAST_E_CONFIG);
+    assert_int_equal(c.choice, 1);
+    assert_string_equal(c.word, "w");
+    clast_fields_free(fields, &c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(items_that_there_are_not_have_no_text),
+        cmocka_unit_test(keys_before_a_fault_are_set),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
