@@ -63,9 +63,12 @@ static void keys_before_a_fault_are_set(void **state)
     (void)state;
     configuration c;
     CHECK_OK(clast_fields_default(fields, &c));
-    CHECK_STATUS(
-        clast_fields_parse("here", "choice: that\nnumber: [1, 77]\nword: other\n", fields, &c),
-        CLAST_E_CONFIG);
+    CHECK_STATUS(clast_fields_parse("here",
+                                    "choice: that\n"
+                                    "number: [1, 77]\n"
+                                    "word: other\n",
+                                    fields, &c),
+                 CLAST_E_CONFIG);
     assert_int_equal(c.choice, 1);
     assert_string_equal(c.word, "w");
     clast_fields_free(fields, &c);
