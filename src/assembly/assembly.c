@@ -159,10 +159,10 @@ static clast_status check_grain(const clast_assembly *a, int32_t shape_id, const
     CLX_CHECK(fabs(length2 - 1.0) <= 2e-9, CLAST_E_USAGE,
               "grain %d: orientation is not a unit quaternion (length %g)", a->n_grain,
               sqrt(length2));
-    CLX_CHECK(scale > 0.0 && isfinite(scale), CLAST_E_USAGE, "grain %d: scale %g is not positive",
-              a->n_grain, scale);
+    CLX_CHECK(scale > 0.0 && isfinite(scale), CLAST_E_USAGE,
+              "grain %d: scale %g must be finite and above 0", a->n_grain, scale);
     CLX_CHECK(density > 0.0 && isfinite(density), CLAST_E_USAGE,
-              "grain %d: density %g is not positive", a->n_grain, density);
+              "grain %d: density %g must be finite and above 0", a->n_grain, density);
     CLX_CHECK(a->n_grain < INT32_MAX, CLAST_E_LIMIT, "an assembly holds at most 2^31 - 1 grains");
 done:
     return status;

@@ -136,6 +136,15 @@ clast_status clast_assembly_envelope(const clast_assembly *assembly, clast_envel
     clast_status status = CLAST_OK;
     double centre[3];
     double radius = 0.0;
+    CLX_CHECK(
+        options->tolerance >= 0.0 && options->length >= 0.0 &&
+            isfinite(options->tolerance + options->length),
+        CLAST_E_ARGUMENT,
+        "envelope: a tolerance of %g and a length of %g; both must be finite and not negative",
+        options->tolerance, options->length);
+    CLX_CHECK(options->tolerance > 0.0 ||
+                  (kind != CLAST_ENVELOPE_SURFACE_HULL && kind != CLAST_ENVELOPE_SPHERE_HULL),
+              CLAST_E_ARGUMENT, "envelope: a hull needs a tolerance above 0");
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to enclose");
     switch (kind) {
     case CLAST_ENVELOPE_SURFACE_HULL:

@@ -236,8 +236,14 @@ done:
     return status;
 }
 
-static clast_status check_input(const clast_assembly *a)
+static clast_status check_input(const clast_assembly *a, const clast_printable_config *config)
 {
+    if (!(config->neck >= 0.0 && config->spacing >= 0.0 &&
+          isfinite(config->neck + config->spacing))) {
+        return clx_fail(CLAST_E_ARGUMENT,
+                        "a neck of %g and a spacing of %g; both must be finite and not negative",
+                        config->neck, config->spacing);
+    }
     if (a->n_grain < 1) {
         return clx_fail(CLAST_E_USAGE, "an assembly without grains cannot be printed");
     }
@@ -259,7 +265,7 @@ clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
     clast_printable_report made = {.solid_volume = clast_assembly_volume(assembly)};
     double low[3];
     double high[3];
-    CLX_TRY(check_input(assembly));
+    CLX_TRY(check_input(assembly, config));
     clast_assembly_bounds(assembly, low, high);
     CLX_TRY(choose(assembly, config, low, high, &made));
     *report = made;

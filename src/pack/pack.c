@@ -148,6 +148,10 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
 {
     CLX_ARGUMENTS(config, input, pack);
     CLX_GUARD(clast_fields_check(clast_pack_fields, config));
+    if (input->n_wall != config->wall.n) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: %d walls of the input, %d of option wall", __func__,
+                        input->n_wall, config->wall.n);
+    }
     CLX_GUARD(clx_pack_check_idle(config, input));
     return clx_pack_create_again(config, input, pack);
 }
@@ -453,6 +457,9 @@ static int64_t quiet_steps(const clast_pack *p)
 clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
 {
     CLX_ARGUMENTS(pack);
+    if (n_step < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: %lld steps", __func__, (long long)n_step);
+    }
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     const int64_t most = pack->config.max_steps;

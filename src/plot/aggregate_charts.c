@@ -81,7 +81,7 @@ static int64_t count_finite(const double *x, const double *y, int64_t n)
 
 bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const clast_table *table)
 {
-    if (clx_table_fault(table) != NULL) {
+    if ((unsigned)chart >= CLAST_N_AGGREGATE_CHART || clx_table_fault(table) != NULL) {
         return false;
     }
     const double *x = clast_table_numbers(table, x_column(chart));

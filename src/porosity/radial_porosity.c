@@ -97,6 +97,8 @@ clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_b
     const int32_t n_ring = options->n_ring;
     CLX_CHECK(bed->kind == CLAST_BED_CYLINDER && bed->radius > 0.0, CLAST_E_USAGE,
               "a radial profile needs a cylindrical bed");
+    CLX_CHECK((unsigned)options->method <= CLAST_POROSITY_SPHERES, CLAST_E_ARGUMENT,
+              "radial profile: there is no method %d", (int)options->method);
     CLX_CHECK(assembly->n_grain > 0 && z[1] > z[0], CLAST_E_USAGE,
               "no grain to measure between %g and %g", z[0], z[1]);
     CLX_CHECK(n_ring >= 1 && n_ring <= RING_LIMIT && options->n_point >= 0, CLAST_E_USAGE,

@@ -132,7 +132,7 @@ double clast_curve_passing(const clast_curve *curve, double size)
         return (double)NAN;
     }
     double below = 0.0;
-    if (curve->n_class < 1) {
+    if (curve->n_class < 1 || isnan(size)) {
         return NAN;
     }
     for (int32_t i = 0; i < curve->n_class; ++i) {
@@ -151,7 +151,7 @@ double clast_curve_passing(const clast_curve *curve, double size)
 
 double clast_curve_size(const clast_curve *curve, double share)
 {
-    if (clx_curve_fault(curve) != NULL) {
+    if (clx_curve_fault(curve) != NULL || isnan(share)) {
         return (double)NAN;
     }
     double below = 0.0;

@@ -234,6 +234,9 @@ clast_status clast_grading_of_curve(const clast_curve *curve, clast_grading_spre
     clast_grading *made = NULL;
     spreading s = {
         .curve = curve, .spread = spread, .count = count, .first = 0, .last = curve->n_class - 1};
+    CLX_CHECK((unsigned)spread <= CLAST_SPREAD_MEANS && (unsigned)count <= CLAST_COUNT_EXACT,
+              CLAST_E_ARGUMENT, "grading: there is no spread %d, or no count %d", (int)spread,
+              (int)count);
     CLX_CHECK(spread != CLAST_SPREAD_LINEAR || count == CLAST_COUNT_MEAN, CLAST_E_CONFIG,
               "exact counts are not defined for a linear spread, whose grains cross the sieves; "
               "take the step spread or mean counts");
