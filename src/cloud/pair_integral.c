@@ -50,8 +50,6 @@ static const double form_error = 0.01;    ///< half width that no number of pair
                                           ///< stand for jumps and frames to so much
 static const double least_even = 1000.0;  ///< the same where nothing narrower than that size shows
 static const double most_repeated = 0.05; ///< share of repeated points' pairs in the window
-static const double layers_ask = 1.0;     ///< log-likelihood that layers must gain on the others to
-                                          ///< have as much of the value
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
@@ -369,40 +367,24 @@ static bool is_steady(const clx_pair_shells *in, const answer *smooth, const ans
     return log(poled.most / e->value) <= limit && added <= most_poled;
 }
 
-/// The mean of n families by their likelihoods, and the hull of their intervals.
-static clast_estimate average(const answer *family, int n)
+/// The families' mean by their likelihoods, and the hull of their intervals.
+static clast_estimate average(const answer *smooth, const answer *kinked)
 {
-    clast_estimate e = {.low = INFINITY};
-    double factor = 1.0;
-    double best = -INFINITY;
-    double sum = 0.0;
-    double weight = 0.0;
-    for (int k = 0; k < n; ++k) {
-        factor = fmax(factor, family[k].factor);
-        best = fmax(best, family[k].likelihood);
-    }
-    for (int k = 0; k < n; ++k) {
-        const double own = exp((family[k].likelihood - best) / factor);
-        sum += own * log(family[k].value);
-        weight += own;
-        e.low = fmin(e.low, family[k].low);
-        e.high = fmax(e.high, family[k].high);
-    }
-    e.value = exp(sum / weight);
-    return e;
+    const double factor = fmax(smooth->factor, kinked->factor);
+    const double share = 1.0 / (1.0 + exp((smooth->likelihood - kinked->likelihood) / factor));
+    return (clast_estimate){exp((1.0 - share) * log(smooth->value) + share * log(kinked->value)),
+                            fmin(smooth->low, kinked->low), fmax(smooth->high, kinked->high),
+                            false};
 }
 
-/// Layers as one family more, which has no say in what is resolved: it falls steadily to where it
-/// bends, as exp(-r / L) does not, and stands for jumps with it.
-static void add_layers(answer family[3], clx_mixture_fit *f, clast_estimate *e)
+/// Layers as one family more, in the interval alone: theirs falls linearly to where it bends, as
+/// that of an even layer does, and exp(-r / L) beside Gaussians does not.
+static void add_layers(clx_mixture_fit *f, clast_estimate *e)
 {
     clx_mixture_prepare(f->in, CLX_FAMILY_LAYERED, 1.0, f);
-    family[2] = ask(f);
-    family[2].likelihood -= layers_ask;
-    const clast_estimate all = average(family, 3);
-    e->value = all.value;
-    e->low = all.low;
-    e->high = fmax(all.high, e->high); // which has poles
+    const answer layered = ask(f);
+    e->low = fmin(e->low, layered.low);
+    e->high = fmax(e->high, layered.high);
 }
 
 clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *result)
@@ -420,14 +402,12 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
         *result = made;
         goto done;
     }
-    answer family[3] = {ask(f)};
-    const answer smooth = family[0];
+    const answer smooth = ask(f);
     const int32_t n_level = f->n_level;
     clx_mixture_prepare(in, CLX_FAMILY_KINKED, 1.0, f);
-    family[1] = ask(f);
-    const answer kinked = family[1];
+    const answer kinked = ask(f);
     clast_estimate *e = &made.estimate;
-    *e = average(family, 2);
+    *e = average(&smooth, &kinked);
     const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
     const double doubt =
         0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
@@ -440,8 +420,8 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const bool is_chance = is_met && (fabs(log(kinked.value / smooth.value)) > most_between ||
                                       !is_steady(in, &smooth, &kinked, f, e));
     e->resolved = is_met && !is_chance && in->n >= least_points;
-    add_layers(family, f, e);
     if (e->resolved) {
+        add_layers(f, e);
         e->low = e->value * exp(-hypot(log(e->value / e->low), form_error));
         e->high = e->value * exp(hypot(log(e->high / e->value), form_error));
     }
