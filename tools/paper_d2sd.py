@@ -536,7 +536,12 @@ def table_matrix(_, share):
         n, clouds, *scene = wanted[name]
         more[name] = (n, AGAIN * clouds, *scene)
     again = {row_name(r): r for r in read_rows(table_again)}
-    return matrix_lines(made, make_rows(again, more, OTHER_SEEDS, table_again))
+    rule = {row_name(r): r["rule"] for r in made}
+    kept = [r for name, r in again.items() if name not in more and r["rule"] == rule.get(name)]  # of rows by an earlier rule
+    again_made = make_rows(again, more, OTHER_SEEDS, table_again)
+    all_again = sorted(again_made + kept, key=lambda r: list(wanted).index(row_name(r)))
+    write_rows(all_again, table_again)
+    return matrix_lines(made, all_again)
 
 
 def matrix_rules(rows):
