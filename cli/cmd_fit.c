@@ -295,15 +295,15 @@ static void tell_few(const config *c, const job *j)
 {
     const clast_table *t = &j->fit.ranking;
     const int32_t n = j->fit.model.n_term;
-    int n_kept = 0;
+    int n_candidate = 0;
     if (c->fit.use[0] != '\0' || n >= c->fit.n_term) {
         return;
     }
     for (int64_t k = 0; k < t->n_row; ++k) {
-        n_kept += strcmp(t->column[3].text[k], "kept") == 0 ? 1 : 0;
+        n_candidate += strcmp(t->column[3].text[k], "kept") == 0 ? 1 : 0;
     }
     (void)fprintf(stderr, "clast fit: %d of %d features: ", n, c->fit.n_term);
-    if (n_kept > 0) {
+    if (n_candidate > 0) {
         (void)fprintf(stderr, "with one more no candidate can be fitted to each training set\n");
     } else {
         (void)fprintf(stderr,

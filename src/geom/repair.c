@@ -148,41 +148,76 @@ static bool bounds_nothing(const clast_mesh_check_result *found, int32_t part)
     return facing != 0 && (inside > 0) == (inside - facing > 0);
 }
 
+/// Parts of a surface, and which part each triangle is of.
+typedef struct {
+    clx_topology topology;
+    clast_mesh_check_result found;
+    int32_t *of_triangle; ///< [n_tri] -1: none
+    bool *is_dropped;     ///< [n_part]
+    int32_t n;
+} parts;
+
+static clast_status find_parts(const clast_mesh *mesh, parts *p)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_topology_build(mesh, &p->topology));
+    CLX_TRY(clx_check_parts(mesh, &p->topology, &p->found));
+    CLX_TRY(clx_alloc(&p->of_triangle, mesh->n_tri, sizeof *p->of_triangle));
+    CLX_TRY(clx_topology_parts(&p->topology, mesh->n_tri, p->of_triangle, &p->n));
+    CLX_TRY(clx_alloc(&p->is_dropped, p->n, sizeof *p->is_dropped));
+done:
+    return status;
+}
+
+static void free_parts(parts *p)
+{
+    clx_topology_free(&p->topology);
+    clast_mesh_check_free(&p->found);
+    clx_free(p->of_triangle);
+    clx_free(p->is_dropped);
+}
+
+/// Drops the triangles of parts that are marked, and those of no part if so asked.
+static clast_status drop_parts(clast_mesh *mesh, const parts *p, bool drops_others,
+                               clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    bool *mark = NULL;
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        const int32_t part = p->of_triangle[t];
+        mark[t] = part >= 0 ? p->is_dropped[part] : drops_others;
+    }
+    for (int32_t i = 0; i < p->n; ++i) {
+        report->n_part_dropped += p->is_dropped[i];
+    }
+    (void)clx_drop_marked(mesh, mark);
+done:
+    clx_free(mark);
+    return status;
+}
+
 /// Drops what has the solid on both sides, or on none: the surface of the union is left. Parts that
 /// cut each other stay, since they are in and out.
 static clast_status unite(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
     clast_status status = CLAST_OK;
-    clx_topology topology = {0};
-    clast_mesh_check_result found = {0};
+    parts p = {.n = 0};
     clx_cuts cuts = {0};
-    int32_t *part = NULL;
-    bool *mark = NULL;
-    int32_t n_part = 0;
-    CLX_TRY(clx_topology_build(mesh, &topology));
-    CLX_TRY(clx_check_parts(mesh, &topology, &found));
-    if (found.n_doubled == 0) {
+    CLX_TRY(find_parts(mesh, &p));
+    if (p.found.n_doubled == 0) {
         goto done;
     }
     CLX_TRY(clx_mesh_cuts(mesh, &cuts));
     if (cuts.n_pair > 0 || !cuts.complete) {
         goto done;
     }
-    CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
-    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
-    CLX_TRY(clx_topology_parts(&topology, mesh->n_tri, part, &n_part));
-    for (int32_t i = 0; i < n_part; ++i) {
-        report->n_part_dropped += bounds_nothing(&found, i);
+    for (int32_t i = 0; i < p.n; ++i) {
+        p.is_dropped[i] = bounds_nothing(&p.found, i);
     }
-    for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        mark[t] = part[t] >= 0 && bounds_nothing(&found, part[t]);
-    }
-    (void)clx_drop_marked(mesh, mark);
+    CLX_TRY(drop_parts(mesh, &p, false, report));
 done:
-    clx_topology_free(&topology);
-    clast_mesh_check_free(&found);
-    clx_free(part);
-    clx_free(mark);
+    free_parts(&p);
     return status;
 }
 
@@ -190,40 +225,23 @@ done:
 static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
     clast_status status = CLAST_OK;
-    clx_topology topology = {0};
-    clast_mesh_check_result found = {0};
-    int32_t *part = NULL;
-    bool *mark = NULL;
-    int32_t n_part = 0;
+    parts p = {.n = 0};
     int32_t best = 0;
-    CLX_TRY(clx_topology_build(mesh, &topology));
-    CLX_TRY(clx_check_parts(mesh, &topology, &found));
-    CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
-    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
-    CLX_TRY(clx_topology_parts(&topology, mesh->n_tri, part, &n_part));
-    for (int32_t i = 1; i < n_part; ++i) {
-        const clast_mesh_part *p = &found.part[i];
-        const clast_mesh_part *q = &found.part[best];
-        const bool larger = p->closed == q->closed
-                                ? (p->closed ? p->volume > q->volume : p->area > q->area)
-                                : p->closed;
+    CLX_TRY(find_parts(mesh, &p));
+    const clast_mesh_part *list = p.found.part;
+    for (int32_t i = 1; i < p.n; ++i) {
+        const bool larger = list[i].closed == list[best].closed
+                                ? (list[i].closed ? list[i].volume > list[best].volume
+                                                  : list[i].area > list[best].area)
+                                : list[i].closed;
         best = larger ? i : best;
     }
-    report->n_part_dropped += n_part;
-    for (int32_t i = 0; i < n_part; ++i) {
-        const clast_mesh_part *p = &found.part[i];
-        report->n_part_dropped -= i == best || (p->outermost == best && p->volume < 0.0);
+    for (int32_t i = 0; i < p.n; ++i) {
+        p.is_dropped[i] = i != best && !(list[i].outermost == best && list[i].volume < 0.0);
     }
-    for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        const clast_mesh_part *p = part[t] >= 0 ? &found.part[part[t]] : NULL;
-        mark[t] = p == NULL || !(part[t] == best || (p->outermost == best && p->volume < 0.0));
-    }
-    (void)clx_drop_marked(mesh, mark);
+    CLX_TRY(drop_parts(mesh, &p, true, report));
 done:
-    clx_topology_free(&topology);
-    clast_mesh_check_free(&found);
-    clx_free(part);
-    clx_free(mark);
+    free_parts(&p);
     return status;
 }
 
