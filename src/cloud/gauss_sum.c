@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/gauss_beyond.h"
 #include "math/sort.h"
 #include <clast/machine.h>
 #include <clast/status.h>
@@ -18,8 +19,10 @@ enum {
     CHUNK = 1 << 20, ///< points that are put in order at once
     TILE = 64,       ///< lines that are convolved side by side
     PLANES = 16,     ///< slabs of axis 0 that are convolved at once
-    GROUP = 8, ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
-    MARGIN = 2 ///< nodes beyond the outermost points
+    GROUP = 8,  ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
+    MARGIN = 2, ///< nodes beyond the outermost points
+    LEAST_NODES = 1 << 21, ///< that a grid may have, whatever the points
+    NODES_A_POINT = 8      ///< and beside them
 };
 static const double SPACING = 1.0 / 3.0; ///< times 1 / beta
 
@@ -105,9 +108,12 @@ typedef struct {
     int64_t n;
     int32_t d;
     double h;
-    double unit;      ///< nodes are counted in 1 / unit
-    double low[3];    ///< of node 0
-    int64_t nodes[3]; ///< along each axis, 1 beyond d
+    double unit;       ///< nodes are counted in 1 / unit
+    double low[3];     ///< of node 0
+    double end[3][2];  ///< of the points that are on the grid
+    bool is_cut[3][2]; ///< whether there are points beyond that end
+    bool is_whole;     ///< there are none, at no end
+    int64_t nodes[3];  ///< along each axis, 1 beyond d
     int64_t size;
     int64_t *count;   ///< [size] of this rank's points, then of all
     double *node;     ///< [size] what was counted, in its memory, on rank 0
@@ -180,19 +186,36 @@ static int64_t column_of(const grid *g, int64_t i)
     return g->d > 1 ? slab * g->nodes[1] + spline_weights(g, y[1], 1, unused) : slab;
 }
 
+static bool is_on_grid(const grid *g, const double *y)
+{
+    bool is_on = true;
+    for (int32_t j = 0; j < g->d; ++j) {
+        is_on = is_on && y[j] >= g->end[j][0] && y[j] <= g->end[j][1];
+    }
+    return is_on;
+}
+
+static uint64_t column_width(const grid *g)
+{
+    return g->d > 1 ? (uint64_t)g->nodes[1] : 1;
+}
+
+/// Points beyond the grid come last, behind its last slab.
 static void take_columns(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const grid *g = context;
+    const uint64_t beyond = (uint64_t)g->nodes[0] * column_width(g);
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        g->order[i] = (clx_keyed){(uint64_t)column_of(g, i), (uint64_t)i};
+        const bool is_on = is_on_grid(g, g->y + i * g->d);
+        g->order[i] = (clx_keyed){is_on ? (uint64_t)column_of(g, i) : beyond, (uint64_t)i};
     }
 }
 
 /// Points by column, so that neighbours on the grid follow each other; in index order within one.
 static clast_status sort_by_column(grid *g)
 {
-    const uint64_t width = g->d > 1 ? (uint64_t)g->nodes[1] : 1;
+    const uint64_t width = column_width(g);
     clx_parallel_for(g->n, POINTS_A_BLOCK, take_columns, g);
     const clast_status status = clx_sort_keyed(g->order, g->n);
     int64_t at = 0;
@@ -257,23 +280,49 @@ static void find_ends(const clx_part *part, double low[3], double high[3])
     }
 }
 
+/// A grid over the points whose coordinates are at most `half` from 0; whether it has at most so
+/// many nodes.
+static bool try_grid(grid *g, const double low[3], const double high[3], double half, int64_t most)
+{
+    double size = 1.0;
+    for (int32_t j = 0; j < 3; ++j) {
+        g->low[j] = 0.0;
+        g->nodes[j] = 1;
+        if (j < g->d) {
+            g->is_cut[j][0] = low[j] < -half;
+            g->is_cut[j][1] = high[j] > half;
+            g->end[j][0] = fmax(low[j], -half);
+            g->end[j][1] = fmin(high[j], half);
+            g->low[j] = g->end[j][0] - MARGIN * g->h;
+            g->nodes[j] = (int64_t)ceil((g->end[j][1] - g->low[j]) / g->h) + MARGIN + 1;
+        }
+        size *= (double)g->nodes[j];
+    }
+    g->size = size <= (double)most ? (int64_t)size : 0;
+    return g->size > 0;
+}
+
+/// The grid over all points where that is not much larger than they are many; else over those about
+/// the centre. White coordinates have the mean 0 and the variance 1, so that by Chebyshev's
+/// inequality a few per cent lie beyond at the most.
 static clast_status lay_grid(const clx_part *part, grid *g)
 {
     clast_status status = CLAST_OK;
     double low[3] = {0};
     double high[3] = {0};
-    g->size = 1;
+    const int64_t most_nodes = LEAST_NODES + NODES_A_POINT * part->n_all;
     find_ends(part, low, high);
-    for (int32_t j = 0; j < 3; ++j) {
-        g->low[j] = 0.0;
-        g->nodes[j] = 1;
-        if (j < g->d) {
-            g->low[j] = low[j] - MARGIN * g->h;
-            g->nodes[j] = (int64_t)ceil((high[j] - g->low[j]) / g->h) + MARGIN + 1;
+    g->is_whole = try_grid(g, low, high, (double)INFINITY, most_nodes);
+    if (!g->is_whole) {
+        int64_t fits = 0; // half a width in nodes
+        int64_t too_wide = most_nodes;
+        while (too_wide - fits > 1) {
+            const int64_t middle = fits + (too_wide - fits) / 2;
+            const bool is_small = try_grid(g, low, high, (double)middle * g->h, most_nodes);
+            fits = is_small ? middle : fits;
+            too_wide = is_small ? too_wide : middle;
         }
-        g->size *= g->nodes[j];
-        CLX_CHECK(g->size <= INT64_C(1) << 31, CLAST_E_LIMIT,
-                  "the grid of the Henze-Zirkler test needs more than 2^31 nodes");
+        (void)try_grid(g, low, high, (double)fits * g->h, most_nodes);
     }
     const int64_t most = part->n < CHUNK ? part->n : CHUNK;
     status = clx_alloc(&g->count, g->size, sizeof *g->count);
@@ -414,8 +463,83 @@ done:
     return status;
 }
 
-/// Spreads this rank's points, chunk by chunk.
-static clast_status spread(const clx_part *part, grid *g)
+/// Points [..][d] that are put aside, some here, then of all ranks.
+typedef struct {
+    double *y;
+    int64_t n, room;
+} aside;
+
+static clast_status put_aside(const double *y, int32_t d, aside *to)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&to->y, &to->room, (to->n + 1) * d, sizeof *to->y));
+    memcpy(to->y + to->n * d, y, (size_t)d * sizeof *y);
+    ++to->n;
+done:
+    return status;
+}
+
+/// Further apart the kernel has no coefficients, and the Gaussian is below 1e-16.
+static double reach_of(const grid *g)
+{
+    return HALF_WIDTH * g->h;
+}
+
+/// Whether a point on the grid may have neighbours beyond it.
+static bool is_at_edge(const grid *g, const double *y)
+{
+    bool is_near = false;
+    for (int32_t j = 0; j < g->d; ++j) {
+        is_near = is_near || (g->is_cut[j][0] && y[j] < g->end[j][0] + reach_of(g)) ||
+                  (g->is_cut[j][1] && y[j] > g->end[j][1] - reach_of(g));
+    }
+    return is_near;
+}
+
+/// Of the chunk, the points beyond the grid, [0], and those on it that may be their neighbours.
+static clast_status sort_out(const grid *g, aside list[2])
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < g->n && !g->is_whole; ++i) {
+        const double *y = g->y + i * g->d;
+        const bool is_on = is_on_grid(g, y);
+        if (!is_on || is_at_edge(g, y)) {
+            CLX_TRY(put_aside(y, g->d, &list[is_on ? 1 : 0]));
+        }
+    }
+done:
+    return status;
+}
+
+/// Sum over the pairs of all ranks' points with those beyond the grid, on rank 0.
+static clast_status sum_beyond(const clx_part *part, const grid *g, double beta,
+                               const aside list[2], double *sum)
+{
+    clast_status status = CLAST_OK;
+    const size_t bytes = (size_t)g->d * sizeof(double);
+    clx_gathered all[2] = {{0}, {0}};
+    double *y = NULL;
+    for (int k = 0; k < 2; ++k) {
+        CLX_TRY(clx_comm_gather(part->comm, list[k].y, list[k].n * (int64_t)bytes, &all[k]));
+    }
+    const int64_t n = (all[0].n + all[1].n) / (int64_t)bytes;
+    CLX_TRY(clx_alloc(&y, n * g->d, sizeof *y));
+    for (int k = 0; k < 2; ++k) {
+        if (all[k].n > 0) {
+            memcpy((char *)y + (k > 0 ? all[0].n : 0), all[k].bytes, (size_t)all[k].n);
+        }
+    }
+    const clx_gauss_beyond points = {g->d, all[0].n / (int64_t)bytes, n, y, beta, reach_of(g)};
+    CLX_TRY(clx_gauss_sum_beyond(&points, sum));
+done:
+    clx_gathered_free(&all[0]);
+    clx_gathered_free(&all[1]);
+    clx_free(y);
+    return status;
+}
+
+/// Spreads this rank's points, chunk by chunk, and puts aside those that the grid does not serve.
+static clast_status spread(const clx_part *part, grid *g, aside list[2])
 {
     clast_status status = CLAST_OK;
     double *made = NULL;
@@ -429,6 +553,7 @@ static clast_status spread(const clx_part *part, grid *g)
             clx_part_copy(part, at, g->n, made);
         }
         CLX_TRY(sort_by_column(g));
+        CLX_TRY(sort_out(g, list));
         for (int parity = 0; parity < 2; ++parity) {
             colour c = {g, parity};
             clx_parallel_for((g->nodes[0] + 2 * GROUP - 1) / (2 * GROUP), 1, spread_groups, &c);
@@ -474,9 +599,11 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
     CLAST_ASSERT(part->n_all > 0 && part->d >= 1 && part->d <= 3 && beta > 0.0);
     clast_status status = CLAST_OK;
     grid g = {.d = part->d, .h = SPACING / beta, .unit = unit_of(part->n_all)};
+    aside list[2] = {{0}, {0}};
+    double beyond = 0.0;
     kernel_coefficients(g.kernel);
     CLX_TRY(lay_grid(part, &g));
-    CLX_TRY(clast_comm_agree(part->comm, spread(part, &g), NULL));
+    CLX_TRY(clast_comm_agree(part->comm, spread(part, &g, list), NULL));
     clx_free(g.order);
     g.order = NULL;
     clx_comm_sum(part->comm, g.count, g.size);
@@ -486,11 +613,15 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
     }
     status = part->comm->rank == 0 ? evaluate(&g, sum) : CLAST_OK;
     CLX_TRY(clast_comm_agree(part->comm, status, NULL));
+    CLX_TRY(clast_comm_agree(part->comm, sum_beyond(part, &g, beta, list, &beyond), NULL));
+    *sum += beyond;
     part->comm->broadcast(part->comm->context, 0, sum, (int64_t)sizeof *sum);
 done:
     clx_free(g.count);
     clx_free(g.node);
     clx_free(g.start);
     clx_free(g.order);
+    clx_free(list[0].y);
+    clx_free(list[1].y);
     return status;
 }

@@ -2,10 +2,13 @@
  * reference. */
 #include "support.h"
 
+#include "cloud/gauss_beyond.h"
 #include "cloud/pair_sums.h"
 #include "math/rng.h"
 #include "oracle.h"
 #include <clast/decompose.h>
+#include <clast/machine.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,6 +91,56 @@ static void henze_zirkler_matches_the_reference(void **state)
         CHECK_OK(
             clast_henze_zirkler_test(points.u, points.n, points.d, CLAST_SUMS_BINNED, &gridded));
         CHECK_ABS(gridded.HZ, r.HZ, 2e-4);
+    }
+}
+
+/// Nearly all points in a narrow plume, whose whitened scores leave the others some 40 standard
+/// deviations away: a grid over them all would take gigabytes.
+static void henze_zirkler_of_a_plume_takes_little_memory(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    static double u[3 * N];
+    clast_henze_zirkler r, gridded;
+    for (int64_t i = 0; i < N; ++i) {
+        clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)i);
+        for (int32_t j = 0; j < 3; ++j) {
+            u[i * 3 + j] = i % 100 == 0 ? clx_rng_uniform(&rng) : 0.5 + 0.01 * clx_rng_normal(&rng);
+        }
+    }
+    CHECK_OK(clast_henze_zirkler_test(u, N, 3, CLAST_SUMS_EXACT, &r));
+    CHECK_OK(clast_memory_set_limit(clast_memory_taken() + 100000000));
+    const clast_status status = clast_henze_zirkler_test(u, N, 3, CLAST_SUMS_BINNED, &gridded);
+    CHECK_OK(clast_memory_set_limit(0));
+    CHECK_OK(status);
+    CHECK_ABS(gridded.HZ, r.HZ, 1e-6 * r.HZ);
+}
+
+/// Its neighbours lie in cells around it, those that are not beyond count twice.
+static void sums_beyond_a_grid_equal_brute_force(void **state)
+{
+    (void)state;
+    enum { N = 500, N_BEYOND = 200 };
+    static double y[3 * N];
+    for (int32_t d = 1; d <= 3; ++d) {
+        for (int32_t k = 0; k < N * d; ++k) {
+            clx_rng rng = clx_rng_at(4, CLX_STREAM_TEST, (uint64_t)k);
+            y[k] = 3.0 * clx_rng_normal(&rng);
+        }
+        const clx_gauss_beyond p = {d, N_BEYOND, N, y, 2.0, 4.0};
+        double found = 0.0;
+        double expected = 0.0;
+        for (int32_t k = 0; k < N; ++k) {
+            for (int32_t l = 0; l < N; ++l) {
+                double r2 = 0.0;
+                for (int32_t j = 0; j < d; ++j) {
+                    r2 += pow(y[k * d + j] - y[l * d + j], 2.0);
+                }
+                expected += k < N_BEYOND || l < N_BEYOND ? exp(-2.0 * r2) : 0.0;
+            }
+        }
+        CHECK_OK(clx_gauss_sum_beyond(&p, &found));
+        CHECK_ABS(found, expected, 1e-10 * expected);
     }
 }
 
@@ -233,6 +286,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(discrepancies_match_the_reference),
         cmocka_unit_test(henze_zirkler_matches_the_reference),
+        cmocka_unit_test(henze_zirkler_of_a_plume_takes_little_memory),
+        cmocka_unit_test(sums_beyond_a_grid_equal_brute_force),
         cmocka_unit_test(correlations_match_the_reference),
         cmocka_unit_test(scores_match_the_reference),
         cmocka_unit_test(ideal_scores_match_the_table),

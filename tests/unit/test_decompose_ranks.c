@@ -42,6 +42,15 @@ static void place(int64_t i, int32_t d, double *x)
     x[0] = own % 20 == 3 ? 0.5 : x[0];
 }
 
+/// A narrow plume, and one point in a hundred anywhere: more than a spline grid holds.
+static void place_in_plume(int64_t i, int32_t d, double *x)
+{
+    clx_rng rng = clx_rng_at(11, CLX_STREAM_TEST, (uint64_t)i);
+    for (int32_t j = 0; j < d; ++j) {
+        x[j] = i % 100 == 0 ? clx_rng_uniform(&rng) : 0.5 + 0.01 * clx_rng_normal(&rng);
+    }
+}
+
 typedef struct {
     int32_t d;
     int deal;
@@ -190,6 +199,7 @@ typedef struct {
     int32_t cells; ///< clast_cell_kind
     bool is_crossed, is_varied;
     int32_t n_ghost_sample;
+    bool is_plume;
 } scene;
 
 static const char cube[] = "box:0,0,0,1,1,1";
@@ -213,7 +223,7 @@ static void compare(const scene *s)
     whole.variable = s->is_varied ? calloc(MANY, sizeof *whole.variable) : NULL;
     for (int64_t i = 0; i < MANY; ++i) {
         clx_rng rng = clx_rng_at(12, CLX_STREAM_TEST, (uint64_t)i);
-        place(i, d, whole.x + i * d);
+        (s->is_plume ? place_in_plume : place)(i, d, whole.x + i * d);
         if (s->is_weighted) {
             whole.weight[i] = exp(0.7 * clx_rng_normal(&rng));
         }
@@ -244,6 +254,12 @@ static void a_cube_is_the_same_bytes(void **state)
 {
     (void)state;
     compare(&(scene){cube, 3, false, true, .cells = CLAST_CELLS_AUTO});
+}
+
+static void a_plume_is_the_same_bytes(void **state)
+{
+    (void)state;
+    compare(&(scene){cube, 3, .cells = CLAST_CELLS_TREE, .is_plume = true});
 }
 
 static void a_square_is_the_same_bytes(void **state)
@@ -502,6 +518,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cube_is_the_same_bytes),
+        cmocka_unit_test(a_plume_is_the_same_bytes),
         cmocka_unit_test(a_square_is_the_same_bytes),
         cmocka_unit_test(weights_are_the_same_bytes),
         cmocka_unit_test(a_closed_surface_is_the_same_bytes),
