@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 AXE = "axe-core@4.14.1"
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # by the processor, whatever card is there
 NO_WEBGL = ("--disable-gpu", "--disable-3d-apis")
+NEIGHBOURS = ("--allow-file-access-from-files",)  # a page from disk reads the files beside it, which no reader's browser lets it: axe-core style sheets
 CHROMIUM = os.environ.get("CHROMIUM", "chromium")  # another browser of its kind, such as chromium-headless-shell
 
 
@@ -32,7 +33,7 @@ class Browser:
 
         self.process = subprocess.Popen(
             [CHROMIUM, "--headless=new", "--no-sandbox", *flags, "--disable-dev-shm-usage", "--disable-extensions", "--hide-scrollbars", "--no-first-run",
-             "--disable-component-update", "--disable-background-networking", "--allow-file-access-from-files",
+             "--disable-component-update", "--disable-background-networking",
              f"--user-data-dir={self.profile.name}", "--remote-debugging-pipe", "about:blank"],
             preexec_fn=places, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_it)

@@ -24,7 +24,7 @@ import tarfile
 import time
 import urllib.parse
 
-from browser import AXE, CHROMIUM, Browser, axe_source, told
+from browser import AXE, CHROMIUM, NEIGHBOURS, Browser, axe_source, told
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 AXE_RUN = """axe.run(document, {resultTypes: ["violations"]ONLY}).then(r => r.violations
@@ -123,7 +123,7 @@ def main():
     if asked.pictures:
         asked.pictures.mkdir(parents=True, exist_ok=True)
     axe, ids, n_fault, free = axe_source(), {}, 0, queue.SimpleQueue()
-    browsers = [Browser() for _ in range(min(asked.jobs, len(pages)))]
+    browsers = [Browser(("--disable-gpu", *NEIGHBOURS)) for _ in range(min(asked.jobs, len(pages)))]
     for browser in browsers:
         free.put(browser)
 

@@ -1,7 +1,6 @@
 """clast-live.html, one file that opens from disk: make_live.py BUILD writes BUILD/clast-live.html from web/live, the report's style and BUILD/npm.
 
-The script that runs is named by its digest in the page's policy, the worker is made of the module's text in the page, and clast.wasm
-stands in it compressed; nothing is fetched."""
+The script that runs is named by its digest in the page's policy; the worker's script and clast.wasm stand in it compressed; nothing is fetched."""
 import base64
 import gzip
 import hashlib
@@ -42,6 +41,7 @@ def page(build):
     policy = (f"default-src 'none'; script-src {digests} blob: 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; "
               "img-src data: blob:; connect-src blob:; base-uri 'none'; form-action 'none'")
     program = packed((build / "npm/clast.wasm").read_bytes())
+    worker = (build / "clast-core.js").read_text() + "\n" + bare((web / "wasm/command.js").read_text() + (web / "live/worker.js").read_text())
     viewer = packed((web / "dist/view.js").read_bytes())
     grains = [f'<script type="text/plain" data-grain="{name}">{base64.b64encode((ROOT / "data/standin63" / name).read_bytes()).decode()}</script>' for name in GRAINS]
     version = json.loads((build / "npm/package.json").read_text())["version"]
@@ -54,7 +54,7 @@ def page(build):
         '<meta name="viewport" content="width=device-width, initial-scale=1">', '<meta name="color-scheme" content="light dark">',
         '<title>clast live</title>', f'<link rel="icon" href="{ICON}">', f"<style>\n{style}</style>", '</head>', '<body>', body,
         f'<footer><details><summary>Licences</summary><pre>{html.escape((ROOT / "LICENSE").read_text() + chr(10) + (web / "dist/LICENSE-three.txt").read_text() + chr(10) + notice)}</pre></details></footer>',
-        f'<script type="text/plain" id="clast-module">{packed((build / "npm/clast.mjs").read_bytes())}</script>',
+        f'<script type="text/plain" id="clast-worker">{packed(worker.encode())}</script>',
         f'<script type="text/plain" id="clast-view">{viewer}</script>', *grains,
         f'<script type="text/plain" id="clast-wasm">{program}</script>', *(f"<script>{script}</script>" for script in scripts), '</body>', '</html>', ''])
 

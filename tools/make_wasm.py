@@ -1,4 +1,4 @@
-"""The npm package of a WebAssembly build: make_wasm.py BUILD NATIVE writes BUILD/npm from BUILD/clast-core.{js,wasm}, web/wasm/clast.mjs and
+"""The npm package of a WebAssembly build: make_wasm.py BUILD NATIVE writes BUILD/npm from BUILD/clast-core.{js,wasm}, web/wasm and
 the options that `NATIVE describe --json` names."""
 import gzip
 import json
@@ -129,7 +129,7 @@ def main():
     described = json.loads(subprocess.run([native, "describe", "--json"], capture_output=True, text=True, check=True).stdout)
     folder = build / "npm"
     folder.mkdir(exist_ok=True)
-    module = (build / "clast-core.js").read_text() + "\n" + (ROOT / "web/wasm/clast.mjs").read_text()
+    module = "\n".join(path.read_text() for path in (build / "clast-core.js", ROOT / "web/wasm/command.js", ROOT / "web/wasm/clast.mjs"))
     (folder / "clast.mjs").write_text(module)
     (folder / "clast.d.ts").write_text(declarations(described))
     (folder / "package.json").write_text(json.dumps(package(described["version"]), indent=2) + "\n")

@@ -45,7 +45,7 @@ def lacking(*programs):
     made = PACKAGE / "clast.wasm"
     if not made.exists():
         return f"{made} is not here; make wasm makes it"
-    newest = max(p.stat().st_mtime for folder in ("src", "cli", "include", "web/wasm", "web/live", "web/dist") for p in (ROOT / folder).rglob("*.*"))
+    newest = max(p.stat().st_mtime for folder in ("src", "cli", "include", "web/wasm", "web/live", "web/dist", "tools/portable") for p in (ROOT / folder).rglob("*.*"))
     if newest > (PACKAGE / "clast.mjs").stat().st_mtime:
         return f"{made} is older than the sources; make wasm makes it anew"
     absent = [program for program in programs if not shutil.which(program)]

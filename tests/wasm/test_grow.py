@@ -33,6 +33,34 @@ class Grow(page.Live):
             self.assertEqual((folder / "zipped.csv").read_bytes(), native)
             self.native(folder, "render", "aggregate", "-o", "picture.png")
 
+    def test_the_scene_that_it_opens_with_is_that_of_its_command(self):
+        """Two of 81 fall speeds differed by a bit from those of a terminal: log10 was not glibc's."""
+        self.browser.open("about:blank")
+        self.assertIsNone(self.browser.open(page.PAGE.as_uri()))
+        self.until("!document.getElementById('grow-result').hidden && !rooms.grow.running", 120)
+        self.assertEqual(self.text("grow-error"), "")
+        with page.Folder() as folder:
+            self.command(folder)
+            self.assertEqual(hashlib.sha256((folder / "aggregate/history.csv").read_bytes()).hexdigest(), self.text("grow-hash"))
+            self.assertEqual(len((folder / "aggregate/history.csv").read_text().splitlines()), 82)  # columns, the core and 80 particles
+
+    def test_a_worker_that_ends_is_told(self):
+        """One that Chromium did not start was 'undefined', and the room computed for ever."""
+        ends = "(() => { rooms.grow.go(); const said = rooms.grow.$('state').textContent; rooms.grow.engine.worker.dispatchEvent(new ErrorEvent('error', GIVEN)); return said; })()"
+        self.set(replicate="2", rays="1", orientations="1")
+        self.assertEqual(self.browser.value(ends.replace("GIVEN", "{message: 'lost'}")), "computing")
+        self.until("!rooms.grow.running", 10)
+        self.assertEqual([self.text("grow-state"), self.text("grow-error")], ["", "the worker ended: lost"])
+        self.until("rooms.grow.engine.isReady", 60)  # another has begun
+        self.grow()
+        self.browser.value("(() => { rooms.grow.engine.cancel(); rooms.grow.engine.worker.dispatchEvent(new Event('error')); })()")
+        for _ in range(2):  # none has: each run says so
+            self.assertEqual(self.text("grow-state"), "")
+            self.assertRegex(self.text("grow-error"), "^the worker in which clast computes was not started")
+            self.assertTrue(self.browser.value("document.getElementById('grow-run').disabled"))
+            self.browser.value("rooms.grow.go()")
+            self.until("!rooms.grow.running", 10)
+
     def test_it_is_rewound_with_its_numbers(self):
         self.grow()
         self.browser.value("(() => { const s = document.getElementById('grow-moment'); s.value = 3; s.dispatchEvent(new Event('input')); })()")

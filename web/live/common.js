@@ -1,9 +1,9 @@
-// What the rooms share: clast in a worker made of this page's own text, tables, texts, files out, the address.
+// What the rooms share: clast in a worker made of a text of this page, tables, texts, files out, the address.
 const $ = (id) => document.getElementById(id);
 const MOST_SHARED = 60000; // letters of an address that browsers keep
 const COLOURS = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'];
 const LABELS = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#737373'];
-let program = null; // clast: its module, and its code compiled
+let program = null; // clast: its worker's script, and its code compiled
 
 function bytesOf(base64) {
   return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -26,17 +26,23 @@ class Engine {
   constructor(onReady, onFault) { Object.assign(this, { onReady, onFault, number: 0, pending: null, onFile: null }); }
 
   start() {
-    const text = `${program.module}\nconst made = {};\nonmessage = async ({ data }) => {
-  if (data.program) { made.clast = new Clast(data.program); postMessage({ ready: true }); return; }
-  const onFile = data.watch ? (name, bytes) => postMessage({ id: data.id, file: { name, bytes } }, [bytes.buffer]) : undefined;
-  try { postMessage({ id: data.id, result: await made.clast.run(data.words, { files: data.files, onFile }) }); }
-  catch (fault) { postMessage({ id: data.id, fault: String(fault) }); }\n};`;
-    const address = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
-    this.worker = new Worker(address, { type: 'module' });
+    const address = URL.createObjectURL(new Blob([program.worker], { type: 'text/javascript' }));
+    this.fault = null;
+    this.worker = new Worker(address);
     this.worker.onmessage = ({ data }) => this.hear(data);
-    this.worker.onerror = (event) => this.onFault(`the worker ended: ${event.message}`);
+    this.worker.onerror = (event) => this.end(event.message ? `the worker ended: ${event.message}` : 'the worker in which clast computes was not started by this browser');
     this.worker.postMessage({ program: program.code });
     this.address = address;
+  }
+
+  /// A worker has ended, or never began: the run that waits for it is told why. In place of one that had begun comes another; where none begins, each run after is told, too.
+  end(text) {
+    const { pending, isReady } = this;
+    if (isReady) this.cancel();
+    else { this.worker.terminate(); this.fault = text; }
+    this.pending = null;
+    this.onFault(text);
+    pending?.({ fault: text });
   }
 
   hear(data) {
@@ -49,6 +55,7 @@ class Engine {
 
   /// {result} or {fault}; onFile(name, bytes): files as the run finishes them.
   run(words, files, onFile) {
+    if (this.fault) return Promise.resolve({ fault: this.fault });
     this.number += 1;
     this.onFile = onFile;
     return new Promise((done) => {

@@ -83,7 +83,7 @@ async function begin() {
   window.clastRuns = true;
   try {
     const viewer = loadViewer();
-    program = { module: new TextDecoder().decode(await bundled('clast-module')), code: await WebAssembly.compile(await bundled('clast-wasm')) };
+    program = { worker: new TextDecoder().decode(await bundled('clast-worker')), code: await WebAssembly.compile(await bundled('clast-wasm')) };
     await viewer;
     startEngine();
     if (!isGiven) rooms.grow.go();

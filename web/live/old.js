@@ -5,6 +5,6 @@
   for (k = 0; k < rooms.length; k += 1) {
     document.getElementById(rooms[k] + 'state').textContent = '';
     document.getElementById(rooms[k] + 'error').textContent = 'This browser is too old for this page, which stands on WebAssembly with SIMD, BigInt and DecompressionStream: '
-      + 'Chromium 91, Firefox 114, Safari 16.4 or newer have them.';
+      + 'Chromium 97, Firefox 113, Safari 16.4 or newer have them.';
   }
 }());

@@ -7,7 +7,7 @@ const GRAINS = new Map([...document.querySelectorAll('script[data-grain]')].map(
 class Room {
   constructor(name) {
     Object.assign(this, { name, files: new Map(), names: new Map(), past: [], turn: 0, inputs: {}, view: null, fixed: null, words: null, result: null });
-    this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => this.fail(text));
+    this.engine = new Engine(() => { if (!this.running) this.say('ready'); this.setReady(); }, (text) => { this.say(''); this.setReady(); this.fail(text); });
   }
 
   $(id) { return $(`${this.name}-${id}`); }

@@ -389,7 +389,7 @@ function wordsNow() {
   return [...words, ...$('more').value.trim().split(/\s+/).filter(Boolean), '-o', 'cells', '--json'];
 }
 
-const splitter = new Engine(() => { say('ready'); setReady(); }, fail);
+const splitter = new Engine(() => { say('ready'); setReady(); }, (text) => { say(''); setReady(); fail(text); });
 
 async function start() {
   fail('');
