@@ -8,7 +8,7 @@
 #include <clast/agglomerate.h>
 #include <math.h>
 
-enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1 };
+enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1, EVENTS_A_PARCEL = 1000 };
 
 uint32_t clx_collide_needs(const clast_collide_config *c)
 {
@@ -31,6 +31,25 @@ typedef struct {
     bool *is_too_many;
 } step_context;
 
+/// A cell's particles as a block, without random numbers.
+static clx_block block_of(const step_context *s, int32_t c)
+{
+    const int64_t begin = s->start[c];
+    return (clx_block){.config = s->config,
+                       .medium =
+                           s->cells->medium != NULL ? &s->cells->medium[c] : &s->config->medium,
+                       .population = s->population,
+                       .member = s->scratch.order + begin,
+                       .next = s->scratch.next,
+                       .frozen = s->scratch.frozen + begin,
+                       .n = s->start[c + 1] - begin,
+                       .kind = s->scratch.kind + begin,
+                       .deal = 1.0,
+                       .scale = s->config->alpha / s->cells->volume[c],
+                       .needs = s->needs,
+                       .ranges = s->ranges};
+}
+
 static void evolve_cell(const step_context *s, int32_t c)
 {
     const int64_t begin = s->start[c];
@@ -38,20 +57,8 @@ static void evolve_cell(const step_context *s, int32_t c)
     const int32_t limit = s->config->block;
     clx_rng rng =
         clx_rng_at(s->config->seed, CLX_STREAM_COLLISION, (s->step << 32) | (uint64_t)(uint32_t)c);
-    clx_block block = {.config = s->config,
-                       .medium =
-                           s->cells->medium != NULL ? &s->cells->medium[c] : &s->config->medium,
-                       .population = s->population,
-                       .member = s->scratch.order + begin,
-                       .next = s->scratch.next,
-                       .frozen = s->scratch.frozen + begin,
-                       .n = n,
-                       .kind = s->scratch.kind + begin,
-                       .deal = 1.0,
-                       .scale = s->config->alpha / s->cells->volume[c],
-                       .needs = s->needs,
-                       .ranges = s->ranges,
-                       .rng = &rng};
+    clx_block block = block_of(s, c);
+    block.rng = &rng;
     if (n < 1 || (n < 2 && !(s->config->self_collisions && s->population->weight != NULL))) {
         return;
     }
@@ -153,6 +160,21 @@ static clast_status check_medium(const clast_medium *medium, uint32_t kernel)
     return status == CLAST_OK ? clast_kernel_check(kernel, medium) : status;
 }
 
+static clast_status check_motion(const clast_population *p, int64_t i)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t k = i * p->dimension; k < (i + 1) * p->dimension; ++k) {
+        CLX_CHECK(isfinite(p->x[k]) && (p->velocity == NULL || isfinite(p->velocity[k])),
+                  CLAST_E_ARGUMENT, "particle %lld has the coordinate %g and the velocity %g",
+                  (long long)i + 1, p->x[k], p->velocity != NULL ? p->velocity[k] : 0.0);
+    }
+    CLX_CHECK(p->speed_rms == NULL || (isfinite(p->speed_rms[i]) && p->speed_rms[i] >= 0.0),
+              CLAST_E_ARGUMENT, "particle %lld has the speed_rms %g", (long long)i + 1,
+              p->speed_rms[i]);
+done:
+    return status;
+}
+
 static clast_status check_population(const clast_population *p, const clast_collide_cells *cells)
 {
     clast_status status = CLAST_OK;
@@ -177,6 +199,7 @@ static clast_status check_population(const clast_population *p, const clast_coll
                   CLAST_E_ARGUMENT,
                   "particle %lld has %lld monomers, the radius %g and the mass %g",
                   (long long)i + 1, (long long)p->monomers[i], p->radius[i], p->mass[i]);
+        CLX_TRY(p->monomers[i] > 0 ? check_motion(p, i) : CLAST_OK);
     }
 done:
     return status;
@@ -247,6 +270,39 @@ static clast_status check_monomers(const step_context *s)
             left -= n;
         }
     }
+done:
+    return status;
+}
+
+/// Whether the heaviest parcel of a cell, where it cannot be used up in the step, meets the others
+/// so often that the step would not end.
+static clast_status check_heaviest(const step_context *s, int32_t c)
+{
+    clast_status status = CLAST_OK;
+    const clast_population *p = s->population;
+    const int64_t *member = s->scratch.order + s->start[c];
+    const double most = EVENTS_A_PARCEL * (double)(s->start[c + 1] - s->start[c]);
+    const clx_block block = block_of(s, c);
+    int64_t heaviest = 0;
+    double least = (double)INFINITY;
+    double events = 0.0;
+    for (int64_t k = 0; k < block.n; ++k) {
+        heaviest = p->weight[member[k]] > p->weight[member[heaviest]] ? k : heaviest;
+        least = fmin(least, p->weight[member[k]]);
+    }
+    if (block.n < 2 || p->weight[member[heaviest]] <= most * least) {
+        return CLAST_OK;
+    }
+    const clx_kind own = clx_block_as_seen(&block, member[heaviest]);
+    for (int64_t k = 0; k < block.n; ++k) {
+        const clx_kind other = clx_block_as_seen(&block, member[k]);
+        events +=
+            k != heaviest ? s->dt * block.scale * clx_block_kernel(&block, &own, &other) : 0.0;
+    }
+    CLX_CHECK(events <= most, CLAST_E_LIMIT,
+              "particle %lld of the weight %g meets the others of cell %d %.3g times in one step, "
+              "%.3g is the most; take shorter time steps, or divide it",
+              (long long)member[heaviest] + 1, p->weight[member[heaviest]], c, events, most);
 done:
     return status;
 }
@@ -327,6 +383,9 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
     CLX_TRY(clx_alloc(&s.is_too_many, cells->n, sizeof *s.is_too_many));
     sort_by_cell(&s);
     CLX_TRY(check_monomers(&s));
+    for (int32_t c = 0; c < cells->n && population->weight != NULL; ++c) {
+        CLX_TRY(check_heaviest(&s, c));
+    }
     CLX_TRY(run_step(&s, n_event));
 done:
     clx_free(s.scratch.order);

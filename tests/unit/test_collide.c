@@ -514,6 +514,56 @@ static void particles_of_one_parcel_collide_at_their_rate(void **state)
     CHECK_ABS((double)n_hit / N, chance, 4.0 * sqrt(chance * (1.0 - chance) / N));
 }
 
+/* A parcel that stands for 1e30 particles is met without end: a step of it is refused, one of 1e4
+ * is taken. */
+static void a_step_of_too_many_events_ends(void **state)
+{
+    (void)state;
+    const double volume = 1.0;
+    for (int mode = 0; mode < 4; ++mode) {
+        for (int is_heavy = 0; is_heavy < 2; ++is_heavy) {
+            clast_collide_config c = kernel("constant");
+            c.collisions = mode % 2 == 0 ? CLAST_COLLISIONS_NEXT : CLAST_COLLISIONS_POISSON;
+            c.block = mode / 2 == 0 ? 1024 : 16;
+            c.medium.constant = 1e-3;
+            clast_population p = singles(200);
+            const clast_collide_cells cells = one_cell(&volume);
+            int64_t n_event = -1;
+            p.weight = weight;
+            for (int i = 0; i < 200; ++i) {
+                weight[i] = 1.0;
+                monomers[i] = 1 + (mode / 2) * i; // kinds enough for blocks
+            }
+            weight[7] = is_heavy ? 1e30 : 1e4;
+            const clast_status status = clast_collide(&p, &cells, 1.0, 1, &c, &n_event);
+            assert_int_equal(status, is_heavy ? CLAST_E_LIMIT : CLAST_OK);
+            assert_true(is_heavy ? weight[7] == 1e30 && n_event == -1 : n_event > 0);
+        }
+    }
+}
+
+/* What does not move by numbers cannot be thinned out silently. */
+static void motion_that_is_no_number_is_refused(void **state)
+{
+    (void)state;
+    const double volume = 1.0;
+    const double bad[] = {(double)NAN, (double)INFINITY, -1.0};
+    const clast_collide_config c = kernel("constant");
+    for (int k = 0; k < 3; ++k) {
+        for (int array = 0; array < 3; ++array) {
+            clast_population p = singles(10);
+            const clast_collide_cells cells = one_cell(&volume);
+            double speed[10] = {0};
+            p.speed_rms = speed;
+            double *const at[] = {&position[4], &velocity[4], &speed[4]};
+            *at[array] = bad[k];
+            const bool is_bad = k < 2 || array == 2;
+            CHECK_STATUS(clast_collide(&p, &cells, 1e-9, 1, &c, NULL),
+                         is_bad ? CLAST_E_ARGUMENT : CLAST_OK);
+        }
+    }
+}
+
 /* Equal weights are particles of another number: the draws of weight 1. */
 static void unit_weights_change_nothing(void **state)
 {
@@ -666,6 +716,8 @@ int main(void)
         cmocka_unit_test(parcels_meet_the_exact_solutions),
         cmocka_unit_test(a_heavy_parcel_keeps_what_did_not_collide),
         cmocka_unit_test(particles_of_one_parcel_collide_at_their_rate),
+        cmocka_unit_test(a_step_of_too_many_events_ends),
+        cmocka_unit_test(motion_that_is_no_number_is_refused),
         cmocka_unit_test(unit_weights_change_nothing),
         cmocka_unit_test(any_thread_count_gives_the_same_aggregates),
         cmocka_unit_test(every_refused_allocation_is_told),
