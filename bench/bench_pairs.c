@@ -22,31 +22,44 @@
 typedef struct {
     const char *name;
     int32_t d;
+    int32_t off;  ///< so many axes, the last ones, along which the block is off the border
     double share; ///< in the structure
     double sd[3]; ///< 0: uniform along this axis
-    double side;  ///< > 0: uniform in a corner block of this side instead
+    double side;  ///< > 0: uniform in a block of this side instead, in the corner
     double layer; ///< > 0: uniform in a layer so thick across the last axis, off the border
 } scene;
 
-static const double layer_low = 0.37;
+static const double layer_low = 0.37; ///< where what is off the border begins
 
-static const scene scenes[] = {{"uniform_3d", 3, 0.0, {0, 0, 0}, 0, 0},
-                               {"sheet_0.02", 3, 1.0, {0, 0, 0.02}, 0, 0},
-                               {"line_0.02", 3, 1.0, {0.02, 0.02, 0}, 0, 0},
-                               {"blob_0.1_of_0.03", 3, 0.1, {0.03, 0.03, 0.03}, 0, 0},
-                               {"blob_0.3_of_0.06", 3, 0.3, {0.06, 0.06, 0.06}, 0, 0},
-                               {"blob_0.5_of_0.05_3d", 3, 0.5, {0.05, 0.05, 0.05}, 0, 0},
-                               {"blob_0.33_of_0.12", 3, 1.0 / 3.0, {0.12, 0.12, 0.12}, 0, 0},
-                               {"octant_0.85", 3, 0.85, {0, 0, 0}, 0.5, 0},
-                               {"uniform_2d", 2, 0.0, {0, 0, 0}, 0, 0},
-                               {"blob_0.5_of_0.05", 2, 0.5, {0.05, 0.05, 0}, 0, 0},
-                               {"stripe_0.02", 2, 1.0, {0, 0.02, 0}, 0, 0},
-                               {"blob_1_of_0.2", 2, 1.0, {0.2, 0.2, 0}, 0, 0},
-                               {"quadrant_0.85", 2, 0.85, {0, 0, 0}, 0.5, 0},
-                               {"uniform_1d", 1, 0.0, {0, 0, 0}, 0, 0},
-                               {"blob_0.5_of_0.02_1d", 1, 0.5, {0.02, 0, 0}, 0, 0},
-                               {"layer_0.1", 3, 1.0, {0, 0, 0}, 0, 0.1},
-                               {"layer_0.2", 3, 1.0, {0, 0, 0}, 0, 0.2}};
+static const scene scenes[] = {{"uniform_3d", 3, 0, 0.0, {0, 0, 0}, 0, 0},
+                               {"sheet_0.02", 3, 0, 1.0, {0, 0, 0.02}, 0, 0},
+                               {"line_0.02", 3, 0, 1.0, {0.02, 0.02, 0}, 0, 0},
+                               {"blob_0.1_of_0.03", 3, 0, 0.1, {0.03, 0.03, 0.03}, 0, 0},
+                               {"blob_0.3_of_0.06", 3, 0, 0.3, {0.06, 0.06, 0.06}, 0, 0},
+                               {"blob_0.5_of_0.05_3d", 3, 0, 0.5, {0.05, 0.05, 0.05}, 0, 0},
+                               {"blob_0.33_of_0.12", 3, 0, 1.0 / 3.0, {0.12, 0.12, 0.12}, 0, 0},
+                               {"octant_0.85", 3, 0, 0.85, {0, 0, 0}, 0.5, 0},
+                               {"uniform_2d", 2, 0, 0.0, {0, 0, 0}, 0, 0},
+                               {"blob_0.5_of_0.05", 2, 0, 0.5, {0.05, 0.05, 0}, 0, 0},
+                               {"stripe_0.02", 2, 0, 1.0, {0, 0.02, 0}, 0, 0},
+                               {"blob_1_of_0.2", 2, 0, 1.0, {0.2, 0.2, 0}, 0, 0},
+                               {"quadrant_0.85", 2, 0, 0.85, {0, 0, 0}, 0.5, 0},
+                               {"uniform_1d", 1, 0, 0.0, {0, 0, 0}, 0, 0},
+                               {"blob_0.5_of_0.02_1d", 1, 0, 0.5, {0.02, 0, 0}, 0, 0},
+                               {"layer_0.1", 3, 0, 1.0, {0, 0, 0}, 0, 0.1},
+                               {"layer_0.2", 3, 0, 1.0, {0, 0, 0}, 0, 0.2},
+                               {"corner_0.1", 3, 0, 1.0, {0, 0, 0}, 0.1, 0},
+                               {"corner_0.03", 3, 0, 1.0, {0, 0, 0}, 0.03, 0},
+                               {"corner_0.01", 3, 0, 1.0, {0, 0, 0}, 0.01, 0},
+                               {"corner_0.001", 3, 0, 1.0, {0, 0, 0}, 0.001, 0},
+                               {"corner_0.94_of_0.1", 3, 0, 0.94, {0, 0, 0}, 0.1, 0},
+                               {"corner_0.8_of_0.1", 3, 0, 0.8, {0, 0, 0}, 0.1, 0},
+                               {"edge_0.1", 3, 1, 1.0, {0, 0, 0}, 0.1, 0},
+                               {"edge_0.01", 3, 1, 1.0, {0, 0, 0}, 0.01, 0},
+                               {"face_0.1", 3, 2, 1.0, {0, 0, 0}, 0.1, 0},
+                               {"cube_0.1", 3, 3, 1.0, {0, 0, 0}, 0.1, 0},
+                               {"corner_0.1_2d", 2, 0, 1.0, {0, 0, 0}, 0.1, 0},
+                               {"corner_0.01_2d", 2, 0, 1.0, {0, 0, 0}, 0.01, 0}};
 
 static double cut_normal(clx_rng *rng, double sd)
 {
@@ -58,12 +71,18 @@ static double cut_normal(clx_rng *rng, double sd)
     }
 }
 
+/// Where the block begins along axis j.
+static double block_low(const scene *s, int j)
+{
+    return j >= s->d - s->off ? layer_low : 0.0;
+}
+
 static void draw(const scene *s, clx_rng *rng, double *x)
 {
     const bool inside = clx_rng_uniform(rng) < s->share;
     for (int j = 0; j < s->d; ++j) {
         x[j] = !inside           ? clx_rng_uniform(rng)
-               : s->side > 0.0   ? s->side * clx_rng_uniform(rng)
+               : s->side > 0.0   ? block_low(s, j) + s->side * clx_rng_uniform(rng)
                : s->sd[j] == 0.0 ? clx_rng_uniform(rng)
                                  : cut_normal(rng, s->sd[j]);
     }
@@ -95,7 +114,8 @@ static double density(const scene *s, const double *x)
     }
     for (int j = 0; j < s->d; ++j) {
         if (s->side > 0.0) {
-            product *= x[j] < s->side ? 1.0 / s->side : 0.0;
+            const double z = x[j] - block_low(s, j);
+            product *= z >= 0.0 && z < s->side ? 1.0 / s->side : 0.0;
         } else if (s->sd[j] > 0.0) {
             const double t = (x[j] - 0.5) / s->sd[j];
             product *= exp(-0.5 * t * t) /

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+static const double least_p = 1e-3; ///< of a fit to g(r) that goes without a warning
+
 static void add_column(json_t *out, const char *key, const clast_pairs *p, const char *column)
 {
     json_t *list = json_array();
@@ -160,6 +162,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         (void)printf("pairs do not resolve the cloud: %s",
                      r->keeps_apart          ? "the points keep apart"
                      : isfinite(i->n_needed) ? ""
+                     : i->fit_p < least_p    ? "g(r) is that of no density; "
                                              : "g rises down to the nearest pairs there are; ");
         if (!r->keeps_apart) {
             cli_points_needed_print(i->n_needed);
@@ -170,7 +173,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
     if (r->disagree) {
         (void)printf("warning: events by pairs and by cells have no number in common; the cells "
                      "hide structure, or points keep apart: look at g(r)\n");
-    } else if (i->fit_p < 1e-3) {
+    } else if (i->fit_p < least_p) {
         (void)printf("warning: g(r) is not that of points drawn from a density (p %s%s): it does "
                      "not fall smoothly from r = 0\n",
                      i->fit_p == 0.0 ? "" : "= ", cli_p_value(i->fit_p));

@@ -9,7 +9,9 @@
 // the widest one that fits as well as narrower ones; the interval is that of the profile likelihood
 // of Poisson numbers with shapes of half that width allowed, widened by the projection term. A
 // density with a pole shows narrower structure the more points there are: a width counts as seen
-// where a part of the points would show it too. [docs/theory/pairs.md section 4]
+// where a part of the points would show it too. Where no shape goes with all pairs, as of compact
+// clouds at the domain's edges and corners, the inner ones are fitted. [docs/theory/pairs.md
+// section 4]
 #include "cloud/pair_integral.h"
 
 #include "base/alloc.h"
@@ -22,10 +24,12 @@
 enum {
     MOST_USED = 24,
     N_BISECT = 12,
-    N_STRETCH = 7, ///< widths tried between two levels
-    FINER = 2,     ///< levels narrower than the chosen one that the interval allows
-    STAYS = 1,     ///< levels that lie between a width and that of fewer points by chance
-    MOST_MOVED = 3 ///< the same in the family where more lie between
+    N_STRETCH = 7,    ///< widths tried between two levels
+    FINER = 2,        ///< levels narrower than the chosen one that the interval allows
+    STAYS = 1,        ///< levels that lie between a width and that of fewer points by chance
+    MOST_MOVED = 3,   ///< the same in the family where more lie between
+    SHELLS_A_CUT = 3, ///< sqrt(2) in distance
+    LEAST_SHELLS = 6  ///< of a window that was cut: a factor of 2
 };
 
 /// Where the choices of the fit stand; all measured in docs/theory/pairs.md.
@@ -50,6 +54,11 @@ static const double form_error = 0.01;    ///< half width that no number of pair
                                           ///< stand for jumps and frames to so much
 static const double least_even = 1000.0;  ///< the same where nothing narrower than that size shows
 static const double most_repeated = 0.05; ///< share of repeated points' pairs in the window
+static const double joined = 10.0;        ///< expected pairs of joined shells
+static const double least_p = 1e-3;       ///< of a fit, numbers divided by their overdispersion
+static const double least_window = 1000.0; ///< pairs of a window that was cut
+static const double enough_p = 0.1;        ///< of the fit of a window that was cut
+static const double window_size = 0.3;     ///< of a cloud's size that pairs.c looks across
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
@@ -179,11 +188,19 @@ static void variances(const clx_mixture_fit *f, const clx_mixture *m, int32_t n_
     }
 }
 
-/// p of Pearson's statistic of the fitted shape, shells joined to 10 expected pairs.
-static double fit_p(const clx_mixture_fit *f, int32_t n_shape, const clx_mixture *m)
+/// How a mixture agrees with the numbers of pairs that it was fitted to.
+typedef struct {
+    double p;    ///< of Pearson's statistic, by Poisson numbers
+    bool misses; ///< beyond what clustered pairs vary by, and by more than a resolved value may err
+} agreement;
+
+/// @param factor  overdispersion of the numbers
+static agreement agreement_of(const clx_mixture_fit *f, int32_t n_shape, const clx_mixture *m,
+                              double factor)
 {
     double mean[CLAST_MAX_SHELL];
     double chi2 = 0.0;
+    double total = 0.0;
     double seen = 0.0;
     double expected = 0.0;
     int n = 0;
@@ -191,13 +208,21 @@ static double fit_p(const clx_mixture_fit *f, int32_t n_shape, const clx_mixture
     for (int32_t k = 0; k < f->in->n_shell; ++k) {
         seen += f->pairs[k];
         expected += mean[k];
-        if (expected >= 10.0) {
+        if (expected >= joined) {
             chi2 += (seen - expected) * (seen - expected) / expected;
+            total += expected;
             seen = expected = 0.0;
             ++n;
         }
     }
-    return n > 1 ? clx_chi2_sf(chi2, n - 1) : 1.0;
+    if (n < 2) {
+        return (agreement){.p = 1.0};
+    }
+    // mean square of the relative misfit beyond chance, each pair counted alike
+    const double square = (chi2 - factor * n) / total;
+    return (agreement){.p = clx_chi2_sf(chi2, n - 1),
+                       .misses = clx_chi2_sf(chi2 / factor, n - 1) < least_p &&
+                                 square > CLX_MOST_BIAS * CLX_MOST_BIAS};
 }
 
 /// Variance of the share of a shape two levels below over that of Poisson numbers: pairs of one
@@ -222,7 +247,7 @@ typedef struct {
     double likelihood, factor; ///< and the overdispersion that it is to be divided by
     double value, low, high, s;
     double least, most; ///< of the profile alone
-    double fit_p;
+    agreement fit;
 } answer;
 
 /// Twice the gain in log-likelihood that a narrower level asks for where a share of the points
@@ -316,7 +341,7 @@ static answer ask(clx_mixture_fit *f)
     a.high = a.value * exp(hypot(log(a.most / a.value), shared));
     a.s = f->s[a.level];
     a.likelihood = m.likelihood;
-    a.fit_p = fit_p(f, clx_mixture_shapes(f, a.level), &m);
+    a.fit = agreement_of(f, n_shape, &m, factor);
     return a;
 }
 
@@ -379,73 +404,209 @@ static clast_estimate average(const answer *smooth, const answer *kinked)
 
 /// Layers as one family more, in the interval alone: theirs falls linearly to where it bends, as
 /// that of an even layer does, and exp(-r / L) beside Gaussians does not.
-static void add_layers(clx_mixture_fit *f, clast_estimate *e)
+static void add_layers(const clx_pair_shells *in, clx_mixture_fit *f, clast_estimate *e)
 {
-    clx_mixture_prepare(f->in, CLX_FAMILY_LAYERED, 1.0, f);
+    clx_mixture_prepare(in, CLX_FAMILY_LAYERED, 1.0, f);
     const answer layered = ask(f);
     e->low = fmin(e->low, layered.low);
     e->high = fmax(e->high, layered.high);
 }
 
+/// Shells of the next smaller window; 0 where too few shells or pairs would be left.
+static int32_t next_window(const clx_pair_shells *all, int32_t n_shell)
+{
+    const int32_t n = n_shell - SHELLS_A_CUT;
+    const bool is_enough =
+        n >= LEAST_SHELLS && pairs_within(all, all->radius[n - 1]) >= least_window;
+    return is_enough ? n : 0;
+}
+
+/// The first n_shell shells of all; their covariance is left in [n_shell][n_shell].
+static void take_window(const clx_pair_shells *all, int32_t n_shell, double *covariance,
+                        clx_pair_shells *window)
+{
+    CLAST_ASSERT(n_shell > 0 && n_shell <= all->n_shell);
+    *window = *all;
+    window->n_shell = n_shell;
+    window->covariance = covariance;
+    for (int32_t k = 0; k < n_shell; ++k) {
+        for (int32_t l = 0; l < n_shell; ++l) {
+            covariance[k * n_shell + l] = all->covariance[k * all->n_shell + l];
+        }
+    }
+}
+
+/// Greatest lower bound (97.5 %) by all pairs within a radius, whatever f is: their mean falls
+/// short of the integral by what f varies within that radius. 0 where pairs are few.
+static double bound_of_shells(const clx_pair_shells *in)
+{
+    const double unit[3] = {2.0, CLAST_PI, 4.0 / 3.0 * CLAST_PI};
+    double most = 0.0;
+    double within = 0.0;
+    double own = 0.0;
+    double variance = 0.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        const double ball =
+            0.5 * in->n * (in->n - 1.0) * unit[in->d - 1] * pow(in->radius[k], in->d);
+        within += in->pairs[k];
+        own += in->spread[k];
+        variance += in->covariance[k * in->n_shell + k];
+        for (int32_t l = 0; l < k; ++l) {
+            variance += 2.0 * in->covariance[k * in->n_shell + l];
+        }
+        if (within >= least_pairs) {
+            const double error = sqrt(fmax(own, variance)) / within;
+            most = fmax(most, within / ball * exp(-CLX_NORMAL_975 * error));
+        }
+    }
+    return most;
+}
+
+/// What the two families say of a window.
+typedef struct {
+    clx_pair_shells window;
+    bool is_cut; ///< some shells are left out
+    bool fits;   ///< a shape goes with its pairs
+    int32_t n_level;
+    answer smooth, kinked;
+} answers;
+
+static void ask_both(clx_mixture_fit *f, answers *a)
+{
+    clx_mixture_prepare(&a->window, CLX_FAMILY_SMOOTH, 1.0, f);
+    a->n_level = f->n_level;
+    a->smooth = ask(f);
+    clx_mixture_prepare(&a->window, CLX_FAMILY_KINKED, 1.0, f);
+    a->kinked = ask(f);
+    a->fits = !a->smooth.fit.misses || !a->kinked.fit.misses;
+}
+
+/// Better p of the two families.
+static double fit_p(const answers *a)
+{
+    return fmax(a->smooth.fit.p, a->kinked.fit.p);
+}
+
+/// All shells where a shape goes with their pairs. A compact cloud at an edge or a corner of its
+/// domain has, with its mirror images, an A(r) that bends down towards the cloud's size and ends
+/// there, as no mixture does: fitted over all of it shapes are up to 50 % too high at r = 0. Else
+/// the widest inner window that a shape goes with as if pairs were Poisson numbers, for a fit that
+/// the overdispersion alone excuses is still bent; failing that the widest with which it goes at
+/// all, and else all shells, for which `fits` is false. Points that keep apart are no sample of a
+/// density at any distance.
+static void find_window(const clx_pair_shells *all, clx_mixture_fit *f, double *covariance,
+                        answers *a)
+{
+    *a = (answers){.window = *all};
+    ask_both(f, a);
+    if (a->fits || clx_resolution_of(all->ladder).is_apart) {
+        return;
+    }
+    answers next = {.is_cut = true};
+    for (int32_t n = all->n_shell; (n = next_window(all, n)) > 0;) {
+        take_window(all, n, covariance, &next.window);
+        ask_both(f, &next);
+        if (next.fits && !a->fits) {
+            *a = next;
+        }
+        if (next.fits && fit_p(&next) >= enough_p) {
+            *a = next;
+            break;
+        }
+    }
+    if (a->is_cut) { // narrower ones were put in the place of its covariance
+        take_window(all, a->window.n_shell, covariance, &a->window);
+    }
+}
+
+/// Next to no pairs.
+static clast_pair_integral without_pairs(const clx_pair_shells *in)
+{
+    clast_pair_integral made = {
+        .estimate = {NAN, 0.0, INFINITY, false}, .scale = INFINITY, .fit_p = 1.0};
+    set_window(in, &made);
+    made.n_needed = in->n * sqrt(10.0 * CLX_MIXTURE_PAIRS / fmax(1.0, (double)made.n_pair));
+    return made;
+}
+
+/// The length of which pairs within most_size of it show whether anything narrower is there: the
+/// domain's, or of a cut window that of the cloud whose default window it would be.
+static double size_of(const answers *a)
+{
+    const clx_pair_shells *in = &a->window;
+    const double size = pow(in->volume, 1.0 / (double)in->d);
+    return a->is_cut ? fmin(size, in->radius[in->n_shell - 1] / window_size) : size;
+}
+
+/// Estimate, interval and whether it is resolved; what would do where it is not.
+static void judge(const clx_pair_shells *all, const answers *a, clx_mixture_fit *f,
+                  clast_pair_integral *made)
+{
+    const clx_pair_shells *in = &a->window;
+    const answer *smooth = &a->smooth;
+    const answer *kinked = &a->kinked;
+    clast_estimate *e = &made->estimate;
+    *e = average(smooth, kinked);
+    const bool is_seen = smooth->level + 1 < a->n_level && kinked->level + 1 < a->n_level;
+    const double doubt =
+        0.5 * log(fmax(smooth->most, kinked->most) / fmin(smooth->least, kinked->least));
+    const double size = most_size * size_of(a);
+    const double least = smooth->s < size ? least_pairs : least_even;
+    const double close = pairs_within(all, fmin(smooth->s, size));
+    const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
+    const double least_points = in->d > 2 ? least_spatial : 0.0;
+    const bool is_met = a->fits && is_seen && is_allowed && doubt <= most_doubt && close >= least;
+    const bool is_chance = is_met && (fabs(log(kinked->value / smooth->value)) > most_between ||
+                                      !is_steady(in, smooth, kinked, f, e));
+    e->resolved = is_met && !is_chance && in->n >= least_points;
+    made->n_needed = in->n;
+    if (e->resolved) {
+        add_layers(in, f, e);
+        e->low = e->value * exp(-hypot(log(e->value / e->low), form_error));
+        e->high = e->value * exp(hypot(log(e->high / e->value), form_error));
+        return;
+    }
+    // the doubt falls as the root of the pairs
+    const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
+    const double steady = is_chance ? 1.0 / fewer : 1.1; // these are then the fewer points
+    const double factor = fmax(steady, more);
+    made->n_needed = a->fits && is_seen && is_allowed && factor <= CLX_MOST_FACTOR
+                         ? fmax(least_points, in->n * factor)
+                         : (double)INFINITY;
+    e->low = a->fits ? e->low : fmin(e->low, bound_of_shells(all));
+    e->high = INFINITY;
+}
+
 clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *result)
 {
     clast_status status = CLAST_OK;
-    clast_pair_integral made = {.scale = INFINITY};
+    clast_pair_integral made = {0};
     clx_mixture_fit *f = NULL;
+    double *covariance = NULL;
+    answers a;
     CLX_TRY(clx_alloc(&f, 1, sizeof *f));
+    CLX_TRY(clx_alloc(&covariance, (int64_t)in->n_shell * in->n_shell, sizeof *covariance));
     clx_mixture_prepare(in, CLX_FAMILY_SMOOTH, 1.0, f);
-    if (f->n_level == 0) { // next to no pairs
-        made.estimate = (clast_estimate){NAN, 0.0, INFINITY, false};
-        made.fit_p = 1.0;
-        set_window(in, &made);
-        made.n_needed = in->n * sqrt(10.0 * CLX_MIXTURE_PAIRS / fmax(1.0, (double)made.n_pair));
-        *result = made;
+    if (f->n_level == 0) {
+        *result = without_pairs(in);
         goto done;
     }
-    const answer smooth = ask(f);
-    const int32_t n_level = f->n_level;
-    clx_mixture_prepare(in, CLX_FAMILY_KINKED, 1.0, f);
-    const answer kinked = ask(f);
-    clast_estimate *e = &made.estimate;
-    *e = average(&smooth, &kinked);
-    const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
-    const double doubt =
-        0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
-    const double size = most_size * pow(in->volume, 1.0 / (double)in->d);
-    const double least = smooth.s < size ? least_pairs : least_even;
-    const double close = pairs_within(in, fmin(smooth.s, size));
-    const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
-    const double least_points = in->d > 2 ? least_spatial : 0.0;
-    const bool is_met = is_seen && is_allowed && doubt <= most_doubt && close >= least;
-    const bool is_chance = is_met && (fabs(log(kinked.value / smooth.value)) > most_between ||
-                                      !is_steady(in, &smooth, &kinked, f, e));
-    e->resolved = is_met && !is_chance && in->n >= least_points;
-    if (e->resolved) {
-        add_layers(f, e);
-        e->low = e->value * exp(-hypot(log(e->value / e->low), form_error));
-        e->high = e->value * exp(hypot(log(e->high / e->value), form_error));
-    }
-    made.scale = smooth.s;
-    made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
-    made.n_needed = in->n;
-    set_window(in, &made);
-    if (!e->resolved) { // the doubt falls as the root of the pairs
-        const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
-        const double steady = is_chance ? 1.0 / fewer : 1.1; // these are then the fewer points
-        const double factor = fmax(steady, more);
-        made.n_needed = is_seen && is_allowed && factor <= CLX_MOST_FACTOR
-                            ? fmax(least_points, in->n * factor)
-                            : (double)INFINITY;
-        e->high = INFINITY;
-    }
+    find_window(in, f, covariance, &a);
+    judge(in, &a, f, &made);
+    // of a cloud that ends within the window the cloud is the widest structure there is
+    const double widest = a.is_cut ? a.window.radius[a.window.n_shell - 1] : (double)INFINITY;
+    made.scale = fmin(a.smooth.s, widest);
+    made.fit_p = fit_p(&a);
+    set_window(&a.window, &made);
     if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {
-        e->low = (double)NAN; // there is no density at the places of repeated points
-        e->high = INFINITY;
-        e->resolved = false;
+        made.estimate.low = (double)NAN; // there is no density at the places of repeated points
+        made.estimate.high = INFINITY;
+        made.estimate.resolved = false;
         made.n_needed = INFINITY;
     }
     *result = made;
 done:
+    clx_free(covariance);
     clx_free(f);
     return status;
 }
