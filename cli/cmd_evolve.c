@@ -1,6 +1,5 @@
 // clast evolve: a cloud of particles of true shapes, from the fluid to the floor.
 #include "command.h"
-#include "idle.h"
 #include "quantity.h"
 #include "ranges.h"
 #include "resume.h"
@@ -56,20 +55,35 @@ static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
     }
 }
 
+/// How clast pack settles the bed: the default times of its contacts are those of grains of
+/// millimetres. One that falls through the whole column is stopped within a quarter of the smallest
+/// radius, the half of what clast pack allows: v T / pi with v^2 = 2 g H. A step is a fortieth of
+/// a collision, as by default there; what moves five diameters a second is still.
+static void print_pack(const clast_evolve_result *r)
+{
+    const double speed = sqrt(2.0 * 9.80665 * r->bed_height);
+    const double collision = CLAST_PI * 0.25 * r->bed_least / speed;
+    (void)printf("%-26s clast pack --start %s/deposit.h5 --domain box --width %.6gum --height "
+                 "%.6gum --shaking-time 0 --collision-time %.2gus --time-step %.2gus --rule speed "
+                 "--still-speed %.2gum/s\n",
+                 "  settles by", cli_name(r->folder), 1e6 * r->bed_width, 1e6 * r->bed_height,
+                 1e6 * collision, 1e6 * collision / 40.0, 1e7 * r->bed_least);
+}
+
 /// deposit.h5, in which a body that stands for others comes once.
 static void print_bed(const clast_evolve_result *r)
 {
     if (!(r->bed_width > 0.0)) {
         return;
     }
-    (void)printf("%-26s %s/deposit.h5, for clast pack --start: %s wide, %s high", "bed",
-                 cli_name(r->folder), cli_quantity(r->bed_width, "m"),
-                 cli_quantity(r->bed_height, "m"));
+    (void)printf("%-26s %s/deposit.h5: %s wide, %s high", "bed", cli_name(r->folder),
+                 cli_quantity(r->bed_width, "m"), cli_quantity(r->bed_height, "m"));
     if (r->mass_deposit > 1.5 * r->bed_mass) { // of real particles: a weight of 2 or more
         (void)printf("; each body once, %s, of the %.15g that it stands for",
                      cli_quantity(r->bed_mass, "kg"), round(r->mass_deposit / r->bed_mass));
     }
     (void)puts("");
+    print_pack(r);
 }
 
 static void print_text(const clast_evolve_result *r)
@@ -115,9 +129,10 @@ static clast_status run(const cli_common *common, void *context)
     clast_evolve_result result = {0};
     const clast_monitor monitor = cli_monitor(common);
     char *text = NULL;
-    const clast_idle rules[] = {
-        {common->output == NULL && config->resume[0] == '\0', "keep", "without -o"}, {0}};
-    CLI_TRY(cli_idle_check(clast_evolve_fields, config, rules));
+    if (config->resume[0] != '\0' || (common->output != NULL && !config->force)) {
+        cli_signals_way_on("evolve", // a run that replaces another is beside it until its end
+                           config->resume[0] != '\0' ? config->resume : common->output);
+    }
     CLI_TRY(config->resume[0] != '\0'
                 ? resume(common, config, &monitor, &result)
                 : clast_evolve_run(config, common->output, &monitor, &result));
@@ -150,8 +165,11 @@ static const char details[] =
     "coat. grains counts particles of the start; an aggregate that begins as one is one.\n\n"
     "Not there: aggregates break, restructure or turn; particles act on the fluid; the field\n"
     "changes in time; bodies have inertia of their own.\n\n"
-    "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
-    "is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
+    "With --weight W all numbers count bodies, each of which stands for W; masses of balance.csv,\n"
+    "spectrum.csv and summary.json are those of all W, masses of events.csv, deposit.csv,\n"
+    "particles.csv and frames those of one.\n\n"
+    "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree by time: node\n"
+    "n + k is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
     "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start,\n"
     "each once, above its place on the floor and on those that came before), particles.csv,\n"
     "state.h5 (the aggregate of most grains),\n"
@@ -165,8 +183,7 @@ const cli_command cli_evolve = {
     .name = "evolve",
     .arguments = "",
     .summary = "true shapes in a fluid: fall, meet, join by first touch, deposit",
-    .example = {"clast evolve --domain box:0,0,0,1cm,1cm,1cm --particles 200 --curve 20um "
-                "--duration 1s",
+    .example = {"clast evolve examples/evolve/ash.yaml --duration 100s",
                 "clast evolve examples/evolve/flocs.yaml -o flocs/",
                 "clast evolve --resume flocs/"},
     .details = details,

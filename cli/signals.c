@@ -2,8 +2,8 @@
 //
 // A loop with a state to save looks at cli_stop_asked() and returns CLAST_E_STOPPED. Where no loop
 // looks (a reader, a statistic, a last file), nothing is lost by ending at once: the process
-// removes its temporary files and is gone. A loop that does look has twice the time between its
-// last two looks, and 0.4 s at least, of a processor: on a busy machine, or while a disk is slow,
+// removes its temporary files and is gone. A loop that does look has twice the longest time between
+// two looks so far, and 0.4 s at least, of a processor: on a busy machine, or while a disk is slow,
 // that takes longer, 5 s at most.
 #include "command.h"
 
@@ -25,7 +25,7 @@ enum { GRACE_US = 400000, PATIENCE_US = 5000000, TICK_US = 50000 };
 
 static volatile sig_atomic_t caught;
 static _Atomic int64_t last_look;        ///< us since some moment, 0: no loop has looked
-static _Atomic int64_t look_period;      ///< us between the last two looks
+static _Atomic int64_t look_period;      ///< us between two looks, the most so far
 static bool is_alone;                    ///< no other rank waits for what this one does
 static clockid_t processor;              ///< time that the looking thread has had of a processor
 static _Atomic int64_t asked[2];         ///< us of that clock and of the wall's when a signal came
@@ -33,13 +33,17 @@ static _Atomic int64_t grace;            ///< us
 static volatile sig_atomic_t has_limit;  ///< --time-limit is set and not yet up
 static volatile sig_atomic_t is_time_up; ///< it is what ended the command
 static char last_words[2][160];          ///< of a signal, of the limit
+static char way_on[512];                 ///< where a loop that looked has left checkpoints, or ""
 
 static _Noreturn void leave(int number)
 {
     clast_outputs_abandon();
-    const char *words = last_words[is_time_up];
-    const ssize_t n = write(STDERR_FILENO, words, strlen(words));
-    (void)n; // nobody is left to be told
+    const bool has_state = way_on[0] != '\0' && atomic_load(&last_look) != 0;
+    const char *const words[] = {last_words[is_time_up], has_state ? way_on : "", "\n"};
+    for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
+        const ssize_t n = write(STDERR_FILENO, words[k], strlen(words[k]));
+        (void)n; // nobody is left to be told
+    }
     _exit(128 + number);
 }
 
@@ -108,7 +112,7 @@ bool cli_stop_asked(void)
         processor = thread_clock();
     }
     const int64_t last = atomic_exchange(&last_look, now);
-    if (last != 0) {
+    if (last != 0 && now - last > atomic_load(&look_period)) { // one thread looks
         atomic_store(&look_period, now - last);
     }
     if (caught != 0) {
@@ -161,6 +165,14 @@ clast_status cli_time_limit(const char *text)
     return CLAST_OK;
 }
 
+void cli_signals_way_on(const char *command, const char *folder)
+{
+    (void)snprintf(way_on, sizeof way_on,
+                   "; what it did after its last checkpoint is lost: clast %s --resume %.400s goes "
+                   "on from there",
+                   command, cli_name(folder));
+}
+
 void cli_signals_begin(const char *command, const clast_comm *comm)
 {
     const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
@@ -169,7 +181,7 @@ void cli_signals_begin(const char *command, const clast_comm *comm)
     is_alone = comm->n_rank == 1;
     for (int k = 0; k < 2 && comm->rank == 0; ++k) { // it speaks for all that mpirun ends
         (void)snprintf(last_words[k], sizeof last_words[k],
-                       "clast %s: ended by %s; the files that it had finished are whole\n", command,
+                       "clast %s: ended by %s; the files that it had finished are whole", command,
                        k == 0 ? "a signal" : "--time-limit");
     }
     for (size_t k = 0; k < sizeof number / sizeof number[0]; ++k) {

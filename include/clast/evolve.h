@@ -129,7 +129,7 @@ CLAST_API clast_status clast_evolve_create(const clast_evolve_config *config,
 CLAST_API void clast_evolve_destroy(clast_evolve *evolve); ///< NULL is allowed
 
 /// A leg of at most 16 steps, to the next row of the tables at the farthest. After each leg the
-/// state is one to go on from.
+/// state is one to go on from. After clast_evolve_restore the rest of the leg that was saved.
 ///
 /// @return CLAST_E_CONFIG where more than 0.1 % of the collisions lie out of a kernel's range,
 /// CLAST_E_CONVERGE where a pair finds no touch or a cell needs over a million sub-steps
@@ -167,6 +167,7 @@ typedef struct clast_evolve_result {
     int32_t n_frame, n_written;   ///< files written
     double bed_width, bed_height; ///< of the column in deposit.h5 [m]; 0: not written
     double bed_mass;              ///< of its bodies, each once, whatever it stands for [kg]
+    double bed_least;             ///< radius of the sphere as large as the smallest of them [m]
     char *folder;                 ///< where the run lies; NULL: nowhere
 } clast_evolve_result;
 
@@ -215,7 +216,7 @@ CLAST_API clast_status clast_evolve_largest(const clast_evolve *evolve, int32_t 
 CLAST_API clast_status clast_evolve_assembly(const clast_evolve *evolve, clast_assembly *assembly,
                                              clast_table *values);
 
-enum { CLAST_N_EVOLVE_SAVED = 6 };
+enum { CLAST_N_EVOLVE_SAVED = 7 };
 
 /// All that is needed to go on, as tables: clast_state keeps them. `table` must be empty.
 CLAST_API clast_status clast_evolve_save(const clast_evolve *evolve,

@@ -12,6 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double ROUNDING = 1e-9; ///< of the domain: borders that differ by less are one
+
 #define FIELD(type, name) #name, .offset = offsetof(clast_evolve_config, name), CLAST_FIELD_##type
 #define DEEP(type, name, member)                                                                   \
 #name, .offset = offsetof(clast_evolve_config, member), CLAST_FIELD_##type
@@ -54,16 +56,19 @@ const clast_field clast_evolve_fields[] = {
          .common = true),
     TEXT(unit, "", "length unit of surface files; may be left out: sizes come from the curve"),
     TEXT(curve, "10um",
-         "volume-equivalent diameters: one size, uniform:LOW,HIGH, "
+         "diameters of equal volume: one size, uniform:LOW,HIGH, "
          "lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a "
          "published case",
          .common = true),
     COUNT(particles, 0, 0, 1e7, "particles at the start; 0: the rows of points", .common = true),
     NUMBER(weight, 1, 1, 1e15, "-",
-           "real particles that each stands for, a whole number: the number density is particles "
-           "x weight / volume",
+           "real particles W that each stands for, a whole number: the number density is particles "
+           "x W / volume; rows in time and the summary have masses of all of them, tables of "
+           "bodies and events the mass of one",
            .common = true),
-    TEXT(release, "", "domain in which they start evenly (as domain); none: all of it"),
+    TEXT(release, "",
+         "domain in which they start evenly (as domain), as far as it lies in that; a box in a box "
+         "lies in it all; none: all of the domain"),
     TEXT(points, "", "file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)"),
     {FIELD(TEXT_LIST, columns), 0, 0, 0, "-",
      "its columns of coordinates, three; units in their names count (x_mm), else they are in m; "
@@ -161,8 +166,9 @@ const clast_field clast_evolve_fields[] = {
     NUMBER(duration, 0, 0, 1e300, "s", "time that passes at most", .common = true, .group = "time"),
     COUNT(rows, 50, 1, 1e6, "rows of the tables over it"),
     NUMBER(step_error, 0.05, 1e-6, 0.5, "-",
-           "share of a meeting, and of the height fallen, that a step may hold; and the most "
-           "collisions of a pair's kind in a sub-step"),
+           "share of a meeting, and of the height passed up or down (and of the width, where sides "
+           "are deposit), that a step may hold; and the most collisions of a pair's kind in a "
+           "sub-step"),
     NUMBER(time_step, 0, 0, 1e300, "s", "longest step; 0: by step_error"),
     {FIELD(U64, seed), 1, 0, 0, "-", "of every draw", .common = true},
 
@@ -283,6 +289,36 @@ static bool are_aggregates(const clast_text_list *shapes)
     return are;
 }
 
+/// Whether a shape is read from a surface file: no word, and no earlier aggregate.
+static bool has_surface_file(const clast_text_list *shapes)
+{
+    bool has = false;
+    for (int32_t i = 0; i < shapes->n; ++i) {
+        const char *shape = shapes->item[i];
+        has = has || (strcmp(shape, "sphere") != 0 && strncmp(shape, "ellipsoid:", 10) != 0 &&
+                      !clx_path_is(shape, "h5"));
+    }
+    return has;
+}
+
+clast_status clx_evolve_release_check(const clast_evolve_input *input)
+{
+    clast_status status = CLAST_OK;
+    const clast_domain *d = input->domain;
+    const clast_domain *r = input->release;
+    const bool are_boxes = r != NULL && d->kind == CLAST_DOMAIN_BOX && r->kind == CLAST_DOMAIN_BOX;
+    for (int k = 0; are_boxes && k < 3; ++k) {
+        const double slack = ROUNDING * (d->high[k] - d->low[k]);
+        CLX_CHECK(r->low[k] >= d->low[k] - slack && r->high[k] <= d->high[k] + slack,
+                  CLAST_E_CONFIG,
+                  "release: it reaches from %s to %s along %c, beyond the domain (%s to %s)",
+                  clx_unit_text(r->low[k], "m"), clx_unit_text(r->high[k], "m"), "xyz"[k],
+                  clx_unit_text(d->low[k], "m"), clx_unit_text(d->high[k], "m"));
+    }
+done:
+    return status;
+}
+
 clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evolve_input *input)
 {
     clast_status status = CLAST_OK;
@@ -295,6 +331,7 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
         {!sees_radius, "collision_radius", "with kernel constant"},
         {are_aggregates(&c->shapes), "density",
          "with aggregates (state.h5), whose grains have their own"},
+        {!has_surface_file(&c->shapes), "unit", "without a surface file among the shapes"},
         {c->shapes.n == 1, "shape_weight", "with one shape"},
         {input->points != NULL && input->points->radius != NULL, "curve", "with diameter_column"},
         {c->even == CLAST_EVEN_WHOLE, "change_level", "with even whole"},

@@ -1,23 +1,16 @@
 // An evolution step by step: cells on the positions now, who meets in them, motion.
-//
-// The state is bodies, grains and events; cells are found anew at the beginning of each leg, so
-// that a run that goes on from the end of a leg has the same bits. Within a leg they stand while
-// the tests of clast_workspace accept them.
 #include "evolve/state.h"
 
 #include "base/alloc.h"
+#include "base/clock.h"
+#include "base/monitor.h"
 #include "cloud/collide.h"
 #include "cloud/kernel_range.h"
 #include "evolve/config.h"
 #include "math/vec3.h"
-#include <float.h>
 #include <math.h>
-#include <string.h>
 
-enum {
-    LEG_STEPS = 16,      ///< and from a count of pairs to the next
-    MOST_COUNTED = 20000 ///< particles that a count of pairs takes
-};
+enum { MOST_COUNTED = 20000 }; ///< particles that a count of pairs takes
 
 void clast_evolve_destroy(clast_evolve *e)
 {
@@ -40,6 +33,7 @@ void clast_evolve_destroy(clast_evolve *e)
     clx_free(e->start);
     clx_rows_free(&e->balance);
     clx_rows_free(&e->spectrum);
+    clx_rows_free(&e->cuts);
     clx_free(e);
 }
 
@@ -81,7 +75,7 @@ static clast_status prepare_cells(clast_evolve *e)
     policy.tests = CLAST_TESTS_MOVED;
     policy.cells = CLAST_CUT_CHANGED;
     policy.cells_level = e->config->change_level;
-    policy.pairs_every = LEG_STEPS;
+    policy.pairs_every = CLX_LEG_STEPS;
     policy.pairs_most = MOST_COUNTED;
     CLX_TRY(clast_workspace_set_policy(e->workspace, &policy));
     CLX_TRY(clast_fields_default(clast_decompose_fields, &e->decompose));
@@ -129,6 +123,8 @@ static clast_status draw_place(const clast_evolve *e, int32_t i, double x[3])
     clx_rng rng = clx_rng_at(e->config->seed, CLX_STREAM_EVOLVE_PLACE, (uint64_t)i);
     if (points != NULL) {
         v3_copy(x, &points->x[3 * (size_t)i]);
+        CLX_CHECK(v3_is_finite(x), CLAST_E_FORMAT,
+                  "points: row %d has a coordinate that is not finite", i + 1);
         CLX_CHECK(clast_domain_map(domain, x, u), CLAST_E_FORMAT,
                   "points: row %d lies outside the domain", i + 1);
         return CLAST_OK;
@@ -214,34 +210,6 @@ done:
     return status;
 }
 
-/// Height of the domain.
-static double height_of(const clast_domain *d)
-{
-    return d->kind == CLAST_DOMAIN_BOX ? d->high[2] - d->low[2] : cbrt(clast_domain_volume(d));
-}
-
-/// Refuses a step in which the mean mass falls onto the floor from wherever it is, and meets
-/// nobody.
-static clast_status check_time_step(const clast_evolve *e)
-{
-    clast_status status = CLAST_OK;
-    const clast_evolve_config *c = e->config;
-    const double height = height_of(e->input->domain);
-    double mass = 0.0, fall = 0.0;
-    for (int32_t i = 0; i < e->n_start; ++i) {
-        mass += e->body[i].mass;
-        fall += e->body[i].mass * fabs(e->body[i].speed);
-    }
-    CLX_CHECK(c->floor != CLAST_BORDER_DEPOSIT || c->time_step * fall <= height * mass,
-              CLAST_E_CONFIG,
-              "time_step: in %s the mean mass falls %s, through the whole height of %s; take less "
-              "than %s, or 0: step_error then chooses it",
-              clx_unit_text(c->time_step, "s"), clx_unit_text(c->time_step * fall / mass, "m"),
-              clx_unit_text(height, "m"), clx_unit_text(height * mass / fall, "s"));
-done:
-    return status;
-}
-
 clast_status clx_evolve_create_again(const clast_evolve_config *config,
                                      const clast_evolve_input *input, clast_evolve **evolve)
 {
@@ -260,8 +228,8 @@ clast_status clx_evolve_create_again(const clast_evolve_config *config,
     CLX_TRY(place_all(e));
     weigh_all(e);
     CLX_TRY(check_widths(e));
-    CLX_TRY(check_time_step(e));
     clx_evolve_list(e);
+    CLX_TRY(clx_evolve_check_time_step(e));
     CLX_TRY(clast_kernel_check(e->collide.kernel, &e->collide.medium));
     CLX_TRY(clx_collide_config_check(&e->collide));
     CLX_TRY(clx_evolve_series_begin(e));
@@ -278,157 +246,8 @@ clast_status clast_evolve_create(const clast_evolve_config *config, const clast_
     CLX_ARGUMENTS(config, input, evolve);
     CLX_GUARD(clx_evolve_config_check(config, input));
     CLX_GUARD(clx_evolve_idle_check(config, input));
+    CLX_GUARD(clx_evolve_release_check(input));
     return clx_evolve_create_again(config, input, evolve);
-}
-
-/// Cell of the i-th body in the fluid; < 0: left out. Without cells all are in one.
-static int32_t cell_of(const int32_t *cell, int32_t i)
-{
-    return cell != NULL ? cell[i] : 0;
-}
-
-/// Bodies of the fluid by cell: those of cell c are order[start[c] .. start[c + 1]).
-static clast_status sort_by_cell(clast_evolve *e, int32_t n, const int32_t *cell)
-{
-    clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&e->start, &e->start_room, (int64_t)n + 1, sizeof *e->start));
-    memset(e->start, 0, ((size_t)n + 1) * sizeof *e->start);
-    for (int32_t i = 0; i < e->n_live; ++i) {
-        if (cell_of(cell, i) >= 0) {
-            ++e->start[cell_of(cell, i) + 1];
-        }
-    }
-    for (int32_t c = 0; c < n; ++c) {
-        e->start[c + 1] += e->start[c];
-    }
-    for (int32_t i = 0; i < e->n_live; ++i) {
-        if (cell_of(cell, i) >= 0) {
-            e->order[e->start[cell_of(cell, i)]++] = e->live[i];
-        }
-    }
-    for (int32_t c = n; c > 0; --c) {
-        e->start[c] = e->start[c - 1];
-    }
-    e->start[0] = 0;
-done:
-    return status;
-}
-
-/// All meetings of a step, cell by cell; pairs meet in `share` times the volume of each.
-static clast_status meet_all(clast_evolve *e, int32_t n, const double *volume, double share,
-                             double dt)
-{
-    clast_status status = CLAST_OK;
-    const int64_t before = e->n_event;
-    const int32_t were = e->n_live;
-    for (int32_t c = 0; c < n; ++c) {
-        clx_rng rng = clx_rng_at(e->config->seed, CLX_STREAM_EVOLVE_MEET,
-                                 (e->step << 32) | (uint64_t)(uint32_t)c);
-        const int64_t begin = e->start[c];
-        CLX_TRY(clx_evolve_meet(e, e->order + begin, e->start[c + 1] - begin, share * volume[c], dt,
-                                &rng));
-    }
-    e->rate = were > 0 ? 2.0 * (double)(e->n_event - before) / were / dt : 0.0;
-    e->n_cell = n;
-done:
-    return status;
-}
-
-/// Volume in which the pairs of a cell meet, over its own: cells taken as uniform hide pairs
-/// (smoothing_bias). Where they do not resolve the cloud its pairs of all distances are counted, at
-/// most once in LEG_STEPS steps; between, the share of the last count stays.
-static double share_of_volume(clast_evolve *e, const clast_decomposition *made, bool is_counted,
-                              bool *is_resolved)
-{
-    const double share = 1.0 + made->smoothing_bias;
-    const bool is_one = made->cells.n == 1;
-    const bool is_even = is_one && fabs(share - 1.0) < 1e-9; // by pairs too, as far as they tell
-    const bool is_carried = e->decompose.estimator == CLAST_ESTIMATOR_CELLS && !made->resolved &&
-                            !is_one && e->pair_share != 1.0;
-    if (is_counted) { // one cell with structure: no share of it holds for several
-        e->pair_share = is_even ? 1.0 : is_one ? 0.0 : share;
-        e->pair_resolved = made->resolved;
-        e->pair_step = e->step;
-        e->pair_n = e->n_live;
-    }
-    *is_resolved = is_carried ? e->pair_resolved != 0 : made->resolved;
-    CLAST_ASSERT(share > 0.0 && isfinite(share));
-    return is_carried ? e->pair_share : share;
-}
-
-/// Whether this leg counts the pairs of a cloud that cells do not resolve.
-static bool is_pair_count_due(const clast_evolve *e)
-{
-    return !(e->pair_share > 0.0) || e->step - e->pair_step >= LEG_STEPS ||
-           5 * (int64_t)e->n_live < 4 * (int64_t)e->pair_n;
-}
-
-/// Forgets the cells and says how the next ones show their pairs: by the saved state alone, so that
-/// a run that goes on from here has the same bits.
-static clast_status begin_leg(clast_evolve *e)
-{
-    const bool is_due = is_pair_count_due(e);
-    e->pair_share = is_due ? 0.0 : e->pair_share;
-    e->decompose.estimator = is_due ? CLAST_ESTIMATOR_AUTO : CLAST_ESTIMATOR_CELLS;
-    return clast_workspace_forget(e->workspace);
-}
-
-/// Cells on the positions now, and who meets in them.
-static clast_status meet(clast_evolve *e, double dt)
-{
-    clast_status status = CLAST_OK;
-    const clast_decomposition *made = NULL;
-    clast_workspace_calls before;
-    clast_workspace_calls after;
-    bool is_resolved = false;
-    if (e->config->even == CLAST_EVEN_WHOLE) {
-        const double volume = clast_domain_volume(e->input->domain);
-        CLX_TRY(sort_by_cell(e, 1, NULL));
-        CLX_TRY(meet_all(e, 1, &volume, 1.0, dt));
-        return CLAST_OK;
-    }
-    const clast_points points = {
-        .n = e->n_live, .dimension = 3, .x = e->at[0], .stride = 3, .axis_stride = 1};
-    CLX_TRY(clast_workspace_count(e->workspace, &before));
-    CLX_TRY(clast_workspace_decompose_in(e->workspace, e->input->domain, &points, &e->decompose,
-                                         &made));
-    CLX_TRY(clast_workspace_count(e->workspace, &after));
-    const double share = share_of_volume(e, made, after.n_pairs > before.n_pairs, &is_resolved);
-    e->n_cut += after.n_cut - before.n_cut;
-    e->n_test += after.n_test - before.n_test;
-    e->n_unresolved += is_resolved ? 0 : after.n_cut - before.n_cut;
-    CLX_TRY(sort_by_cell(e, made->cells.n, made->cells.of_point));
-    CLX_TRY(meet_all(e, made->cells.n, made->cells.volume, share, dt));
-done:
-    return status;
-}
-
-/// How long the next step may be: the mean particle meets, and the mean mass falls and spreads,
-/// by a share step_error of one and of the height, or of the width between walls that keep what
-/// meets them. Ends at the next row.
-static double step_of(const clast_evolve *e)
-{
-    const clast_evolve_config *c = e->config;
-    const double height = height_of(e->input->domain);
-    const double width = fmin(height, clx_evolve_width(e));
-    const double left = c->duration * ((double)(e->row + 1) / c->rows) - e->time;
-    double mass = 0.0, fall = 0.0, spread = 0.0;
-    for (int32_t k = 0; k < e->n_live; ++k) {
-        const clx_evolve_body *b = &e->body[e->live[k]];
-        mass += b->mass;
-        fall += b->mass * fabs(b->speed);
-        spread += b->mass * b->diffusivity;
-    }
-    double dt = left;
-    if (c->time_step > 0.0) {
-        dt = c->time_step;
-    } else {
-        dt = fall > 0.0 ? fmin(dt, c->step_error * height * mass / fall) : dt;
-        dt = spread > 0.0 ? fmin(dt, c->step_error * width * width * mass / spread) : dt;
-        dt = e->rate > 0.0 ? fmin(dt, c->step_error / e->rate) : dt;
-    }
-    const double parts = ceil(left / dt);
-    return parts > 1.0 ? left / parts : left;
 }
 
 static clast_status step(clast_evolve *e, bool *is_row)
@@ -437,29 +256,26 @@ static clast_status step(clast_evolve *e, bool *is_row)
     CLX_CHECK(e->step < UINT32_MAX, CLAST_E_LIMIT, "more than %u steps; take a longer time_step",
               UINT32_MAX);
     const double next = e->config->duration * ((double)(e->row + 1) / e->config->rows);
-    const double dt = step_of(e);
+    double dt = 0.0;
+    CLX_TRY(clx_evolve_find_cells(e));
+    CLX_TRY(clx_evolve_find_rate(e));
+    dt = clx_evolve_step_of(e);
     *is_row = e->time + dt >= next * (1.0 - 1e-12);
-    if (e->n_live > 1) {
-        CLX_TRY(meet(e, dt));
-    }
+    CLX_TRY(clx_evolve_meet_all(e, dt));
     CLX_TRY(clx_evolve_move(e, dt));
     e->time = *is_row ? next : e->time + dt;
     ++e->step;
+    ++e->leg_step;
     clx_evolve_list(e);
 done:
     return status;
 }
 
-clast_status clast_evolve_advance(clast_evolve *e)
+/// The row that is due, and whether collisions were in their ranges.
+static clast_status end_leg(clast_evolve *e, bool is_row)
 {
-    CLX_ARGUMENTS(e);
     clast_status status = CLAST_OK;
-    bool is_row = false;
-    CLX_TRY(begin_leg(e));
-    for (int k = 0; k < LEG_STEPS && !is_row && !clast_evolve_is_over(e); ++k) {
-        CLX_TRY(step(e, &is_row));
-        is_row = is_row || e->n_live == 0;
-    }
+    clx_evolve_end_leg(e);
     if (is_row) {
         ++e->row;
         CLX_TRY(clx_evolve_write_row(e));
@@ -469,6 +285,31 @@ clast_status clast_evolve_advance(clast_evolve *e)
     }
 done:
     return status;
+}
+
+clast_status clx_evolve_advance_until(clast_evolve *e, const clast_monitor *monitor, double until)
+{
+    clast_status status = CLAST_OK;
+    bool is_row = false;
+    bool is_asked = false;
+    e->monitor = monitor;
+    CLX_TRY(clx_evolve_begin_leg(e));
+    while (e->leg_step < CLX_LEG_STEPS && !is_row && !is_asked && !clast_evolve_is_over(e)) {
+        CLX_TRY(step(e, &is_row));
+        is_row = is_row || e->n_live == 0;
+        is_asked = clx_monitor_stops(monitor) || clx_clock() > until;
+    }
+    if (e->leg_step >= CLX_LEG_STEPS || is_row || clast_evolve_is_over(e)) {
+        CLX_TRY(end_leg(e, is_row));
+    }
+done:
+    return status;
+}
+
+clast_status clast_evolve_advance(clast_evolve *e)
+{
+    CLX_ARGUMENTS(e);
+    return clx_evolve_advance_until(e, NULL, (double)INFINITY);
 }
 
 bool clast_evolve_is_over(const clast_evolve *e)

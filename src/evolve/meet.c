@@ -9,6 +9,7 @@
 // extreme in radius and speed has x above step_error. [docs/theory/evolve.md section 3]
 #include "evolve/state.h"
 
+#include "base/monitor.h"
 #include "cloud/kernel_range.h"
 #include "cloud/settling_pair.h"
 #include <math.h>
@@ -114,6 +115,7 @@ static clast_status deal(clast_evolve *e, int32_t *member, int64_t *n, double sc
         const double x = scale * sticking_rate(e, pair);
         if (clx_rng_uniform(rng) < -expm1(-x)) {
             hold_to_ranges(e, pair);
+            (void)clx_monitor_stops(e->monitor); // the step comes to its end all the same
             CLX_TRY(clx_evolve_join(e, member[m], member[m + 1], time, rng));
         }
     }
@@ -125,6 +127,21 @@ static clast_status deal(clast_evolve *e, int32_t *member, int64_t *n, double sc
     *n = left;
 done:
     return status;
+}
+
+double clx_evolve_joints(const clast_evolve *e, const int32_t *member, int64_t n, double volume,
+                         clx_rng *rng)
+{
+    CLAST_ASSERT(volume > 0.0);
+    double sum = 0.0;
+    for (int64_t k = 0; n > 1 && k < n; ++k) {
+        const int64_t i = clx_rng_below(rng, n);
+        const int64_t j = clx_rng_below(rng, n - 1);
+        const clast_collider pair[2] = {collider_of(e, member[i], AS_DRAWN),
+                                        collider_of(e, member[j < i ? j : j + 1], AS_DRAWN)};
+        sum += sticking_rate(e, pair);
+    }
+    return n > 1 ? 0.5 * e->config->weight * sum * (double)(n - 1) / volume : 0.0;
 }
 
 clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double volume, double dt,

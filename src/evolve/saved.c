@@ -40,6 +40,8 @@ static const member clock_member[] = {
     WHOLE(evolution, "pair_resolved", "-", pair_resolved, SMALL, 0, 0, 1),
     WHOLE(evolution, "pair_n", "-", pair_n, SMALL, 0, 1, 0),
     WHOLE(evolution, "pair_step", "-", pair_step, LARGE, 0, 0, 4294967295.0),
+    WHOLE(evolution, "leg_step", "-", leg_step, SMALL, 0, 0, CLX_LEG_STEPS - 1),
+    WHOLE(evolution, "estimator", "-", decompose.estimator, SMALL, 0, 0, CLAST_ESTIMATOR_AUTO),
     WHOLE(evolution, "n_cell", "-", n_cell, SMALL, 0, 0, 2e9),
     NUMBER(evolution, "mass_error", "-", mass_error),
     WHOLE(evolution, "number_error", "-", number_error, LARGE, 0, 0, 1e15),
@@ -115,7 +117,7 @@ typedef struct {
         name, sizeof(members) / sizeof *(members), members, sizeof(of)                             \
     }
 
-enum { CLOCK, GRAINS, BODIES, EVENTS, BALANCE, SPECTRUM };
+enum { CLOCK, GRAINS, BODIES, EVENTS, BALANCE, SPECTRUM, CUTS };
 
 static const layout layouts[] = {
     [CLOCK] = LAYOUT("clock", clock_member, evolution),
@@ -180,6 +182,7 @@ clast_status clast_evolve_save(const clast_evolve *e, clast_table table[CLAST_N_
     CLX_TRY(save(&layouts[EVENTS], e->event, e->n_event, &made[EVENTS]));
     CLX_TRY(clx_rows_table(&e->balance, "balance", &made[BALANCE]));
     CLX_TRY(clx_rows_table(&e->spectrum, "spectrum", &made[SPECTRUM]));
+    CLX_TRY(clx_rows_table(&e->cuts, "cuts", &made[CUTS]));
     memcpy(table, made, sizeof made);
     memset(made, 0, sizeof made);
 done:
@@ -309,6 +312,26 @@ done:
     return status;
 }
 
+/// Calls in their order, each of as many places as there are bodies at the most.
+static clast_status load_cuts(const clast_table *table, clast_evolve *e)
+{
+    clast_status status = CLAST_OK;
+    int64_t n = 0; // places of the call
+    CLX_TRY(clx_rows_read(table, &e->cuts));
+    for (int64_t i = 0; i < e->cuts.n; ++i) {
+        const double *row = &e->cuts.value[i * CLX_N_CUTS_COLUMN];
+        const bool is_next = i > 0 && row[0] == row[-CLX_N_CUTS_COLUMN];
+        n = is_next ? n + 1 : 1;
+        CLX_CHECK(row[0] >= 0.0 && row[0] < e->leg_step && n <= e->n_start &&
+                      (i == 0 || row[0] >= row[-CLX_N_CUTS_COLUMN]) && v3_is_finite(row + 1),
+                  CLAST_E_FORMAT, "the saved place %lld of cells belongs to no call of this leg",
+                  (long long)i + 1);
+    }
+    e->is_in_leg = false;
+done:
+    return status;
+}
+
 clast_status clast_evolve_restore(const clast_table table[CLAST_N_EVOLVE_SAVED], clast_evolve *e)
 {
     CLX_ARGUMENTS(table, e);
@@ -319,6 +342,7 @@ clast_status clast_evolve_restore(const clast_table table[CLAST_N_EVOLVE_SAVED],
     CLX_TRY(load_events(&table[EVENTS], e));
     CLX_TRY(clx_rows_read(&table[BALANCE], &e->balance));
     CLX_TRY(clx_rows_read(&table[SPECTRUM], &e->spectrum));
+    CLX_TRY(load_cuts(&table[CUTS], e));
     clx_evolve_list(e);
 done:
     return status;

@@ -192,6 +192,7 @@ clast_status clx_evolve_series_begin(clast_evolve *e)
                             .column = balance_column};
     e->spectrum = (clx_rows){.n_column = sizeof spectrum_column / sizeof *spectrum_column,
                              .column = spectrum_column};
+    e->cuts = (clx_rows){.n_column = CLX_N_CUTS_COLUMN, .column = clx_cuts_column};
     return clx_evolve_write_row(e);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 // The inside of an evolution, from the bottom up: rows (rows.c), a user's field (flow.c), bodies
 // and what follows from their grains (body.c), contacts of which each is as likely (react.c), two
-// that become one (join.c), who meets (meet.c), walls that are no box's (walls.c), motion (move.c),
-// cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept (saved.c). Calls go
-// down only.
+// that become one (join.c), who meets (meet.c), cells (cells.c), walls that are no box's (walls.c),
+// motion (move.c), how long a step may be (pace.c), steps (evolve.c), what is told (tables.c,
+// measure.c), what is kept (saved.c). Calls go down only.
 #include "aggregate/kit.h"
 #include "evolve/flow.h"
 #include "evolve/rows.h"
@@ -82,6 +82,19 @@ typedef struct clx_evolve_event {
     double mass, gyration, envelope, speed;
 } clx_evolve_event;
 
+enum {
+    CLX_LEG_STEPS = 16,   ///< and from a count of pairs to the next
+    CLX_N_CUTS_COLUMN = 4 ///< call, x, y, z
+};
+extern const char *const clx_cuts_column[CLX_N_CUTS_COLUMN][2];
+
+/// Where bodies count as even, for the step now: those of cell c are order[start[c]..].
+typedef struct clx_evolve_cells {
+    int32_t n;
+    const double *volume; ///< [n] the workspace's; NULL: one, the whole domain
+    double share;         ///< of it in which pairs meet
+} clx_evolve_cells;
+
 struct clast_evolve {
     const clast_evolve_config *config; ///< borrowed
     const clast_evolve_input *input;   ///< borrowed
@@ -110,11 +123,16 @@ struct clast_evolve {
     int64_t *start;  ///< [cells + 1] scratch
     int64_t start_room;
     int32_t n_cell; ///< last
+    clx_evolve_cells cells;
+    int32_t leg_step; ///< steps of this leg
+    bool is_in_leg;   ///< the workspace has the leg's cells
+    clx_rows cuts;    ///< positions at the calls of this leg from which its cells follow
+    const clast_monitor *monitor; ///< looked at on the way; borrowed for a leg, or NULL
 
     double time;
     uint64_t step;
     int32_t row; ///< rows written after the first
-    double rate; ///< collisions a particle and time in the last step; 0: not known
+    double rate; ///< collisions a particle and time: in the last step, or expected; 0: not known
     int64_t n_cut, n_test, n_unresolved;
     double pair_share; ///< volume in which pairs met at the last count of pairs of all distances,
                        ///< over that of their cell; 1: of one even cell, 0: none stands
@@ -155,6 +173,34 @@ clast_status clx_evolve_join(clast_evolve *e, int32_t i, int32_t j, double time,
 /// meet.c: lets the bodies of a cell meet for a time dt.
 clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double volume, double dt,
                              clx_rng *rng);
+
+/// meet.c: how many of the bodies of a cell are expected to join a time, by as many of its pairs
+/// drawn at random.
+double clx_evolve_joints(const clast_evolve *e, const int32_t *member, int64_t n, double volume,
+                         clx_rng *rng);
+
+/// cells.c: forgets the cells of the leg before and says how the next ones show their pairs, by the
+/// saved state alone; in the middle of a leg, cells as they were.
+clast_status clx_evolve_begin_leg(clast_evolve *e);
+void clx_evolve_end_leg(clast_evolve *e);
+
+/// Cells on the positions now; with fewer than two bodies there are none.
+clast_status clx_evolve_find_cells(clast_evolve *e);
+
+/// Where no meeting in the step before tells a rate: that which the pairs in the cells let expect.
+clast_status clx_evolve_find_rate(clast_evolve *e);
+
+/// All meetings of a step, cell by cell, in the order of time.
+clast_status clx_evolve_meet_all(clast_evolve *e, double dt);
+
+/// pace.c: how long the next step may be. The mean particle meets, and the mean mass moves up or
+/// down and spreads, by a share step_error of one and of the height; where sides keep what meets
+/// them it moves and spreads by that share of the width. Ends at the next row.
+double clx_evolve_step_of(const clast_evolve *e);
+
+/// Refuses a time_step in which the mean mass comes onto the floor or out of the top from wherever
+/// it is, and meets nobody.
+clast_status clx_evolve_check_time_step(const clast_evolve *e);
 
 /// move.c: every body in the fluid for a time dt, onto the floor too.
 ///

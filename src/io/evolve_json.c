@@ -23,6 +23,7 @@ static json_t *deposit(const clast_evolve_result *r)
         clx_json_set_number(o, "bed_width", r->bed_width);
         clx_json_set_number(o, "bed_height", r->bed_height);
         clx_json_set_number(o, "bed_mass", r->bed_mass);
+        clx_json_set_number(o, "bed_least", r->bed_least);
     }
     return o;
 }

@@ -226,6 +226,17 @@ done:
     return status;
 }
 
+/// Radius of the sphere as large as the smallest body.
+static double least_radius(const clast_assembly *bed)
+{
+    double least = (double)INFINITY;
+    for (int32_t i = 0; i < bed->n_grain; ++i) {
+        const double volume = bed->shape[bed->shape_id[i]].volume;
+        least = fmin(least, bed->scale[i] * cbrt(0.75 * volume / CLAST_PI));
+    }
+    return least;
+}
+
 /// Puts all into a column no narrower than the widest of them; its width, height and mass.
 static clast_status place_all(const clast_domain *domain, double width, clast_assembly *bed,
                               clast_evolve_result *result)
@@ -240,6 +251,7 @@ static clast_status place_all(const clast_domain *domain, double width, clast_as
     result->bed_width = width;
     result->bed_height = height;
     result->bed_mass = clast_assembly_mass(bed);
+    result->bed_least = least_radius(bed);
 done:
     return status;
 }

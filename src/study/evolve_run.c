@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/field.h"
 #include "base/monitor.h"
 #include "evolve/config.h"
 #include "io/config_files.h"
@@ -23,7 +24,7 @@ typedef struct {
     clast_evolve_source source;
     char *text; ///< configuration as JSON
     clast_evolve *evolve;
-    int64_t leg;     ///< done, for the names of checkpoints
+    int64_t leg;     ///< legs done or broken off, for the names of checkpoints
     double saved_at; ///< clock of the last checkpoint
     double begun;
 } run;
@@ -102,9 +103,12 @@ static clast_status go(run *r)
 {
     clast_status status = CLAST_OK;
     r->saved_at = clx_clock();
+    (void)talk(r); // who asks before the first step has ended is heard
     while (!clast_evolve_is_over(r->evolve)) {
         const int32_t row = clast_evolve_n_row(r->evolve);
-        CLX_TRY(clast_evolve_advance(r->evolve));
+        const double until =
+            r->folder != NULL ? r->saved_at + r->config->checkpoint_time : (double)INFINITY;
+        CLX_TRY(clx_evolve_advance_until(r->evolve, r->monitor, until));
         ++r->leg;
         if (clast_evolve_n_row(r->evolve) > row) {
             CLX_TRY(frame(r, row + 1));
@@ -163,7 +167,9 @@ clast_status clast_evolve_run(const clast_evolve_config *config, const char *fol
                               const clast_monitor *monitor, clast_evolve_result *result)
 {
     CLX_ARGUMENTS(config, result);
+    const clast_idle rules[] = {{folder == NULL, "keep", "without -o"}, {0}};
     CLX_GUARD(clast_fields_check(clast_evolve_fields, config));
+    CLX_GUARD(clx_fields_idle(clast_evolve_fields, config, rules));
     clast_status status = CLAST_OK;
     clast_evolve_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own, .monitor = monitor};

@@ -4,6 +4,7 @@ import base64
 import csv
 import json
 import math
+import random
 import os
 import re
 import signal
@@ -91,6 +92,44 @@ class Evolve(Case):
             self.assertEqual(resumed.code, 0, resumed.err)
             for name in SAME:
                 self.assertEqual((run / name).read_bytes(), (whole / name).read_bytes(), name)
+
+    def cut_off(self, run, *extra):
+        """A run of slow steps, stopped by SIGTERM once it writes its folder."""
+        process = subprocess.Popen([os.environ["CLAST"], *self.SLOW, *extra, "-o", str(run)], cwd=ROOT, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        while not list(run.glob("checkpoint-*.h5")) and process.poll() is None:
+            time.sleep(0.005)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGTERM)
+        return process.communicate()[1], process.returncode
+
+    SLOW = ["evolve", "--domain", "box:0,0,0,1mm,1mm,1mm", "--particles", "2000", "--curve", "lognormal:5um,1um,3um,8um", "--viscosity", "1e-3",
+            "--fluid-density", "1000", "--kernel", "shear_laminar+brownian", "--shear", "20", "--gravity", "0", "--floor", "periodic",
+            "--duration", "150s", "--rows", "3", "--seed", "3", "-j", "1", "--out-of-range", "extrapolate", "--quiet"]
+
+    def test_a_signal_or_a_limit_within_a_leg_keeps_its_steps(self):
+        """A leg of 16 steps took seconds and looked once: ended by a signal, a folder that said "running" and held the start alone;
+        with a short --time-limit it never came further."""
+        whole, run = self.folder / "whole", self.folder / "run"
+        made = clast(*self.SLOW, "-o", whole)
+        self.assertEqual(made.code, 0, made.err)
+        err, code = self.cut_off(run)
+        self.assertEqual(code, 143, err)
+        self.assertIn(f"clast evolve --resume {run}", err)
+        self.assertEqual(json.loads((run / "manifest.json").read_text())["outcome"], "stopped")
+        self.assertGreater(max(path.name for path in run.glob("checkpoint-*.h5")), "checkpoint-000000000000.h5")
+        for _ in range(3):  # each comes further
+            before = max(path.name for path in run.glob("checkpoint-*.h5"))
+            short = clast("evolve", "--resume", run, "--time-limit", "0.5s", "--quiet")
+            if short.code == 0:
+                break
+            self.assertEqual(short.code, 143, short.err)
+            self.assertGreater(max(path.name for path in run.glob("checkpoint-*.h5")), before)
+        else:
+            resumed = clast("evolve", "--resume", run, "--quiet")
+            self.assertEqual(resumed.code, 0, resumed.err)
+        for name in SAME:
+            self.assertEqual((run / name).read_bytes(), (whole / name).read_bytes(), name)
 
     def test_a_resumed_run_is_warned_of_by_its_own_drag_law(self):
         """It was by the command line's, which beside --resume is the default."""
@@ -196,6 +235,16 @@ class Evolve(Case):
         self.assertGreater(packed.json["coordination"], 4.0)  # 1.9
         self.assertLess(packed.json["porosity_bulk"], 0.48)  # 0.61
 
+    def test_the_bed_settles_by_the_line_that_is_told(self):
+        """By the defaults of clast pack, whose contacts are those of millimetres, it exploded in step 530."""
+        run, bed = self.folder / "run", self.folder / "bed"
+        told = self.run_ash("--particles", 200, "--bed-width", "0.3mm", "-o", run).out
+        line = re.search(r"settles by +clast (pack --start .*)", told)
+        self.assertIsNotNone(line, told)
+        packed = clast(*line[1].split(), "--max-steps", 30000, "--quiet", "--json", "-o", bed)
+        self.assertEqual(packed.code, 0, packed.err)
+        self.assertGreater(packed.json["n_grain"], 50)
+
     def test_a_bed_of_one_place_has_no_poles(self):
         run, points = self.folder / "run", self.folder / "points.csv"
         points.write_text("x,y,z\n" + "".join(f"5e-3,5e-3,{(k + 1) * 1e-4}\n" for k in range(60)))
@@ -225,7 +274,7 @@ class Evolve(Case):
     def test_a_bed_of_weighted_bodies_says_that_each_comes_once(self):
         run = self.folder / "run"
         made = clast(*self.EVEN[:-2], "--particles", 30, "--weight", 3, "--bed-width", "0.2mm", "-o", run)
-        self.assertRegex(made.out, r"bed +.*deposit.h5, .* high; each body once, [\d.]+ ng, of the 3 that it stands for\n")
+        self.assertRegex(made.out, r"bed +.*deposit.h5: .* high; each body once, [\d.]+ ng, of the 3 that it stands for\n")
         out = json.loads((run / "summary.json").read_text())["deposit"]
         self.assertAlmostEqual(out["bed_mass"] * 3 / out["mass"], 1.0, 9)
         plain = clast(*self.EVEN[:-2], "--particles", 30, "--bed-width", "0.2mm", "-o", self.folder / "plain")
@@ -311,7 +360,7 @@ class Evolve(Case):
         and_still = "with kernel constant and without gravity"
         for words, option, value, why in (
                 ([*box, "--shapes", grown / "state.h5"], "density", 500, "with aggregates (state.h5), whose grains have their own"),
-                (box, "shape-weight", 3, "with one shape"), (box, "keep", 3, "without -o"),
+                (box, "shape-weight", 3, "with one shape"), (box, "unit", "mm", "without a surface file among the shapes"), (box, "keep", 3, "without -o"),
                 (box, "walk-step", 0.3, "without meeting diffusive"), (box, "field-columns", "a,b,c", "without field"),
                 (box, "columns", "a,b,c", "without points"),
                 ([*box, "--even", "whole"], "change-level", 0.1, "with even whole"), (sized, "curve", "55um", "with diameter_column"),
@@ -344,6 +393,15 @@ class Evolve(Case):
         outside = self.folder / "outside.csv"
         outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")
         self.assert_fails(3, *box, "--points", outside, says=("points", "row 2"))
+        outside.write_text("x,y,z\n0.5,0.5,0.5\n0.5,nan,0.5\n")
+        self.assert_fails(3, *box, "--points", outside, says=("points", "row 2 has a coordinate that is not finite"))
+        draw = random.Random(3)
+        places = [f"{draw.random()},{draw.random()},{draw.random()}\n" for _ in range(1000)]
+        outside.write_text("x,y,z\n" + "".join(2 * places))
+        self.assert_fails(3, *box, "--points", outside, "--kernel", "constant", says=("points", "repeat the place of another"))
+        self.assert_fails(2, *box, "--particles", 5, "--release", "box:0,0,0,1,1,2", says=("release", "to 2 m along z, beyond the domain"))
+        self.assert_fails(2, *box, "--particles", 5, "--wind", "0,0,-1", "--time-step", "2s", says=("time_step", "moves 2.015", "whole height"))
+        outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")
         uneven = self.folder / "uneven.csv"
         uneven.write_text("x,y,z,u,v,w\n" + "".join(f"{x},0,0,1,0,0\n" for x in (0, 1, 3)))
         self.assert_fails(3, *box, "--particles", 5, "--field", uneven, says=("field", "not even", "plane 2 of 3"))
