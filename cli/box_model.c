@@ -243,6 +243,22 @@ done:
     return clast_run_folder_end(folder, status);
 }
 
+/// Says that a table's numbers were scaled, which a wrong unit of either does too.
+static void note_of_shares(const cli_box_job *job, const clast_spectrum_start *start)
+{
+    const double wanted = job->box->spectrum.concentration;
+    double sum = 0.0;
+    for (int64_t i = 0; i < start->n; ++i) {
+        sum += start->number[i];
+    }
+    if (!job->common->quiet && wanted > 0.0 && fabs(sum - wanted) > 1e-9 * wanted) {
+        (void)fprintf(stderr,
+                      "clast agglomerate: note: the numbers of %s, %.6g in all, are taken as "
+                      "shares of --concentration %.6g 1/m^3; without it they are 1/m^3\n",
+                      cli_name(job->box->initial_file), sum, wanted);
+    }
+}
+
 static clast_status evolve(const cli_box_job *job, clast_spectrum *result)
 {
     const cli_box *box = job->box;
@@ -260,6 +276,7 @@ static clast_status evolve(const cli_box_job *job, clast_spectrum *result)
     c.repeats = agglomerate->repeats;
     if (c.initial == CLAST_INITIAL_TABLE) {
         CLI_TRY(read_start(box, &table, &start));
+        note_of_shares(job, &start);
     }
     status = clast_spectrum_evolve(&start, &c, &collide, &monitor, result);
     if (status == CLAST_E_FORMAT && start.n > 0) {

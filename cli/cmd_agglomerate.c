@@ -73,10 +73,11 @@ static void join_details(void)
         "last too, so that three take three times it;\ncells are made anew when the cloud has "
         "changed. Positions, velocities and columns of the flow are each snapshot's own,\nother "
         "columns the first one's. Cells are made anew too when half of the particles are left that "
-        "they were made\nof (--rebuild never: they are not).\n-o FOLDER writes history.csv, "
-        "spectrum.csv, "
-        "particles.csv, summary.json, manifest.json\nand charts (number, moments, clusters, "
-        "spectrum).\n"
+        "they were made\nof (--rebuild never: they are not).\n"
+        "-o FOLDER writes history.csv, spectrum.csv, particles.csv (those left after the first "
+        "run: POINTS to go on from,\nwith --monomers-column monomers, --radius-column radius_m, "
+        "--weight-column weight), members.csv (which of them\nholds each particle of the start), "
+        "summary.json, manifest.json and charts (number, moments, clusters, spectrum).\n"
         "With --box-model there are no POINTS: the size spectrum of a well-mixed box, by Monte "
         "Carlo "
         "or a sectional\nsolver, with breakage, sources and settling; -o writes history.csv, "
@@ -252,7 +253,8 @@ static void set_column(json_t *object, const char *key, const clast_table *table
     (void)json_object_set_new(object, key, list);
 }
 
-static json_t *summary(const config *c, const clast_agglomeration *r, double wall)
+static json_t *summary(const config *c, const clast_agglomeration *r, int64_t n_repeated,
+                       double wall)
 {
     static const char *const name[4] = {"n_particle", "M1", "M2", "M3"};
     static const char *const key[4] = {"M0", "M1", "M2", "M3"};
@@ -284,6 +286,7 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     cli_json_count(out, "repeats", c->agglomerate.repeats);
     cli_json_count(out, "n_rebuilt", r->n_rebuilt);
     cli_json_count(out, "n_unresolved", r->n_unresolved);
+    cli_json_count(out, "n_repeated", n_repeated);
     cli_json_number(out, "volume_fraction", r->volume_fraction);
     set_column(out, "gel_fraction", h, "gel_fraction");
     cli_json_number(out, "gel_time", r->gel_time);
@@ -306,7 +309,26 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     return out;
 }
 
-static void print_words(const config *c, int32_t n_snapshot, const clast_agglomeration *r)
+/// What keeps the collisions from being known better. Copies collide: then there are too many.
+static void print_doubts(int32_t n_snapshot, const clast_agglomeration *r, int64_t n_repeated)
+{
+    if (r->n_unresolved > 0) {
+        (void)printf(
+            "\nwarning: in %d of %d snapshot%s the particles did not show their own "
+            "structure (clast decompose tells more): collisions there are a best guess%s\n",
+            r->n_unresolved, n_snapshot, cli_plural(n_snapshot),
+            n_repeated > 0 ? "" : ", rather too few than too many");
+    }
+    if (n_repeated > 0) {
+        (void)printf("\nwarning: %lld particle%s%s repeat%s the place of an earlier one; each such "
+                     "pair counts as two particles that meet\n",
+                     (long long)n_repeated, cli_plural(n_repeated),
+                     n_snapshot > 1 ? " of a snapshot" : "", n_repeated == 1 ? "s" : "");
+    }
+}
+
+static void print_words(const config *c, int32_t n_snapshot, const clast_agglomeration *r,
+                        int64_t n_repeated)
 {
     char in_each[64] = "";
     const clast_table *h = &r->history;
@@ -337,17 +359,24 @@ static void print_words(const config *c, int32_t n_snapshot, const clast_agglome
         }
         (void)putchar('\n');
     }
-    if (r->n_unresolved > 0) {
-        (void)printf("\nwarning: in %d of %d snapshot%s the particles did not show their own "
-                     "structure (clast decompose tells more): collisions there are a best guess, "
-                     "rather too few than too many\n",
-                     r->n_unresolved, n_snapshot, cli_plural(n_snapshot));
-    }
+    print_doubts(n_snapshot, r, n_repeated);
     if (r->is_gelation) {
         (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "
                      "the monomers\n",
                      r->gel_time, r->n_gelled, c->agglomerate.repeats);
     }
+}
+
+/// Particles at the place of an earlier one, in the snapshot that has the most.
+static clast_status count_repeated(const clast_agglomerate_input *input, int64_t *n_repeated)
+{
+    *n_repeated = 0;
+    for (int64_t k = 0; k < input->n_snapshot; ++k) {
+        int64_t n = 0;
+        CLI_GUARD(clast_cloud_repeated(&input->snapshot[k], &n));
+        *n_repeated = n > *n_repeated ? n : *n_repeated;
+    }
+    return CLAST_OK;
 }
 
 static clast_status keep_results(const cli_common *common, const config *c,
@@ -372,24 +401,20 @@ static clast_status check_used(const cli_common *common, const config *c)
 {
     const clast_agglomerate_config *a = &c->agglomerate;
     const clast_cloud_columns *columns = &c->points.columns;
-    const bool has_radii = columns->radius_column[0] != '\0' || columns->diameter_column[0] != '\0';
-    const clast_idle rules[] = {
-        {a->collide.collisions == CLAST_COLLISIONS_NEXT, "leap", "without --collisions poisson"},
-        {columns->weight_column[0] == '\0', "self_collisions", "without --weight-column"},
-        {common->n_argument == 1, "change_level", "with one snapshot"},
-        {common->n_argument == 1 && a->rebuild == CLAST_REBUILD_ALWAYS, "rebuild",
-         "with one snapshot, which gets its cells whatever it says"},
-        {a->rebuild != CLAST_REBUILD_CHANGED, "change_level", "with this --rebuild"},
-        {c->temperature_column[0] != '\0', "temperature", "with --temperature-column"},
-        {c->shear_column[0] != '\0', "shear", "with --shear-column"},
-        {c->dissipation_column[0] != '\0', "dissipation", "with --dissipation-column"},
-        {has_radii && a->collide.radius_law == CLAST_RADIUS_VOLUME, "monomer_radius",
-         "with a column of radii"},
-        {c->fixed_column[0] == '\0', "fixed_volume_column", "without --fixed-column"},
-        {0}};
+    const clast_agglomerate_given given = {.n_snapshot = common->n_argument,
+                                           .weight = columns->weight_column[0] != '\0',
+                                           .radius = columns->radius_column[0] != '\0' ||
+                                                     columns->diameter_column[0] != '\0',
+                                           .temperature = c->temperature_column[0] != '\0',
+                                           .shear = c->shear_column[0] != '\0',
+                                           .dissipation = c->dissipation_column[0] != '\0'};
+    const clast_idle unfixed[] = {
+        {c->fixed_column[0] == '\0', "fixed_volume_column", "without --fixed-column"}, {0}};
+    clast_idle rules[CLAST_N_IDLE];
     CLI_GUARD(cli_box_check(common, fields, c, &c->box, a));
-    CLI_GUARD(cli_idle_check(fields, c, rules));
-    return cli_idle_cells(common, fields, c, &c->points, &a->decompose);
+    CLI_GUARD(cli_idle_check(fields, c, clast_agglomerate_idle(a, &given, rules)));
+    CLI_GUARD(cli_idle_check(fields, c, unfixed));
+    return cli_idle_cells(common, fields, c, &c->points, &a->decompose, 0);
 }
 
 static clast_status run(const cli_common *common, void *values)
@@ -407,6 +432,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_run_folder *folder = NULL;
     const clast_monitor monitor = cli_monitor(common);
     const double begun = cli_clock();
+    int64_t n_repeated = 0;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain));
@@ -417,7 +443,8 @@ static clast_status run(const cli_common *common, void *values)
     cli_warn_of_units(common, &domain, &l.cloud[0]);
     status = clast_agglomerate(&l.input, &c->agglomerate, &monitor, &result);
     CLI_TRY(cli_points_status(status, &c->points, &domain, &l.cloud[0]));
-    out = summary(c, &result, cli_clock() - begun);
+    CLI_TRY(count_repeated(&l.input, &n_repeated));
+    out = summary(c, &result, n_repeated, cli_clock() - begun);
     cli_json_count(out, "n_snapshot", common->n_argument);
     cli_range_warn(common, &result.range);
     cli_dense_warn(common, result.volume_fraction);
@@ -429,7 +456,7 @@ static clast_status run(const cli_common *common, void *values)
     if (common->json) {
         CLI_TRY(cli_print_json(json_incref(out)));
     } else {
-        print_words(c, common->n_argument, &result);
+        print_words(c, common->n_argument, &result, n_repeated);
     }
 done:
     json_decref(out);

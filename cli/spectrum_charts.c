@@ -165,10 +165,12 @@ clast_status cli_agglomerate_files(const clast_agglomeration *r, const char *end
     const struct {
         const char *file;
         const clast_table *table;
-    } table[3] = {
-        {"history", &r->history}, {"particles", &r->particles}, {"spectrum", &r->spectrum}};
+    } table[] = {{"history", &r->history},
+                 {"particles", &r->particles},
+                 {"members", &r->members},
+                 {"spectrum", &r->spectrum}};
     char path[4096];
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
         (void)snprintf(path, sizeof path, "%s/%s.csv", folder, table[k].file);
         CLI_GUARD(clast_table_write_csv(table[k].table, path));
     }

@@ -11,6 +11,6 @@ clast_status cli_draw_columns(const clast_table *history, const char *const *nam
 /// Spectra of a table of times x sizes at up to five times: density over size.
 clast_status cli_draw_spectra(const clast_table *spectrum, const char *axis, const char *path);
 
-/// history.csv, particles.csv, spectrum.csv and their charts (extension `end`).
+/// history.csv, particles.csv, members.csv, spectrum.csv and their charts (extension `end`).
 clast_status cli_agglomerate_files(const clast_agglomeration *result, const char *end,
                                    const char *folder);

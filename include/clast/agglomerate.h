@@ -86,12 +86,14 @@ typedef struct clast_collide_cells {
 /// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL
 /// @return CLAST_E_CONFIG for a configuration out of the ranges of clast_agglomerate_fields (of
 /// what it uses) or a medium that lacks what the kernel needs, CLAST_E_ARGUMENT for arrays that are
-/// NULL, volumes not > 0, cells that there are not; nothing is then changed. CLAST_E_CONFIG too
+/// NULL, volumes not > 0, cells that there are not, motion that is not finite; nothing is then
+/// changed. CLAST_E_CONFIG too
 /// after the step where over 0.1 % of its collisions (of those of cells->range, if given) lie out
 /// of a range of kernel_range.h, but for CLAST_OUT_OF_RANGE_EXTRAPOLATE. CLAST_E_LIMIT beyond
 /// 50000 kinds in a cell with block = 0; where the particles of a cell have 2^63 monomers together,
-/// nothing then being changed; and after the step where a parcel (weight) has come to have 2^63,
-/// INT64_MAX standing for as many
+/// or its heaviest parcel, of a weight w far above the others', would meet each of them 1000 times,
+/// dt alpha beta w / V, nothing then being changed; and after the step where a parcel (weight) has
+/// come to have 2^63, INT64_MAX standing for as many
 /// @note a cell of n particles of s kinds: O(s) per event; the same bytes for any thread count
 CLAST_API clast_status clast_collide(clast_population *population, const clast_collide_cells *cells,
                                      double dt, uint64_t step, const clast_collide_config *config,
@@ -141,6 +143,11 @@ typedef struct clast_spectrum_config {
 /// Own fields: all but duration, n_step and repeats.
 extern CLAST_API const clast_field clast_spectrum_fields[];
 
+/// The fields, and `leap`, `block` and `seed`, that a box by the others does not look at
+/// (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_spectrum_idle(const clast_spectrum_config *config,
+                                                clast_idle rules[CLAST_N_IDLE]);
+
 /// A start by a table; borrowed.
 typedef struct clast_spectrum_start {
     int64_t n;
@@ -185,7 +192,8 @@ CLAST_API bool clast_spectrum_has_sectional(void);
 /// @param monitor  may be NULL; asked between steps, a stop request returns CLAST_E_STOPPED
 /// @return CLAST_E_CONFIG for what does not go together (Monte Carlo breaks particles into a whole
 /// number of fragments alone; a kernel of velocities has no spectrum; no sectional solver in this
-/// build), CLAST_E_LIMIT where breakage and sources make over 2e7 particles of a run
+/// build; breakage of a start of one size but 1, which is the smallest where size_min is 0 and does
+/// not break), CLAST_E_LIMIT where breakage and sources make over 2e7 particles of a run
 CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_start *start,
                                              const clast_spectrum_config *config,
                                              const clast_collide_config *collide,
@@ -220,6 +228,19 @@ typedef struct clast_agglomerate_config {
 /// Own fields; those of the decomposition follow from clast_decompose_fields.
 extern CLAST_API const clast_field clast_agglomerate_fields[];
 
+/// What particles come with, for clast_agglomerate_idle; {0} of a box.
+typedef struct clast_agglomerate_given {
+    int32_t n_snapshot;
+    bool weight, radius, temperature, shear, dissipation;
+} clast_agglomerate_given;
+
+/// The fields that collisions by the others and of such particles do not look at
+/// (clast_fields_idle); those of the cells: clast_decompose_idle, of kernels, sticking and radii:
+/// clast_collide_idle. NULL of a NULL.
+CLAST_API const clast_idle *clast_agglomerate_idle(const clast_agglomerate_config *config,
+                                                   const clast_agglomerate_given *given,
+                                                   clast_idle rules[CLAST_N_IDLE]);
+
 /// What the particles bring. Arrays are borrowed; NULL where the column is missing.
 typedef struct clast_agglomerate_input {
     const clast_cloud *snapshot; ///< [n_snapshot] positions of the same particles
@@ -241,9 +262,13 @@ typedef struct clast_agglomeration {
     /// (share of the runs where that was 1e-3 by then); n_parcel with weights; fixed_n_particle and
     /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
     clast_table history;
-    /// One row a particle, last state of the first repeat: coordinates, monomers, radius_m,
-    /// mass_kg, aggregate (the particle it is part of), cell.
+    /// One row a particle that is left, last state of the first repeat: particle (its row in the
+    /// input, from 0), coordinates, monomers, radius_m, diameter_m, mass_kg, cell, and of what was
+    /// given weight, velocity_x_m/s ..., speed_rms_m/s: a cloud that can be gone on with.
     clast_table particles;
+    /// One row a particle of the input, in its order: particle, aggregate (the number of the one
+    /// that is left and holds it).
+    clast_table members;
     /// One row a time and class of sizes: time_s, size (its middle), size_low and size_high
     /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.
     clast_table spectrum;
@@ -264,7 +289,8 @@ typedef struct clast_agglomeration {
 ///
 /// @param monitor  may be NULL; asked between steps, a stop request returns CLAST_E_STOPPED
 /// @return as clast_decompose and clast_collide; CLAST_E_CONFIG for missing columns or
-/// parameters, CLAST_E_FORMAT for values that cannot be (with the particle's number)
+/// parameters, CLAST_E_FORMAT for values that cannot be (with the particle's number), and for a
+/// snapshot where so many particles repeat the place of another that there is no number of events
 CLAST_API clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                          const clast_agglomerate_config *config,
                                          const clast_monitor *monitor, clast_agglomeration *result);

@@ -154,7 +154,7 @@ typedef struct clast_kernel_range {
     const char *instead; ///< what to do outside
 } clast_kernel_range;
 
-enum { CLAST_N_KERNEL_RANGE = 23 };
+enum { CLAST_N_KERNEL_RANGE = 26 };
 
 /// Row k of the table; NULL where there is none.
 CLAST_API const clast_kernel_range *clast_kernel_range_row(int32_t k);

@@ -132,6 +132,7 @@ void clast_agglomeration_free(clast_agglomeration *result)
     }
     clast_table_free(&result->history);
     clast_table_free(&result->particles);
+    clast_table_free(&result->members);
     clast_table_free(&result->spectrum);
     *result = (clast_agglomeration){0};
 }
@@ -330,40 +331,128 @@ static int64_t aggregate_of(const clast_population *p, int64_t i)
     return i;
 }
 
-static clast_status list_particles(const clx_evolution *run, clast_agglomeration *r)
+/// Columns of the particles that are left.
+enum {
+    PARTICLE,
+    PLACE,
+    MONOMERS = PLACE + 3,
+    RADIUS,
+    DIAMETER,
+    MASS,
+    CELL,
+    WEIGHT,
+    VELOCITY,
+    SPEED_RMS = VELOCITY + 3,
+    N_COLUMN
+};
+
+static bool has_column(const clx_evolution *run, int column)
 {
-    static const char *const axis[3] = {"x_m", "y_m", "z_m"};
-    static const char *const name[6] = {"monomers",  "radius_m", "mass_kg",
-                                        "aggregate", "cell",     "weight"};
-    static const char *const unit[6] = {"-", "m", "kg", "-", "-", "-"};
+    const clast_population *p = &run->population;
+    switch (column) {
+    case PLACE + 1:
+    case PLACE + 2:
+        return column - PLACE < p->dimension;
+    case RADIUS:
+    case DIAMETER:
+        return p->n > 0 && p->radius[0] > 0.0;
+    case MASS:
+        return run->input->snapshot[0].mass != NULL || run->collide.medium.particle_density > 0.0;
+    case WEIGHT:
+        return p->weight != NULL;
+    case VELOCITY:
+    case VELOCITY + 1:
+    case VELOCITY + 2:
+        return p->velocity != NULL && column - VELOCITY < p->dimension;
+    case SPEED_RMS:
+        return p->speed_rms != NULL;
+    default:
+        return true;
+    }
+}
+
+/// Of a column that the run has.
+static double value_of(const clx_evolution *run, int column, int64_t i)
+{
+    const clast_population *p = &run->population;
+    CLAST_ASSERT(i >= 0 && i < p->n);
+    switch (column) {
+    case PARTICLE:
+        return (double)i;
+    case MONOMERS:
+        return (double)p->monomers[i];
+    case RADIUS:
+        return p->radius[i];
+    case DIAMETER:
+        return 2.0 * p->radius[i];
+    case MASS:
+        return p->mass[i];
+    case CELL:
+        return (double)run->cell[i];
+    case WEIGHT:
+        return p->weight[i];
+    case SPEED_RMS:
+        return p->speed_rms[i];
+    default:
+        return column < MONOMERS ? p->x[i * p->dimension + column - PLACE]
+                                 : p->velocity[i * p->dimension + column - VELOCITY];
+    }
+}
+
+/// What is left at the end, with all that a run needs to be gone on with.
+static clast_status list_particles(const clx_evolution *run, clast_table *table)
+{
+    static const char *const title[N_COLUMN][2] = {{"particle", "-"},
+                                                   {"x_m", "m"},
+                                                   {"y_m", "m"},
+                                                   {"z_m", "m"},
+                                                   {"monomers", "-"},
+                                                   {"radius_m", "m"},
+                                                   {"diameter_m", "m"},
+                                                   {"mass_kg", "kg"},
+                                                   {"cell", "-"},
+                                                   {"weight", "-"},
+                                                   {"velocity_x_m/s", "m/s"},
+                                                   {"velocity_y_m/s", "m/s"},
+                                                   {"velocity_z_m/s", "m/s"},
+                                                   {"speed_rms_m/s", "m/s"}};
     clast_status status = CLAST_OK;
     const clast_population *p = &run->population;
-    const bool has_radius = p->n > 0 && p->radius[0] > 0.0;
-    const bool has_mass =
-        run->input->snapshot[0].mass != NULL || run->collide.medium.particle_density > 0.0;
     double *column = NULL;
-    CLX_TRY(clast_table_init(&r->particles, "particles", p->n));
-    for (int32_t j = 0; j < p->dimension && j < 3; ++j) {
-        CLX_TRY(clast_table_add_number(&r->particles, axis[j], "m", &column));
-        for (int64_t i = 0; i < p->n; ++i) {
-            column[i] = p->x[aggregate_of(p, i) * p->dimension + j];
-        }
+    int64_t n = 0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        n += p->monomers[i] > 0 ? 1 : 0;
     }
-    for (int k = 0; k < 6; ++k) {
-        if ((k == 1 && !has_radius) || (k == 2 && !has_mass) || (k == 5 && p->weight == NULL)) {
+    CLX_TRY(clast_table_init(table, "particles", n));
+    for (int k = 0; k < N_COLUMN; ++k) {
+        int64_t row = 0;
+        if (!has_column(run, k)) {
             continue;
         }
-        CLX_TRY(clast_table_add_number(&r->particles, name[k], unit[k], &column));
+        CLX_TRY(clast_table_add_number(table, title[k][0], title[k][1], &column));
         for (int64_t i = 0; i < p->n; ++i) {
-            const bool live = p->monomers[i] > 0;
-            const double value[6] = {(double)p->monomers[i],
-                                     live ? p->radius[i] : 0.0,
-                                     live ? p->mass[i] : 0.0,
-                                     (double)aggregate_of(p, i),
-                                     (double)run->cell[aggregate_of(p, i)],
-                                     live && p->weight != NULL ? p->weight[i] : 0.0};
-            column[i] = value[k];
+            if (p->monomers[i] > 0) {
+                column[row++] = value_of(run, k, i);
+            }
         }
+    }
+done:
+    return status;
+}
+
+/// Which of them each particle of the start is part of.
+static clast_status list_members(const clast_population *p, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    double *column = NULL;
+    CLX_TRY(clast_table_init(table, "members", p->n));
+    CLX_TRY(clast_table_add_number(table, "particle", "-", &column));
+    for (int64_t i = 0; i < p->n; ++i) {
+        column[i] = (double)i;
+    }
+    CLX_TRY(clast_table_add_number(table, "aggregate", "-", &column));
+    for (int64_t i = 0; i < p->n; ++i) {
+        column[i] = (double)aggregate_of(p, i);
     }
 done:
     return status;
@@ -372,13 +461,17 @@ done:
 static clast_status finish_first(const clx_evolution *run, const columns *c,
                                  clast_agglomeration *made)
 {
+    clast_status status = CLAST_OK;
     made->n_cell = run->n_cell;
     made->volume_fraction = run->volume_fraction;
     made->n_unresolved = run->n_unresolved;
     for (int64_t row = 0; row < made->history.n_row; ++row) {
         made->n_rebuilt += c->rebuilt[row] > 0.0 ? 1 : 0;
     }
-    return list_particles(run, made);
+    CLX_TRY(list_particles(run, &made->particles));
+    CLX_TRY(list_members(&run->population, &made->members));
+done:
+    return status;
 }
 
 /// The time at which a run had gelled, and whether its kernel does.

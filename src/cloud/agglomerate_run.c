@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "cloud/collide.h"
 #include "cloud/kernel_range.h"
+#include "cloud/repeated.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <math.h>
@@ -228,6 +229,7 @@ clast_status clx_evolution_begin(clx_evolution *r)
     const clast_cloud *cloud = &r->input->snapshot[0];
     r->collide = r->config->collide;
     r->collide.seed = r->config->decompose.seed;
+    r->collide.count_unit = 0.0; // no key sets it
     r->collide.keep_positions = r->input->n_snapshot > 1;
     r->collide.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; // the run holds it against them
     CLX_TRY(clast_kernel_parse(r->config->kernel, &r->collide.kernel));
@@ -560,6 +562,15 @@ static bool is_thinned(const clx_evolution *r)
            2 * n <= r->n_at_mesh;
 }
 
+/// Refuses places that a file brings and no density has. Those of aggregates are not asked: on a
+/// lattice two of them may well come to lie at one place.
+static clast_status check_places(const clx_evolution *r)
+{
+    char of[40];
+    (void)snprintf(of, sizeof of, "snapshot %lld", (long long)r->at + 1);
+    return clx_repeated_check(r->mesh, &r->input->snapshot[r->at], of);
+}
+
 clast_status clx_evolution_snapshot(clx_evolution *r, int64_t snapshot)
 {
     clast_status status = CLAST_OK;
@@ -573,6 +584,9 @@ clast_status clx_evolution_snapshot(clx_evolution *r, int64_t snapshot)
             CLX_TRY(has_changed(r, &is_new));
         }
         CLX_TRY(bring_mesh(r, is_new));
+        if (is_new) {
+            CLX_TRY(check_places(r));
+        }
         r->n_unresolved += is_new && !r->mesh->resolved ? 1 : 0;
     } else if (r->config->fixed > 0) {
         CLX_TRY(fixed_regular(r));

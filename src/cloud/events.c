@@ -343,8 +343,9 @@ static void set_interval(const count *n, clast_decomposition *r)
         cap += cap_of(n, c);
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
-    const double above = variance + rate * rate * fmax(0.0, n->variance);
-    const double below = variance + rate * rate * fmax(0.0, n->below);
+    // of no pairs there is none, at any rate: the square of 1e300 is infinite
+    const double above = variance + (n->variance > 0.0 ? rate * rate * n->variance : 0.0);
+    const double below = variance + (n->below > 0.0 ? rate * rate * n->below : 0.0);
     const double unit = r->events > 0.0 ? CLX_NORMAL_975 / r->events : 0.0;
     r->events_low = r->events * exp(-unit * sqrt(below));
     r->events_high = fmin(cap, r->events * exp(unit * sqrt(above)));

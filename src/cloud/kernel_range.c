@@ -199,8 +199,10 @@ static double tabor(const seen *s)
 #define INSTEAD_SLIP "give --mean-free-path (air at 20 C: 66nm)"
 #define SLIP         "mean free path over radius where none is given"
 
-/// The kernel's number, or this and the law of a sticking.
-enum { STICKING = CLAST_N_KERNEL };
+/// The kernel's number, or this and the law of a sticking; or what lets particles leave a box.
+enum { STICKING = CLAST_N_KERNEL, SINK = STICKING + 16 };
+
+#define SINK_OWNER "sink of --settling-depth"
 
 static bool by_standard_drag(const clast_collide_config *c)
 {
@@ -222,8 +224,7 @@ static const struct {
     double (*value)(const seen *s);
     bool (*is_chosen)(const clast_collide_config *config); ///< NULL: always
     int32_t owner;
-    bool is_pair;  ///< it takes two unlike particles
-    bool is_speed; ///< it is of settling speeds
+    bool is_pair; ///< it takes two unlike particles
 } row[CLAST_N_KERNEL_RANGE] = {
     {.text = {"kernel brownian", "mean free path over radius", 0.0, 0.1, "Seinfeld and Pandis 2016",
               "take brownian_transition"},
@@ -259,19 +260,16 @@ static const struct {
               "there is no law for such bodies"},
      .owner = CLAST_KERNEL_SETTLING,
      .value = settling_reynolds,
-     .is_speed = true,
      .is_chosen = by_standard_drag},
     {.text = {"kernel settling", "Reynolds number of settling by Stokes' law", 0.0, 0.1,
               "Clift, Grace and Weber 1978",
               "take --settling-law standard (of clast evolve: --fall form or sphere)"},
      .owner = CLAST_KERNEL_SETTLING,
      .value = stokes_reynolds,
-     .is_speed = true,
      .is_chosen = by_stokes_drag},
     {.text = {"kernel settling", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
      .owner = CLAST_KERNEL_SETTLING,
-     .value = knudsen_missing,
-     .is_speed = true},
+     .value = knudsen_missing},
     {.text = {"kernel settling", "ratio of radii of the efficiency law", 0.0, 0.5, "Langmuir 1948",
               "give a collision efficiency of your own with --efficiency"},
      .owner = CLAST_KERNEL_SETTLING,
@@ -325,6 +323,19 @@ static const struct {
               "Johnson and Greenwood 1997", "these are too hard or too small for JKR contacts"},
      .owner = STICKING + CLAST_STICKING_CONTACT,
      .value = tabor},
+    {.text = {SINK_OWNER, "Reynolds number of settling", 0.0, 3e5, "Clift and Gauvin 1971",
+              "there is no law for such bodies"},
+     .owner = SINK,
+     .value = settling_reynolds,
+     .is_chosen = by_standard_drag},
+    {.text = {SINK_OWNER, "Reynolds number of settling by Stokes' law", 0.0, 0.1,
+              "Clift, Grace and Weber 1978", "take --settling-law standard"},
+     .owner = SINK,
+     .value = stokes_reynolds,
+     .is_chosen = by_stokes_drag},
+    {.text = {SINK_OWNER, SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
+     .owner = SINK,
+     .value = knudsen_missing},
 };
 
 const clast_kernel_range *clast_kernel_range_row(int32_t k)
@@ -359,8 +370,9 @@ uint32_t clx_ranges_of_one(uint32_t rows)
 uint32_t clx_ranges_of_settling(const clast_collide_config *c)
 {
     uint32_t rows = 0;
-    for (int k = 0; k < CLAST_N_KERNEL_RANGE; ++k) {
-        rows |= row[k].is_speed && is_chosen(c, k) ? 1U << k : 0;
+    const bool has_kernel = (c->kernel >> CLAST_KERNEL_SETTLING & 1U) != 0; // whose rows these are
+    for (int k = 0; k < CLAST_N_KERNEL_RANGE && !has_kernel; ++k) {
+        rows |= row[k].owner == SINK && is_chosen(c, k) ? 1U << k : 0;
     }
     return rows;
 }

@@ -8,7 +8,8 @@ uint32_t clx_ranges_of(const clast_collide_config *config);
 /// Those of them that one particle alone, held against its like, may break.
 uint32_t clx_ranges_of_one(uint32_t rows);
 
-/// Those of settling speeds alone.
+/// Those of the speeds by which particles settle out of a box; none where a kernel of settling has
+/// the same.
 uint32_t clx_ranges_of_settling(const clast_collide_config *config);
 
 /// Adds a pair of some weight.

@@ -1,6 +1,6 @@
 // Points that repeat the place of another: places meet on the rank that their hash names, some at a
 // time, so that memory does not grow with the cloud.
-#include <clast/cloud.h>
+#include "cloud/repeated.h"
 
 #include "base/alloc.h"
 #include "base/comm.h"
@@ -8,8 +8,10 @@
 #include "cloud/place_hash.h"
 #include "math/sort.h"
 
+#include <clast/cloud.h>
 #include <clast/machine.h>
 #include <clast/status.h>
+#include <math.h>
 #include <string.h>
 
 enum { AT_ONCE = 1 << 22 }; ///< points of a rank that are compared in one round
@@ -143,4 +145,22 @@ done:
 clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated)
 {
     return clast_cloud_repeated_ranks(cloud, NULL, n_repeated);
+}
+
+clast_status clx_repeated_check(const clast_decomposition *found, const clast_cloud *cloud,
+                                const char *of)
+{
+    clast_status status = CLAST_OK;
+    int64_t n_repeated = 0;
+    if (!isnan(found->events_low)) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_cloud_repeated(cloud, &n_repeated));
+    status = clx_fail(CLAST_E_FORMAT, "%s: no number of events: %s", of,
+                      n_repeated > 0
+                          ? "so many points repeat the place of another, and there is no density "
+                            "at such a place; leave copies out"
+                          : "points lie closer together than cells of this domain can tell");
+done:
+    return status;
 }

@@ -89,12 +89,21 @@ static double least_ratio_at(const clx_ladder *l, int32_t r)
     return isnan(ratio) ? fmin(jump, least_ratio_at(l, r - 1)) : ratio;
 }
 
+/// Points at a place, on average: copies come together, so that pairs are this number squared at a
+/// time.
+static double points_at_a_place(const clx_ladder *l)
+{
+    const double n_point = l->n > 0 ? sqrt(2.0 * ldexp(l->n_pair[0], l->d * l->first)) : 0.0;
+    return n_point > 0.0 ? 1.0 + 2.0 * l->n_repeated / n_point : 1.0;
+}
+
 /// Whether points keep apart, as seeded or stratified ones do: finer cells hold fewer pairs per
 /// volume than coarser ones, where those of independent points hold as many or more.
 static bool keeps_apart(const clx_ladder *l)
 {
+    const double together = points_at_a_place(l);
     for (int32_t r = 0; r < l->n; ++r) {
-        double expected = l->n_pair[r] - l->n_repeated;
+        double expected = (l->n_pair[r] - l->n_repeated) / (together * together);
         for (int32_t m = r + 1; m < l->n + (l->is_deepest ? 0 : 1); ++m) {
             expected *= ldexp(1.0, -l->d);                              // at least
             const double own = l->pairs[r] / sqrt(fmax(1.0, expected)); // of so many pairs

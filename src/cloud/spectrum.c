@@ -17,7 +17,9 @@ const clast_field clast_spectrum_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, initial), 0, 0, 0, "-", "sizes at the start of a box",
      "mono|exponential|lognormal|table"},
     {FIELD(CLAST_FIELD_F64, concentration), 0.0, 0.0, 1e300, "1/m^3",
-     "particles a volume at the start of a box", NULL},
+     "particles a volume at the start of a box; of a table, whose numbers are then shares, or 0: "
+     "their sum",
+     NULL},
     {FIELD(CLAST_FIELD_F64, initial_mean), 1.0, 1e-100, 1e100, "-",
      "mean size at the start [monomers]", NULL},
     {FIELD(CLAST_FIELD_F64, initial_sd), 1.5, 1.001, 100.0, "-",
@@ -25,7 +27,9 @@ const clast_field clast_spectrum_fields[] = {
     {FIELD(CLAST_FIELD_I32, particles), 10000, 2, 10000000, "-", "particles of a Monte Carlo box",
      NULL},
     {FIELD(CLAST_FIELD_F64, size_min), 0.0, 0.0, 1e100, "-",
-     "smallest size, which does not break [monomers]; 0: that of the start", NULL},
+     "smallest size, which does not break [monomers]; 0: that of the start (which must then have "
+     "others, or be single monomers, where particles break)",
+     NULL},
     {FIELD(CLAST_FIELD_F64, size_max), 0.0, 0.0, 1e100, "-",
      "largest size of the grid [monomers]; 0: 1e5 mean sizes of the start", NULL},
     {FIELD(CLAST_FIELD_I32, per_octave), 16, 1, 1000, "-",

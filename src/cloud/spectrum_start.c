@@ -85,6 +85,14 @@ clast_status clx_start_begin(const clast_spectrum_config *config, const clast_sp
               "size_max: %g monomers is below the largest size at the start, %g", config->size_max,
               s.high);
     refine(&s);
+    // a monomer's aggregates break; what is counted in monomers and is of one size was meant to
+    CLX_CHECK(config->breakage_rate == 0.0 || config->size_min > 0.0 || s.low < s.high ||
+                  s.high == 1.0,
+              CLAST_E_CONFIG,
+              "breakage_rate: every particle at the start has %g monomers, which is then the "
+              "smallest size and does not break; name a smaller one with --size-min (of single "
+              "monomers: 1)",
+              s.high);
     *start = s;
 done:
     return status;

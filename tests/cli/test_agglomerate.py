@@ -1,8 +1,10 @@
 """CLI: agglomerate evolves a cloud as its help says."""
+import collections
 import csv
 import json
 import math
 import random
+import re
 import unittest
 
 from clitest import ROOT, Case, clast
@@ -14,6 +16,11 @@ CUBE = "box:0,0,0,1,1,1"
 def write(path, names, rows):
     path.write_text(",".join(names) + "\n" + "\n".join(",".join(repr(c) for c in row) for row in rows) + "\n")
     return path
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 def states_of(n, rate, tau):
@@ -105,16 +112,54 @@ class Agglomerate(Case):
         for name in ("moments.svg", "number.svg"):
             self.assertIn("<svg", (self.folder / "run" / name).read_text())
         self.assertEqual(json.loads((self.folder / "run/summary.json").read_text()), {k: v for k, v in r.json.items() if k != "wall_s"})
-        with open(self.folder / "run/particles.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        sizes = {}
-        for row in rows:
-            sizes[row["aggregate"]] = sizes.get(row["aggregate"], 0) + 1
-        self.assertEqual(sum(float(row["monomers"]) for row in rows), 50)
-        for number, row in enumerate(rows):
-            self.assertEqual(float(row["monomers"]), sizes.get(str(number), 0))
+        particles, members = (rows_of(self.folder / f"run/{name}.csv") for name in ("particles", "members"))
+        sizes = collections.Counter(row["aggregate"] for row in members)
+        self.assertEqual([row["particle"] for row in members], list(range(50)))
+        self.assertEqual({row["particle"]: row["monomers"] for row in particles}, sizes)
         self.assertEqual(len(sizes), r.json["n_particle"][-1])
         self.assertEqual(len(r.json["fixed"]["events"]), 11)
+
+    def test_particles_that_are_left_go_on(self):
+        """Merged ones were rows of 0 monomers, radius and weight at the place of their aggregate: decompose and evolve refused them, and a run
+        without a column of monomers began with all 50."""
+        run, again = self.folder / "run", self.folder / "again"
+        r = clast("agglomerate", UNIFORM, "--domain", CUBE, "--constant", "0.5", "--n-step", "2", "-o", run, "--json").json
+        left = int(r["n_particle"][-1])
+        self.assertLess(left, 25)
+        self.assertEqual(len(rows_of(run / "particles.csv")), left)
+        self.assertEqual(clast("decompose", run / "particles.csv", "--domain", CUBE, "--json").json["n"], left)
+        command = ("agglomerate", run / "particles.csv", "--domain", CUBE, "--constant", "0.5", "--n-step", "2", "--json")
+        self.assertEqual(clast(*command).json["n_particle"][0], left)
+        on = clast(*command, "--monomers-column", "monomers", "-o", again).json
+        self.assertEqual([on["moments"][key][0] for key in ("M0", "M1", "M2", "M3")], [r["moments"][key][-1] for key in ("M0", "M1", "M2", "M3")])
+        self.assertEqual(sum(row["monomers"] for row in rows_of(again / "particles.csv")), 50)
+
+    def test_particles_that_are_left_bring_all_that_a_kernel_needs(self):
+        rng = random.Random(1)
+        file = write(self.folder / "p.csv", ["x", "y", "z", "u", "v", "w", "n"],
+                     [[rng.random() for _ in range(6)] + [rng.randrange(1, 4)] for _ in range(60)])
+        ballistic = ("--domain", CUBE, "--kernel", "ballistic", "--n-step", "1", "--json")
+        r = clast("agglomerate", file, *ballistic, "--monomer-radius", "10cm", "--particle-density", "2650", "--velocity-columns", "u,v,w",
+                  "--weight-column", "n", "-o", self.folder / "run")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual(clast("report", self.folder / "run").code, 0)
+        page = (self.folder / "run/report.html").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])  # each column has words
+        file = self.folder / "run/particles.csv"
+        table = rows_of(file)
+        self.assertEqual(list(table[0]), ["particle", "x_m", "y_m", "z_m", "monomers", "radius_m", "diameter_m", "mass_kg", "cell", "weight",
+                                          "velocity_x_m/s", "velocity_y_m/s", "velocity_z_m/s"])
+        self.assertLess(len(table), 60)
+        for row in table:
+            self.assertEqual(row["diameter_m"], 2 * row["radius_m"])
+            self.assertGreater(min(row["radius_m"], row["weight"], row["mass_kg"], row["monomers"]), 0)
+        on = clast("agglomerate", file, *ballistic, "--radius-column", "radius_m", "--mass-column", "mass_kg", "--weight-column", "weight",
+                   "--monomers-column", "monomers", "--velocity-columns", "velocity_x_m/s,velocity_y_m/s,velocity_z_m/s")
+        self.assertEqual(on.code, 0, on.err)
+        self.assertAlmostEqual(on.json["moments"]["M1"][0], r.json["moments"]["M1"][-1], places=9)
+        momentum = sum(row["weight"] * row["mass_kg"] * row["velocity_x_m/s"] for row in table)
+        mass = 2650 * 4 / 3 * math.pi * 0.1**3
+        self.assertAlmostEqual(momentum / mass, sum(row["n"] * row["u"] for row in rows_of(self.folder / "p.csv")), places=9)
 
     def test_pairs_that_cells_hide_collide_too(self):
         """A plume of 1000 points, whose cells miss a tenth of the pairs: as many more collisions as decompose adds events."""

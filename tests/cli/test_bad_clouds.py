@@ -31,7 +31,11 @@ class BadClouds(Case):
                     self.assertGreaterEqual(r.json["pair_integral"], 0.0)
                 if len(rows) < 5:
                     self.assertEqual((r.json["tests"], r.json["n_cell"]), ([], 1))
-            r = clast("agglomerate", path, "--domain", CUBE, "--constant", "1e9", "--n-step", "1", "--json")
+            command = ("agglomerate", path, "--domain", CUBE, "--constant", "1e9", "--n-step", "1", "--json")
+            if name in ("equal", "faces"):
+                self.assert_fails(3, *command, says=[path.name, "snapshot 1: no number of events: so many points repeat the place of another"])
+                continue
+            r = clast(*command)
             self.assertEqual(r.code, 0, f"{name}: {r.err}")
             self.assertEqual(r.json["moments"]["M1"][-1], len(rows))
 
@@ -56,6 +60,34 @@ class BadClouds(Case):
             words.append(clast("decompose", path, "--domain", CUBE, *more).out.replace("number of events", "pair integral"))
         self.assertIn("no pair integral: so many points repeat the place of another", words[0])
         self.assertEqual(words[0], words[1])
+
+    def test_copies_do_not_agglomerate(self):
+        # each of 1000 points twice: copies got cells of their own, 1666 events where all 2000 in one cell have 20
+        points = [[rng.random() for _ in range(3)] for rng in [random.Random(3)] for _ in range(1000)]
+        command = ("--domain", CUBE, "--constant", "1e-5", "--n-step", "1", "--json")
+        words = "no number of events: so many points repeat the place of another, and there is no density at such a place; leave copies out"
+        once, twice = self.write("once.csv", points), self.write("twice.csv", [p for p in points for _ in range(2)])
+        self.assertIn(words, clast("decompose", twice, "--domain", CUBE, "--beta-dt", "1e-5").out)
+        self.assert_fails(3, "agglomerate", twice, *command, "-o", self.folder / "none", says=["twice.csv", f"snapshot 1: {words}"])
+        self.assertFalse((self.folder / "none").exists())
+        self.assertLess(clast("agglomerate", once, *command).json["events"][-1], 20)
+        other = self.write("other.csv", [[rng.random() for _ in range(3)] for rng in [random.Random(4)] for _ in range(2000)])
+        self.assert_fails(3, "agglomerate", other, twice, *command, "--rebuild", "always", says=[f"snapshot 2: {words}"])
+        nine = self.write("nine.csv", [p for p in points[:200] for _ in range(9)])  # was "the points keep apart", and a lower bound
+        self.assertIn(words, clast("decompose", nine, "--domain", CUBE, "--beta-dt", "1e-5").out)
+        few = self.write("few.csv", points + points[:1])
+        r = clast("agglomerate", few, *command)
+        self.assertEqual((r.code, r.json["n_repeated"]), (0, 1))
+        said = clast("agglomerate", few, *command[:-1]).out
+        self.assertIn("warning: 1 particle repeats the place of an earlier one; each such pair counts as two particles that meet", said)
+        self.assertNotIn("too few", said)
+
+    def test_aggregates_may_meet_at_one_place(self):
+        # centres of mass of a lattice's points are places of others
+        lattice = self.write("lattice.csv", [[(i + 0.5) / 6, (j + 0.5) / 6] for i in range(6) for j in range(6)], "x,y")
+        r = clast("agglomerate", lattice, "--domain", "box:0,0,1,1", "--constant", "1", "--duration", "1s", "--n-step", "50", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual((r.json["n_particle"][-1] < 4, r.json["moments"]["M1"][-1]), (True, 36))
 
     def test_long_boxes_score_like_cubes(self):
         random.seed(2)

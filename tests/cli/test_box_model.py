@@ -126,6 +126,31 @@ class BoxModel(Case):
         self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
                           says=["sizes.csv", "row 2", "-4"])
 
+    def test_a_start_that_cannot_break_is_refused(self):
+        # "the smallest size does not break", and that of the start is the smallest: 1e12 stayed 1e12, without a word
+        common = ("agglomerate", "--box-model", "--concentration", "1e12", "--constant", "1e-30", "--breakage-rate", "1", "--duration", "0.01s",
+                  "--n-step", "1", "--json")
+        table = self.folder / "one.csv"
+        table.write_text("size,number\n100,1e12\n")
+        for start in (("--initial-mean", "100"), ("--initial", "table", "--initial-file", table),
+                      ("--initial-mean", "100", "--source", "1e3", "--source-size", "200")):
+            for solver in ("monte-carlo", "sectional"):
+                self.assert_fails(2, *common, *start, "--solver", solver, says=["has 100 monomers", "does not break", "--size-min"])
+        r = clast(*common, "--initial-mean", "100", "--size-min", "1").json
+        self.assertAlmostEqual(r["n_particle"][-1], 2e12, delta=0.05e12)  # N0 (1 + S1 x t)
+        self.assertEqual(clast(*common).code, 0)  # monomers: what they form breaks
+
+    def test_numbers_of_a_table_are_shares_of_a_concentration_and_it_says_so(self):
+        table = self.folder / "sizes.csv"
+        table.write_text("size,number\n1,1e12\n2,5e11\n")
+        common = ("agglomerate", "--box-model", "--initial", "table", "--initial-file", table, "--constant", "1e-20", "--n-step", "1", "--json")
+        r = clast(*common, "--concentration", "5")
+        self.assertEqual(r.json["n_particle"][0], 5)
+        self.assertIn("note: the numbers of", r.err)
+        self.assertIn("1.5e+12 in all, are taken as shares of --concentration 5 1/m^3", r.err)
+        for words in ((), ("--concentration", "1.5e12"), ("--concentration", "5", "--quiet")):
+            self.assertEqual(clast(*common, *words).err, "")
+
     def test_what_does_not_go_together_is_refused(self):
         wanted = [(("agglomerate",), "missing POINTS... (or --box-model"),
                   (("agglomerate", UNIFORM, "--domain", "box:0,0,0,1,1,1", "--solver", "sectional"), "--solver is an option of a box"),

@@ -43,6 +43,14 @@ class Ranges(Case):
         page = (self.folder / "run" / "report.html").read_text(encoding="utf-8")
         self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
 
+    def test_a_sink_is_not_called_a_kernel(self):
+        box = ("agglomerate", "--box-model", "--concentration", "1e9", "--settling-depth", "1m", "--settling-law", "stokes", "--monomer-radius",
+               "1mm", "--particle-density", "2650", "--n-step", "1")
+        lines = [clast(*box, "--kernel", kernel, *more) for kernel, more in (("constant", ("--constant", "1e-20")), ("settling", ()))]
+        for line, owner in zip(lines, ("sink of --settling-depth", "kernel settling")):
+            self.assertEqual(line.code, 2)
+            self.assertIn(f"clast agglomerate: {owner}: Reynolds number of settling by Stokes' law is 7.16e+03", line.err)
+
     def test_fine_ash_without_a_mean_free_path_is_refused(self):
         file = grains(self.folder / "p.csv", [1e-7, 1e-7])
         common = ("agglomerate", file, "--domain", CUBE, "--radius-column", "r", *AIR, "--variant", "test")

@@ -731,6 +731,11 @@ static void what_does_not_go_together_is_refused(void **state)
     CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "sectional"));
     c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
+    c.breakage_rate = 1.0;
+    c.initial_mean = 100.0; /* would be the smallest size, which does not break */
+    CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "--size-min"));
+    c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
     c.source = 1.0;
     c.source_size = 1e4; /* above the grid */
     CHECK_STATUS(clast_spectrum_evolve(NULL, &c, &k, NULL, &r), CLAST_E_CONFIG);
