@@ -139,9 +139,9 @@ typedef struct clast_period {
     double length[3];
 } clast_period;
 
-/// The same across the borders of a periodic box too, in which every grain's centroid lies; of each
-/// contact across a border the point is on the side of the grain of lower number. A grain's contact
-/// with its own image is none.
+/// The same across the borders of a periodic box too, wherever grains lie: each is taken by its
+/// image in the box. Of each contact across a border the point is on the side of the grain of lower
+/// number. A grain's contact with its own image is none.
 ///
 /// @param period  NULL: none
 CLAST_API clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
@@ -156,7 +156,7 @@ typedef struct clast_overlaps {
     double share; ///< greatest depth by the smaller grain's volume-equivalent radius
 } clast_overlaps;
 
-/// @param period  NULL: none; else every grain's centroid lies in the box
+/// @param period  NULL: none; else each grain is taken by its image in the box
 /// @note the same bytes for any thread count
 CLAST_API clast_status clast_assembly_overlaps(const clast_assembly *assembly,
                                                const clast_period *period,
@@ -332,8 +332,11 @@ CLAST_API clast_status clast_assembly_coordination(const clast_assembly *assembl
                                                    clast_table *table);
 
 /// Area of the shadow along a direction, by n_line scan lines on which the shadow's length is
-/// exact; the error is
-/// the difference between its even and its odd lines.
+/// exact; the error is the difference to half as many lines, or between even and odd ones where
+/// that is more.
+///
+/// @return CLAST_E_USAGE for fewer than 2 lines, no grain, or a direction that is zero or not
+/// finite
 CLAST_API clast_status clast_assembly_projected_area(const clast_assembly *assembly,
                                                      const double direction[3], int32_t n_line,
                                                      double *area, double *error);

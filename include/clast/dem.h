@@ -21,8 +21,8 @@ typedef enum {
 /// How a step takes springs and dashpots of the linear law.
 typedef enum {
     CLAST_DEM_EXPLICIT, ///< forces of eq. 6 and 7 at the step's begin, as published
-    CLAST_DEM_EXACT     ///< a lone contact goes its exact way at any step, and dashpots of grains
-                        ///< with many contacts are held stable
+    CLAST_DEM_EXACT     ///< a lone contact goes its exact way at any step, T_c rounded to a whole
+                        ///< number of them; dashpots of grains with many contacts are held stable
 } clast_dem_scheme;
 
 /// Attraction of grains that touch.
@@ -46,12 +46,15 @@ typedef enum {
     CLAST_DEM_ROLL_SPRING  ///< model C: a spring that gives way at the limit, with a dashpot
 } clast_dem_rolling;
 
+/// Where grains are. All stand about x = y = 0, upwards from z = 0: `floor` is the plane z = 0,
+/// `lid` z = height.
 typedef enum {
     CLAST_DEM_CYLINDER, ///< upright, inside diameter `width`, axis x = y = 0
-    CLAST_DEM_PERIODIC, ///< width x depth, periodic in x and y
-    CLAST_DEM_BOX,      ///< width x depth between four upright walls
+    CLAST_DEM_PERIODIC, ///< width x depth, periodic in x and y: images about x = y = 0
+    CLAST_DEM_BOX,      ///< between four upright walls at x = +-width / 2, y = +-depth / 2
     CLAST_DEM_OPEN,     ///< no side walls
-    CLAST_DEM_CELL      ///< width x depth x height, periodic in x, y and z; its sides may move
+    CLAST_DEM_CELL ///< width x depth x height, periodic in x, y and z; its sides may move. Images
+                   ///< about x = y = 0, z from 0 to height
 } clast_dem_domain;
 
 /// Stiffness of two bodies that meet in several spheres of clumps at once.
@@ -88,7 +91,7 @@ typedef struct clast_dem_config {
     double added_mass;       ///< fluid moved along over the grain's volume; 1/2 of a sphere
     bool wet_restitution;    ///< restitution falls with the impact's Stokes number
     int32_t domain;          ///< clast_dem_domain
-    double width, depth;     ///< along x and y; depth 0: as width [m]
+    double width, depth;     ///< along x and y, about 0; depth 0: as width [m]
     double height;           ///< of the lid, and of generation [m]
     bool floor, lid;         ///< planes z = 0 and z = height
     double rounding;         ///< radius that edges of hulls get, their volume kept [m]
@@ -182,7 +185,7 @@ typedef struct clast_dem_energy {
 typedef struct clast_dem_wall_motion {
     double velocity[3];  ///< [m/s]
     double amplitude[3]; ///< of vibration [m]
-    double period;       ///< of vibration and swing [s]; 0: neither
+    double period;       ///< of vibration and swing [s]; above 0 where there is either
     double axis[3];      ///< unit, fixed; zeros: the wall does not turn
     double pivot[3];     ///< p, on the axis [m]
     double rate;         ///< [rad/s]
@@ -250,21 +253,22 @@ typedef struct clast_dem_load {
 /// A running simulation. Opaque; one thread at a time (it uses threads itself).
 typedef struct clast_dem clast_dem;
 
-/// @return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the
-/// domain make no sense
+/// @return CLAST_E_CONFIG for a field out of its range (clast_dem_fields), or when the time step
+/// does not resolve the stiffest contact
 CLAST_API clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem);
 CLAST_API void clast_dem_destroy(clast_dem *dem); ///< NULL is allowed
 
 /// Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any
 /// obstacle. Once, before the first grain. Planes and sides of the domain stay as configured.
 ///
-/// @return CLAST_E_GEOMETRY if no triangle has an area
+/// @return CLAST_E_GEOMETRY for a vertex that is not finite, by its number, or if no triangle has
+/// an area
 CLAST_API clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh);
 
 /// A surface as one more wall, closed or open, which may be moved, watched and opened; before the
 /// first grain. Its number goes to *wall.
 ///
-/// @return CLAST_E_GEOMETRY if no triangle has an area
+/// @return CLAST_E_GEOMETRY as clast_dem_add_container
 CLAST_API clast_status clast_dem_add_wall(clast_dem *dem, const clast_mesh *mesh, int32_t *wall);
 
 /// Sums the forces on all walls from the next step on, those of the domain with them, and numbers
@@ -275,7 +279,8 @@ CLAST_API int32_t clast_dem_n_wall(const clast_dem *dem); ///< 0 while none are 
 /// How a wall moves, before it does.
 ///
 /// @return CLAST_E_CONFIG where a plane or cylinder of the domain would not stay one; CLAST_E_USAGE
-/// for a wall that is not there, numbers that are not finite or a period below 0
+/// for a wall that is not there, numbers that are not finite, a period below 0, or of 0 beside an
+/// amplitude or a swing
 CLAST_API clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
                                                  const clast_dem_wall_motion *motion);
 
@@ -323,8 +328,9 @@ CLAST_API clast_status clast_dem_set_wall_material(clast_dem *dem, int32_t wall,
 /// Adds grains; all or none.
 ///
 /// @return CLAST_E_USAGE for an unknown shape or numbers that are not finite; CLAST_E_GEOMETRY for
-/// a grain wider than the domain, its period or half a cell; CLAST_E_CONFIG when Hertz's
-/// contact of the smallest grain is too stiff for the time step
+/// a grain wider than the domain, its period or half a cell, or whose centre lies outside of a wall
+/// (clast_dem_domain says where they stand); CLAST_E_CONFIG when Hertz's contact of the smallest
+/// grain is too stiff for the time step
 CLAST_API clast_status clast_dem_add_grains(clast_dem *dem, int32_t n,
                                             const clast_dem_grain *grain);
 
@@ -338,8 +344,9 @@ CLAST_API clast_status clast_dem_set_drive(clast_dem *dem, const clast_dem_drive
 ///
 /// @return CLAST_E_CONVERGE when a run explodes (a grain is so fast that its contact would overlap
 /// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause;
-/// CLAST_E_GEOMETRY where grains that were just added lie inside of each other or of a wall, or a
-/// cell has become narrower than its grains allow; CLAST_E_ARGUMENT for a negative n_step
+/// CLAST_E_GEOMETRY where grains that were just added lie inside of each other, of grains that were
+/// there or of a wall, which is refused until they are taken out, or a cell has become narrower
+/// than its grains allow; CLAST_E_ARGUMENT for a negative n_step
 CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
 
 /// From now on the work of all forces is booked, which changes no bit of the run; begins anew if it

@@ -60,7 +60,8 @@ typedef struct clast_pairs {
 ///
 /// c is the domain's set covariance averaged over directions: closed form for boxes and spheres,
 /// quadrature to 1e-12 for long distances in boxes and for cylinders, quasi-Monte Carlo chords for
-/// half pipes and closed surfaces, points for a caller's map (edge_error tells how well).
+/// half pipes and closed surfaces, pairs of points for far ones of slender bodies, points for a
+/// caller's map (edge_error tells how well).
 ///
 /// @return CLAST_E_CONFIG for points with weights; CLAST_E_FORMAT for coordinates that are not
 /// finite, or points outside with CLAST_OUTSIDE_ERROR; CLAST_E_LIMIT for fewer than 2 points
@@ -69,11 +70,13 @@ CLAST_API clast_status clast_pairs_count(const clast_domain *domain, const clast
                                          const clast_pairs_config *config, clast_pairs *pairs);
 CLAST_API void clast_pairs_free(clast_pairs *pairs);
 
-/// Probability that two points, uniform in the domain, are closer than each radius.
+/// Probability that two points, uniform in the domain, are closer than each radius: rises from 0 to
+/// 1, which it is from the diameter on.
 ///
 /// @param radius  [n] > 0, ascending [m]
 /// @param share   [n] out
 /// @param error   [n] out, its standard error (0 in closed form), or NULL
+/// @return CLAST_E_ARGUMENT for radii that do not ascend from above 0, or a domain without a volume
 CLAST_API clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n,
                                            const double *radius, double *share, double *error);
 

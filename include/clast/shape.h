@@ -10,7 +10,7 @@ struct clast_spheres {
     double *radius;      ///< [n] m
 };
 
-/// Room for n spheres, zeroed; `spheres` must be empty. CLAST_E_MEMORY.
+/// Room for n spheres, zeroed; `spheres` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
 CLAST_API clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres);
 /// Frees the arrays; may be called twice.
 CLAST_API void clast_spheres_free(clast_spheres *spheres);
@@ -72,7 +72,7 @@ CLAST_API void clast_shape_free(clast_shape *shape);
 /// Copy that owns all it has; `copy` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_shape_copy(const clast_shape *shape, clast_shape *copy);
 
-/// Sphere of this radius.
+/// Sphere of this radius; CLAST_E_GEOMETRY where its volume and moments are no numbers above 0.
 CLAST_API clast_status clast_shape_sphere(const char *name, double radius, clast_shape *shape);
 
 /// Ellipsoid of these semi-axes (any order; sorted a >= b >= c).

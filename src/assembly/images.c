@@ -1,5 +1,6 @@
-// Contacts and overlaps of grains that repeat periodically: the grains near the border once more as
-// images on the other side, and of each pair that meets there only one of its two sights.
+// Contacts and overlaps of grains that repeat periodically: each grain's image within the box,
+// those near the border once more as images on the other side, and of each pair that meets there
+// only one of its two sights.
 #include <clast/assembly.h>
 
 #include "assembly/touch_set.h"
@@ -14,7 +15,8 @@
 typedef struct {
     clast_assembly all;
     int32_t n_own;
-    int32_t *origin; ///< [all.n_grain] the grain that each is
+    int32_t *origin;    ///< [all.n_grain] the grain that each is
+    double (*shift)[3]; ///< [n_own] from a grain to its image within the box
     int64_t room;
 } imaged;
 
@@ -22,6 +24,7 @@ static void imaged_free(imaged *m)
 {
     clast_assembly_free(&m->all);
     clx_free(m->origin);
+    clx_free(m->shift);
     *m = (imaged){0};
 }
 
@@ -44,7 +47,21 @@ static double reach_of(const clast_assembly *a, int32_t i)
     return a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
 }
 
-/// Images of grain i that may come near a grain of the first image.
+/// From grain i to its image within the box: 0 for one that lies in it.
+static void find_shift(const clast_assembly *a, int32_t i, const clast_period *period,
+                       double shift[3])
+{
+    v3_set(shift, 0.0, 0.0, 0.0);
+    for (int k = 0; k < 3 && period != NULL; ++k) {
+        const double x = a->position[i][k] - period->low[k];
+        const double length = period->length[k];
+        if (length > 0.0 && (x < 0.0 || x > length)) {
+            shift[k] = -length * floor(x / length);
+        }
+    }
+}
+
+/// Images of grain i, whose own is in `m`, that may come near a grain of the box.
 static clast_status add_images(const clast_assembly *a, int32_t i, const clast_period *period,
                                double near, imaged *m)
 {
@@ -55,7 +72,8 @@ static clast_status add_images(const clast_assembly *a, int32_t i, const clast_p
         bool is_near = image != 13; // 13 is the grain itself
         for (int k = 0; k < 3 && is_near; ++k) {
             shift[k] = turn[k] * period->length[k];
-            const double x = a->position[i][k] + shift[k] - period->low[k];
+            const double x = m->all.position[i][k] + shift[k] - period->low[k];
+            shift[k] += m->shift[i][k];
             const double reach = reach_of(a, i) + near;
             is_near = turn[k] == 0 ||
                       (period->length[k] > 0.0 && x > -reach && x < period->length[k] + reach);
@@ -72,15 +90,16 @@ static clast_status make_images(const clast_assembly *a, const clast_period *per
                                 imaged *m)
 {
     CLAST_ASSERT(m->all.n_grain == 0);
-    static const double none[3] = {0.0, 0.0, 0.0};
     clast_status status = CLAST_OK;
     double largest = 0.0;
+    CLX_TRY(clx_alloc(&m->shift, a->n_grain, sizeof *m->shift));
     for (int32_t s = 0; s < a->n_shape; ++s) {
         CLX_TRY(clast_assembly_add_shape(&m->all, &a->shape[s], NULL));
     }
     for (int32_t i = 0; i < a->n_grain; ++i) {
         largest = fmax(largest, reach_of(a, i));
-        CLX_TRY(add_image(a, i, none, m));
+        find_shift(a, i, period, m->shift[i]);
+        CLX_TRY(add_image(a, i, m->shift[i], m));
     }
     m->n_own = a->n_grain;
     for (int32_t i = 0; i < a->n_grain && period != NULL; ++i) {
@@ -146,8 +165,9 @@ clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, dou
     for (int32_t c = 0; c < m.all.n_contact; ++c) {
         const int32_t *pair = m.all.contact[c];
         if (counts(&m, pair)) {
-            CLX_TRY(clast_assembly_add_contact(&made, m.origin[pair[0]], m.origin[pair[1]],
-                                               m.all.contact_point[c]));
+            double point[3]; // beside the grain of lower number, which is the pair's first
+            v3_sub(point, m.all.contact_point[c], m.shift[pair[0]]);
+            CLX_TRY(clast_assembly_add_contact(&made, m.origin[pair[0]], m.origin[pair[1]], point));
         }
     }
     clx_contacts_replace(assembly, &made);

@@ -48,6 +48,10 @@ static bool is_box(const clast_domain *domain)
     return is;
 }
 
+/// Volumes are squared: that shall be a number.
+static const double LEAST_VOLUME = 1e-150;
+static const double GREATEST_VOLUME = 1e150;
+
 clast_status clx_domain_check(const clast_domain *domain)
 {
     clast_status status = CLAST_OK;
@@ -71,6 +75,11 @@ clast_status clx_domain_check(const clast_domain *domain)
                   "the domain has the radius %g and the length %g in %d dimensions", domain->radius,
                   domain->length, domain->dimension);
     }
+    const double volume = clast_domain_volume(domain);
+    CLX_CHECK(volume >= LEAST_VOLUME && volume <= GREATEST_VOLUME, CLAST_E_ARGUMENT,
+              "the volume of the domain is %g m^%d, and its square no number: it lies between %g "
+              "and %g",
+              volume, domain->dimension, LEAST_VOLUME, GREATEST_VOLUME);
 done:
     return status;
 }

@@ -3,10 +3,13 @@
 // Box: the product of (side - r |u_j|) averaged over directions, in closed form over the angle in
 // the plane of two sides [Ghosh1951 for the square] and by quadrature over the polar angle where r
 // exceeds a side. Cylinder: lens of two discs times (L - r |cos|). Each piece between two kinks is
-// integrated in cosine-spaced points, which makes its square roots at the ends smooth: 1e-12.
+// integrated in cosine-spaced points, which makes its square roots at the ends smooth: 1e-12. Other
+// domains are sampled.
 #include "cloud/covariogram.h"
 
+#include "base/alloc.h"
 #include "cloud/contract.h"
+#include "cloud/surface.h"
 #include "math/quadrature.h"
 #include <clast/cloud.h>
 #include <clast/pairs.h>
@@ -183,32 +186,96 @@ static void integrate(const clast_domain *d, int32_t n, const double *radius, do
     }
 }
 
+/// Distance that no two points of the domain are beyond: the diameter, of a surface the least ball
+/// about the middle of its box.
+static double measure_diameter(const clast_domain *d)
+{
+    double most = 0.0;
+    if (d->kind == CLAST_DOMAIN_HALF_PIPE) {
+        return hypot(2.0 * d->radius, d->length);
+    }
+    if (d->kind != CLAST_DOMAIN_MESH) {
+        return (double)INFINITY;
+    }
+    const clast_mesh *m = &d->surface->mesh;
+    for (int32_t v = 0; v < m->n_vert; ++v) {
+        double square = 0.0;
+        for (int j = 0; j < 3; ++j) {
+            const double off = m->vert[v][j] - 0.5 * (d->low[j] + d->high[j]);
+            square += off * off;
+        }
+        most = fmax(most, square);
+    }
+    return 2.0 * sqrt(most);
+}
+
+/// Relative error of an estimate by chords from which pairs of points are asked, too.
+static const double LARGE_ERROR = 1e-3;
+
+/// Shares by chords; where their error is large and that of pairs of points is less, by these. Of a
+/// map by shells about points.
+static clast_status sample(const clast_domain *domain, int32_t n, const double *radius,
+                           double *share, double *error)
+{
+    clast_status status = CLAST_OK;
+    double *other = NULL; // [2][n] shares by pairs, their errors
+    const double square = clast_domain_volume(domain) * clast_domain_volume(domain);
+    const bool has_chords = domain->kind != CLAST_DOMAIN_MAP;
+    bool is_large = false;
+    CLX_TRY(clx_covariogram_sample(domain, n, radius, share, error));
+    for (int32_t i = 0; i < n; ++i) {
+        share[i] /= square;
+        error[i] /= square;
+        is_large = is_large || (has_chords && error[i] > LARGE_ERROR * fabs(share[i]));
+    }
+    if (is_large) {
+        CLX_TRY(clx_alloc(&other, 2 * (int64_t)n, sizeof *other));
+        CLX_TRY(clx_covariogram_pairs(domain, n, radius, other, other + n));
+    }
+    const double diameter = measure_diameter(domain);
+    for (int32_t i = 0; i < n; ++i) {
+        if (radius[i] >= diameter) {
+            share[i] = 1.0;
+            error[i] = 0.0;
+        } else if (is_large && error[i] > LARGE_ERROR * fabs(share[i]) && other[n + i] < error[i]) {
+            share[i] = other[i];
+            error[i] = other[n + i];
+        }
+    }
+done:
+    clx_free(other);
+    return status;
+}
+
 clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n, const double *radius,
                                  double *share, double *error)
 {
     CLX_ARGUMENTS(domain, radius, share);
     clast_status status = CLAST_OK;
+    double *made = NULL; // [2][n] shares, errors
     CLX_TRY(clx_domain_check(domain));
     CLX_CHECK(n >= 1, CLAST_E_ARGUMENT, "%d radii", n);
     for (int32_t i = 0; i < n; ++i) {
         CLX_CHECK(isfinite(radius[i]) && radius[i] > (i > 0 ? radius[i - 1] : 0.0),
                   CLAST_E_ARGUMENT, "radius %d is %g: radii are > 0 and ascend", i + 1, radius[i]);
     }
+    CLX_TRY(clx_alloc(&made, 2 * (int64_t)n, sizeof *made));
     if (clx_covariogram_is_exact(domain)) {
-        integrate(domain, n, radius, share);
-        for (int32_t i = 0; i < n && error != NULL; ++i) {
-            error[i] = 0.0;
+        const double volume = clast_domain_volume(domain);
+        integrate(domain, n, radius, made);
+        for (int32_t i = 0; i < n; ++i) {
+            made[i] /= volume * volume;
         }
     } else {
-        CLX_TRY(clx_covariogram_sample(domain, n, radius, share, error));
+        CLX_TRY(sample(domain, n, radius, made, made + n));
     }
-    const double volume = clast_domain_volume(domain);
-    for (int32_t i = 0; i < n; ++i) {
-        share[i] /= volume * volume;
+    for (int32_t i = 0; i < n; ++i) { // what sampling leaves of a probability's order
+        share[i] = fmin(fmax(made[i], i > 0 ? share[i - 1] : 0.0), 1.0);
         if (error != NULL) {
-            error[i] /= volume * volume;
+            error[i] = made[n + i];
         }
     }
 done:
+    clx_free(made);
     return status;
 }

@@ -13,3 +13,8 @@ bool clx_covariogram_is_exact(const clast_domain *domain);
 /// error: chords of a closed surface or a half pipe, points of a map.
 clast_status clx_covariogram_sample(const clast_domain *domain, int32_t n, const double *radius,
                                     double *integral, double *error);
+
+/// Share of uniform pairs within each radius by pairs of points of a closed surface or a half pipe,
+/// with its standard error: INFINITY where too few pairs are so near.
+clast_status clx_covariogram_pairs(const clast_domain *domain, int32_t n, const double *radius,
+                                   double *share, double *error);

@@ -13,205 +13,18 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "cloud/surface.h"
-#include "math/rng.h"
+#include "cloud/covariogram_lines.h"
 #include <math.h>
 
-enum {
-    N_SHIFT = 16,
-    N_SAMPLE = 8192,
-    BLOCK = 1024,
-    N_BLOCK = N_SAMPLE / BLOCK,
-    MOST_CROSSING = 64
-};
+enum { N_SHIFT = 16, N_SAMPLE = 8192, BLOCK = 1024, N_BLOCK = N_SAMPLE / BLOCK };
 
 typedef struct {
     const clast_domain *domain;
     int32_t n;
     const double *radius;
-    double area;
-    double *area_to; ///< [n_tri] of a mesh: summed areas
-    double *sum;     ///< [N_SHIFT * N_BLOCK][n + 1], the last of the chords
+    clx_lines lines;
+    double *sum; ///< [N_SHIFT * N_BLOCK][n + 1], the last of the chords
 } sampler;
-
-/// Numbers of the generalised golden ratio: the sequence frac(shift + k g^-j). [Roberts2018]
-typedef struct {
-    int n;
-    double shift[7], step[7];
-} sequence;
-
-static sequence sequence_at(int64_t shift, int n)
-{
-    // roots of x^(n+1) = x + 1, n = 4 and 7
-    const double base = n == 4 ? 1.1673039782614187 : 1.0969815577985598;
-    clx_rng rng = clx_rng_at(0, CLX_STREAM_COVARIOGRAM, (uint64_t)shift);
-    sequence q = {.n = n};
-    double step = 1.0;
-    for (int j = 0; j < n; ++j) {
-        q.shift[j] = clx_rng_uniform(&rng);
-        q.step[j] = step /= base;
-    }
-    return q;
-}
-
-static void quasi(const sequence *q, int64_t k, double *u)
-{
-    for (int j = 0; j < q->n; ++j) {
-        const double at = q->shift[j] + (double)k * q->step[j];
-        u[j] = at - floor(at);
-    }
-}
-
-/// Direction by the cosine law about a unit normal.
-static void cosine_law(const double normal[3], double u, double v, double direction[3])
-{
-    const int least = fabs(normal[0]) < 0.6 ? 0 : 1;
-    double e[2][3];
-    double axis[3] = {least == 0, least == 1, 0.0};
-    const double along = axis[0] * normal[0] + axis[1] * normal[1];
-    double length = 0.0;
-    for (int j = 0; j < 3; ++j) {
-        e[0][j] = axis[j] - along * normal[j];
-        length += e[0][j] * e[0][j];
-    }
-    for (int j = 0; j < 3; ++j) {
-        e[0][j] /= sqrt(length);
-    }
-    for (int j = 0; j < 3; ++j) {
-        e[1][j] = normal[(j + 1) % 3] * e[0][(j + 2) % 3] - normal[(j + 2) % 3] * e[0][(j + 1) % 3];
-    }
-    const double sine = sqrt(u);
-    for (int j = 0; j < 3; ++j) {
-        direction[j] =
-            sine * (cos(2.0 * CLAST_PI * v) * e[0][j] + sin(2.0 * CLAST_PI * v) * e[1][j]) +
-            sqrt(1.0 - u) * normal[j];
-    }
-}
-
-static double triangle_area(const clast_mesh *m, int32_t t, double inward[3])
-{
-    const double *p = m->vert[m->tri[t][0]];
-    const double *q = m->vert[m->tri[t][1]];
-    const double *r = m->vert[m->tri[t][2]];
-    double length = 0.0;
-    for (int j = 0; j < 3; ++j) {
-        const int k = (j + 1) % 3;
-        const int l = (j + 2) % 3;
-        inward[j] = -((q[k] - p[k]) * (r[l] - p[l]) - (q[l] - p[l]) * (r[k] - p[k]));
-        length += inward[j] * inward[j];
-    }
-    length = sqrt(length);
-    for (int j = 0; j < 3; ++j) {
-        inward[j] /= length > 0.0 ? length : 1.0;
-    }
-    return 0.5 * length;
-}
-
-/// A uniform point of the mesh and the inward normal there.
-static void on_mesh(const sampler *s, double u, double v, double x[3], double inward[3])
-{
-    const clast_mesh *m = &s->domain->surface->mesh;
-    int32_t low = 0;
-    int32_t high = m->n_tri - 1;
-    const double wanted = u * s->area;
-    while (low < high) {
-        const int32_t middle = (low + high) / 2;
-        if (s->area_to[middle] > wanted) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    const double before = low > 0 ? s->area_to[low - 1] : 0.0;
-    const double share = fmin(1.0, fmax(0.0, (wanted - before) / (s->area_to[low] - before)));
-    const double root = sqrt(share);
-    for (int j = 0; j < 3; ++j) {
-        x[j] = (1.0 - root) * m->vert[m->tri[low][0]][j] +
-               root * (1.0 - v) * m->vert[m->tri[low][1]][j] +
-               root * v * m->vert[m->tri[low][2]][j];
-    }
-    (void)triangle_area(m, low, inward);
-}
-
-/// The same of a half pipe: round wall, flat wall, two ends.
-static void on_half_pipe(const sampler *s, double u, double v, double x[3], double inward[3])
-{
-    const clast_domain *d = s->domain;
-    const double round_wall = CLAST_PI * d->radius * d->length;
-    const double flat = 2.0 * d->radius * d->length;
-    double at = u * s->area;
-    for (int j = 0; j < 3; ++j) {
-        inward[j] = 0.0;
-    }
-    if (at < round_wall) {
-        const double angle = CLAST_PI * at / round_wall;
-        x[0] = d->radius * cos(angle);
-        x[1] = d->radius * sin(angle);
-        x[2] = v * d->length;
-        inward[0] = -cos(angle);
-        inward[1] = -sin(angle);
-        return;
-    }
-    at -= round_wall;
-    if (at < flat) {
-        x[0] = d->radius * (2.0 * at / flat - 1.0);
-        x[1] = 0.0;
-        x[2] = v * d->length;
-        inward[1] = 1.0;
-        return;
-    }
-    const double share = fmin(1.0, (at - flat) / (CLAST_PI * d->radius * d->radius));
-    const bool is_top = share >= 0.5;
-    const double rho = d->radius * sqrt(is_top ? 2.0 * share - 1.0 : 2.0 * share);
-    x[0] = rho * cos(CLAST_PI * v);
-    x[1] = rho * sin(CLAST_PI * v);
-    x[2] = is_top ? d->length : 0.0;
-    inward[2] = is_top ? -1.0 : 1.0;
-}
-
-/// Where a line that enters a half pipe leaves it.
-static double half_pipe_chord(const clast_domain *d, const double x[3], const double u[3])
-{
-    const double a = u[0] * u[0] + u[1] * u[1];
-    const double b = x[0] * u[0] + x[1] * u[1];
-    const double c = fmax(0.0, d->radius * d->radius - x[0] * x[0] - x[1] * x[1]);
-    double chord = a > 0.0 ? (sqrt(b * b + a * c) - b) / a : (double)INFINITY;
-    if (u[1] < 0.0) {
-        chord = fmin(chord, x[1] / -u[1]);
-    }
-    if (u[2] != 0.0) {
-        chord = fmin(chord, (u[2] > 0.0 ? d->length - x[2] : x[2]) / fabs(u[2]));
-    }
-    return fmax(chord, 0.0);
-}
-
-/// Crossings of a line behind its entry, out, in, out ..: as far as pairs within `distance` need.
-static int crossings(const sampler *s, const double x[3], const double u[3], double distance,
-                     double *t)
-{
-    const clast_domain *d = s->domain;
-    if (d->kind == CLAST_DOMAIN_HALF_PIPE) {
-        t[0] = half_pipe_chord(d, x, u);
-        return 1;
-    }
-    const clast_mesh *m = &d->surface->mesh;
-    const double size =
-        fmax(d->high[0] - d->low[0], fmax(d->high[1] - d->low[1], d->high[2] - d->low[2]));
-    double from = 1e-9 * size;
-    int n = 0;
-    clast_hit hit;
-    while (n < MOST_CROSSING && clast_bvh_ray(d->surface->bvh, x, u, from,
-                                              n == 0 ? 4.0 * size : t[0] + distance, &hit)) {
-        double inward[3];
-        (void)triangle_area(m, hit.tri, inward);
-        const bool enters = u[0] * inward[0] + u[1] * inward[1] + u[2] * inward[2] > 0.0;
-        if (enters == (n % 2 == 1)) { // a graze of the wrong side is none
-            t[n++] = hit.t;
-        }
-        from = hit.t + 1e-9 * size;
-    }
-    return n;
-}
 
 /// Integral from 0 to R of 4 pi r^2 (r - c)+.
 static double ramp(double radius, double c)
@@ -225,17 +38,10 @@ static double ramp(double radius, double c)
 
 static void add_line(const sampler *s, const double u[4], double *sum)
 {
-    double x[3];
-    double inward[3];
-    double direction[3];
-    double t[MOST_CROSSING];
-    if (s->domain->kind == CLAST_DOMAIN_MESH) {
-        on_mesh(s, u[0], u[1], x, inward);
-    } else {
-        on_half_pipe(s, u[0], u[1], x, inward);
-    }
-    cosine_law(inward, u[2], u[3], direction);
-    const int n = crossings(s, x, direction, s->radius[s->n - 1], t);
+    clx_line line;
+    clx_line_at(&s->lines, u, s->radius[s->n - 1], &line);
+    const double *t = line.t;
+    const int n = line.n;
     const double chord = n > 0 ? t[0] : 0.0;
     sum[s->n] += chord;
     for (int32_t i = 0; i < s->n; ++i) {
@@ -285,10 +91,10 @@ static void sample_block(int64_t begin, int64_t end, int32_t worker, void *conte
     (void)worker;
     for (int64_t block = begin; block < end; ++block) {
         const bool is_map = s->domain->kind == CLAST_DOMAIN_MAP;
-        const sequence q = sequence_at(block / N_BLOCK, is_map ? 7 : 4);
+        const clx_sequence q = clx_sequence_at(block / N_BLOCK, is_map ? 7 : 4);
         for (int64_t k = 0; k < BLOCK; ++k) {
             double u[7] = {0.0};
-            quasi(&q, block % N_BLOCK * BLOCK + k, u);
+            clx_sequence_point(&q, block % N_BLOCK * BLOCK + k, u);
             if (is_map) {
                 add_point(s, u, s->sum + block * (s->n + 1));
             } else {
@@ -296,26 +102,6 @@ static void sample_block(int64_t begin, int64_t end, int32_t worker, void *conte
             }
         }
     }
-}
-
-static clast_status measure_area(sampler *s)
-{
-    clast_status status = CLAST_OK;
-    const clast_domain *d = s->domain;
-    if (d->kind == CLAST_DOMAIN_HALF_PIPE) {
-        s->area = (CLAST_PI + 2.0) * d->radius * d->length + CLAST_PI * d->radius * d->radius;
-    }
-    if (d->kind == CLAST_DOMAIN_MESH) {
-        const clast_mesh *m = &d->surface->mesh;
-        double inward[3];
-        CLX_TRY(clx_alloc(&s->area_to, m->n_tri, sizeof *s->area_to));
-        for (int32_t t = 0; t < m->n_tri; ++t) {
-            s->area += triangle_area(m, t, inward);
-            s->area_to[t] = s->area;
-        }
-    }
-done:
-    return status;
 }
 
 /// Mean of one shift.
@@ -335,7 +121,7 @@ static void gather(const sampler *s, double *integral, double *error)
 {
     const double volume = clast_domain_volume(s->domain);
     const bool is_map = s->domain->kind == CLAST_DOMAIN_MAP;
-    const double factor = is_map ? volume : 0.25 * s->area;
+    const double factor = is_map ? volume : 0.25 * s->lines.area;
     const double chord = is_map ? 0.0 : volume / factor;
     for (int32_t i = 0; i < s->n; ++i) {
         const double r = s->radius[i];
@@ -368,12 +154,12 @@ clast_status clx_covariogram_sample(const clast_domain *domain, int32_t n, const
 {
     clast_status status = CLAST_OK;
     sampler s = {.domain = domain, .n = n, .radius = radius};
-    CLX_TRY(measure_area(&s));
+    CLX_TRY(clx_lines_init(domain, &s.lines));
     CLX_TRY(clx_alloc(&s.sum, (int64_t)N_SHIFT * N_BLOCK * (n + 1), sizeof *s.sum));
     clx_parallel_for((int64_t)N_SHIFT * N_BLOCK, 1, sample_block, &s);
     gather(&s, integral, error);
 done:
-    clx_free(s.area_to);
+    clx_lines_free(&s.lines);
     clx_free(s.sum);
     return status;
 }

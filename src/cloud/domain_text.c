@@ -161,6 +161,10 @@ clast_status clast_domain_parse_in(const char *text, double factor, clast_domain
             if (n < 1 || !kinds[k].set(&of, n, &made)) {
                 return bad(text);
             }
+            if (clx_domain_check(&made) != CLAST_OK) { // its numbers make sense: its volume
+                clx_fail_prefix("domain '%s'", text);
+                return CLAST_E_CONFIG;
+            }
             *domain = made;
             return CLAST_OK;
         }

@@ -492,6 +492,7 @@ clast_status clast_workspace_test(clast_workspace *workspace, const clast_points
     workspace->policy = policy;
     CLX_TRY(status);
     *result = made->before;
+    workspace->n_point = -1; // of its cells nothing was asked
 done:
     return status;
 }

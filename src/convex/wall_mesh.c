@@ -2,6 +2,7 @@
 #include "convex/wall_mesh.h"
 
 #include "base/alloc.h"
+#include "base/status.h"
 #include "geom/topology.h"
 #include "math/vec3.h"
 
@@ -409,11 +410,31 @@ done:
     return status;
 }
 
+/// Farthest that a corner may be: squares of areas are numbers up to there.
+static const double FARTHEST = 1e70;
+
+/// A triangle without a place for each corner would be left out as one without area, and be a hole.
+static clast_status check_vertices(const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const double *x = mesh->vert[mesh->tri[t][k]];
+            CLX_CHECK(fabs(x[0]) <= FARTHEST && fabs(x[1]) <= FARTHEST && fabs(x[2]) <= FARTHEST,
+                      CLAST_E_GEOMETRY, "vertex %d of a wall is no place: %g, %g, %g",
+                      mesh->tri[t][k] + 1, x[0], x[1], x[2]);
+        }
+    }
+done:
+    return status;
+}
+
 clast_status clx_wall_mesh_create(const clast_mesh *mesh, clx_wall_mesh **wall)
 {
     clast_status status = CLAST_OK;
     clx_wall_mesh *made = NULL;
     clx_topology topology = {0};
+    CLX_TRY(check_vertices(mesh));
     CLX_TRY(clx_topology_build(mesh, &topology));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     CLX_TRY(clx_alloc(&made->tri, mesh->n_tri, sizeof *made->tri));

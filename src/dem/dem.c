@@ -9,6 +9,7 @@
 #include "dem/ranks.h"
 #include <clast/settling.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
@@ -16,6 +17,7 @@ clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
     CLX_ARGUMENTS(config, dem);
     clast_status status = CLAST_OK;
     clast_dem *made = NULL;
+    CLX_TRY(clast_fields_check(clast_dem_fields, config));
     CLX_TRY(clx_dem_check(config));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->config = *config;
@@ -71,6 +73,33 @@ static bool all_finite(const double *x, int n)
     return true;
 }
 
+enum { BOUNDS_SIZE = 160 };
+
+/// Where the walls of the domain stand, for people: "x within 52 mm of 0, y within 52 mm of 0, z
+/// above 0".
+static void tell_bounds(const clast_dem_config *c, char text[BOUNDS_SIZE])
+{
+    const double depth = c->depth > 0.0 ? c->depth : c->width;
+    int n = 0;
+    text[0] = '\0';
+    if (c->domain == CLAST_DEM_CYLINDER) {
+        n = snprintf(text, BOUNDS_SIZE, "x^2 + y^2 below (%s)^2",
+                     clx_unit_text(0.5 * c->width, "m"));
+    } else if (c->domain == CLAST_DEM_BOX) {
+        n = snprintf(text, BOUNDS_SIZE, "x within %s of 0, y within %s of 0",
+                     clx_unit_text(0.5 * c->width, "m"), clx_unit_text(0.5 * depth, "m"));
+    }
+    CLAST_ASSERT(n >= 0 && n < BOUNDS_SIZE);
+    const char *comma = n > 0 && (c->floor || c->lid) ? ", " : "";
+    const char *height = clx_unit_text(c->height, "m");
+    (void)snprintf(text + n, (size_t)(BOUNDS_SIZE - n), "%s%s%s", comma,
+                   c->floor && c->lid ? "z from 0 to "
+                   : c->floor         ? "z above 0"
+                   : c->lid           ? "z below "
+                                      : "",
+                   c->lid ? height : "");
+}
+
 /// Room that the side walls leave for a grain's centre.
 static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, double radius,
                               int64_t number)
@@ -94,14 +123,19 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
                   clx_unit_text(2.0 * radius, "m"), clx_unit_text(narrow, "m"));
     }
     for (int32_t w = 0; w < dem->n_wall; ++w) {
+        char bounds[BOUNDS_SIZE];
         double normal[3];
         if (dem->walls.n > 0 && dem->walls.body[w].is_open) {
             continue;
         }
-        CLX_CHECK(clx_wall_distance(&dem->wall[w], g->position, normal) > 0.0, CLAST_E_GEOMETRY,
-                  "grain %lld begins outside of the domain, at %s, %s, %s", (long long)number,
-                  clx_unit_text(g->position[0], "m"), clx_unit_text(g->position[1], "m"),
-                  clx_unit_text(g->position[2], "m"));
+        const bool is_within = clx_wall_distance(&dem->wall[w], g->position, normal) > 0.0;
+        if (!is_within) {
+            tell_bounds(c, bounds);
+        }
+        CLX_CHECK(is_within, CLAST_E_GEOMETRY,
+                  "grain %lld begins outside of the domain, at %s, %s, %s; its centre lies in %s",
+                  (long long)number, clx_unit_text(g->position[0], "m"),
+                  clx_unit_text(g->position[1], "m"), clx_unit_text(g->position[2], "m"), bounds);
     }
 done:
     return status;

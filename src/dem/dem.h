@@ -51,7 +51,8 @@ struct clast_dem {
     bool has_parts;     ///< some shape is a rigid grain: items have turns of their own
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
-    int32_t n_started; ///< grains that were checked for overlaps with those added beside them
+    int32_t n_started;  ///< grains that were checked for overlaps as they were added
+    bool may_touch_old; ///< those that are added may begin in those that are there
     int64_t grain_capacity;
     clx_grain *grain;   ///< [n_grain]
     clx_motion *motion; ///< [n_grain]

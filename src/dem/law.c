@@ -27,12 +27,30 @@ double clx_law_steps(const clx_law *law, int n)
     return (rate + sqrt(rate * rate + 4.0 * swing)) / 4.0;
 }
 
+/// Scales spring and dashpot so that a collision takes the nearest whole number of steps: what
+/// passes between the first touch and the step that sees it then passes again before the step that
+/// sees the end, and the two take each other off. Restitution is that of the exact solution; where
+/// a collision ended within a step it was off by up to 0.018 at 20.5 steps. Whole numbers stay as
+/// they are, to the bit.
+static void round_steps(clx_law *law, double dt)
+{
+    static const double rounding = 1e-9; // of T_c over dt
+    const double steps = law->time / dt;
+    const double whole = round(steps);
+    if (whole >= 1.0 && fabs(steps - whole) > rounding * steps) {
+        const double faster = steps / whole;
+        law->stiffness *= faster * faster;
+        law->damping *= faster;
+    }
+}
+
 /// Constants of exact steps: normal of a central contact; tangential of two spheres, whose turning
 /// makes the inverse mass 1 + 5/2 times as great.
 static void make_exact(clx_law *law, double dt)
 {
     double k[2];
     double d[2];
+    round_steps(law, dt);
     fit(law->stiffness, law->damping, dt, &k[0], &d[0]);
     fit(TURNING * law->kappa * law->stiffness, TURNING * law->root_kappa * law->damping, dt, &k[1],
         &d[1]);

@@ -104,6 +104,7 @@ static void share_setting(clast_dem *whole)
     local->has_items = whole->has_items;
     local->has_parts = whole->has_parts;
     local->all_round = whole->all_round;
+    local->may_touch_old = whole->may_touch_old;
 }
 
 static clast_status reserve(clast_dem *whole)
@@ -351,7 +352,6 @@ static clast_status step(clast_dem *whole)
         *whole->cell = *local->cell;
     }
     whole->step = ++local->step;
-    whole->n_started = whole->n_grain;
     r->is_current = false;
     clx_ranks_exchange(whole);
     const int own = status != CLAST_OK ? FAILED : !is_fine ? LOST : local->list.is_due ? DUE : FINE;
@@ -360,6 +360,7 @@ static clast_status step(clast_dem *whole)
     if (least == FAILED) {
         return clast_comm_agree(r->comm, status, NULL);
     }
+    whole->n_started = whole->n_grain;
     if (least == LOST) {
         CLX_TRY(explain(whole));
     }

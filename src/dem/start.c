@@ -1,4 +1,5 @@
-// Grains that begin inside of each other, or of a wall.
+// Grains that begin inside of each other, of a grain that is there, or of a wall. What is refused
+// stays unchecked: the next step refuses it again.
 #include "dem/touch.h"
 
 /// Overlap that a contact's spring would throw apart, at d pi / T, faster than a run may go. 0.62
@@ -28,18 +29,17 @@ clast_status clx_check_starts(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     const int32_t first = dem->n_started;
-    dem->n_started = dem->n_grain;
     for (int64_t k = 0; first < dem->n_grain && k < dem->list.n_pair; ++k) {
         const clx_dem_pair *pair = &dem->list.pair[k];
         clx_dem_touch t = {0};
-        if (clx_item_grain(dem, pair->a) < first) {
+        const bool is_wall = pair->b < 0;
+        const bool is_old[2] = {clx_item_grain(dem, pair->a) < first,
+                                !is_wall && clx_item_grain(dem, pair->b) < first};
+        if (is_wall || dem->may_touch_old ? is_old[0] || is_old[1] : is_old[0] && is_old[1]) {
             continue;
         }
-        if (pair->b < 0) {
+        if (is_wall) {
             CLX_TRY(check_wall(dem, pair));
-            continue;
-        }
-        if (clx_item_grain(dem, pair->b) < first) {
             continue;
         }
         clx_find_again(dem, pair, &t);
@@ -54,6 +54,7 @@ clast_status clx_check_starts(clast_dem *dem)
             clx_grain_number(dem, clx_item_grain(dem, pair->a)),
             clx_grain_number(dem, clx_item_grain(dem, pair->b)), -t.distance / radius);
     }
+    dem->n_started = dem->n_grain;
 done:
     return status;
 }

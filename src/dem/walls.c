@@ -401,6 +401,22 @@ static bool is_finite_motion(const clast_dem_wall_motion *m)
     return is_finite;
 }
 
+/// A vibration or swing has a period, and speeds that are numbers.
+static clast_status check_period(int32_t wall, const clast_dem_wall_motion *m)
+{
+    clast_status status = CLAST_OK;
+    const double most = fmax(v3_norm(m->amplitude), fabs(m->swing));
+    const double w = 2.0 * CLAST_PI / m->period;
+    CLX_CHECK(m->period >= 0.0, CLAST_E_USAGE, "wall %d moves with a period of %g s; 0: none", wall,
+              m->period);
+    CLX_CHECK(most == 0.0 || isfinite(most * w * w), CLAST_E_USAGE,
+              "wall %d vibrates by %g m and swings by %g rad with a period of %g s; give a longer "
+              "one",
+              wall, v3_norm(m->amplitude), fabs(m->swing), m->period);
+done:
+    return status;
+}
+
 clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
                                        const clast_dem_wall_motion *motion)
 {
@@ -418,8 +434,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     CLX_CHECK(v3_norm2(motion->axis) == 0.0 || v3_is_unit(motion->axis, 1e-9), CLAST_E_USAGE,
               "the axis of wall %d has not length 1", wall);
     CLX_CHECK(is_finite_motion(motion), CLAST_E_USAGE, "the motion of wall %d is not finite", wall);
-    CLX_CHECK(motion->period >= 0.0, CLAST_E_USAGE, "wall %d moves with a period of %g s; 0: none",
-              wall, motion->period);
+    CLX_TRY(check_period(wall, motion));
     for (int32_t i = 1; i < motion->n; ++i) {
         CLX_CHECK(motion->time[i] > motion->time[i - 1], CLAST_E_USAGE,
                   "times of wall %d do not rise in row %d", wall, i + 1);

@@ -223,7 +223,7 @@ static clast_status count_cuts(const clast_mesh *mesh, clast_mesh_check_result *
     return status;
 }
 
-static clast_status check_finite(const clast_mesh *mesh)
+clast_status clx_check_finite(const clast_mesh *mesh)
 {
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
         const double *p = mesh->vert[v];
@@ -242,7 +242,7 @@ clast_status clx_check_without_cuts(const clast_mesh *mesh, clast_mesh_check_res
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
     clast_mesh_check_result made = {.n_vertex = mesh->n_vert, .n_triangle = mesh->n_tri};
-    CLX_TRY(check_finite(mesh));
+    CLX_TRY(clx_check_finite(mesh));
     CLX_TRY(clx_topology_build(mesh, &topology));
     count_edges(mesh, &topology, &made);
     CLX_TRY(count_facets(mesh, &topology, &made));

@@ -9,6 +9,9 @@ typedef struct clx_topology clx_topology;
 CLX_SHARED clast_status clx_check_without_cuts(const clast_mesh *mesh,
                                                clast_mesh_check_result *result);
 
+/// Refuses a vertex that is not finite, by its number.
+clast_status clx_check_finite(const clast_mesh *mesh);
+
 /// True when the three corners are on one line, exactly.
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);
 bool clx_is_flat_at(const clast_mesh *mesh, const int32_t tri[3]);

@@ -64,6 +64,26 @@ static void add_second(double second[3][3], double det, double p[3][3])
     }
 }
 
+/// Says what makes a surface's volume no number above 0: a vertex that is no place, or its sides.
+static clast_status refuse_volume(const clast_mesh *mesh, double volume)
+{
+    for (int32_t t = 0; t < mesh->n_tri && !isfinite(volume); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const double *x = mesh->vert[mesh->tri[t][k]];
+            if (!isfinite(x[0] + x[1] + x[2])) {
+                return clx_fail(CLAST_E_GEOMETRY, "vertex %d is %g, %g, %g: not finite",
+                                mesh->tri[t][k] + 1, x[0], x[1], x[2]);
+            }
+        }
+    }
+    return isfinite(volume)
+               ? clx_fail(
+                     CLAST_E_GEOMETRY,
+                     "volume is %g: the surface is inside out or open; run `clast mesh repair`",
+                     volume)
+               : clx_fail(CLAST_E_GEOMETRY, "volume is %g: the surface is too large", volume);
+}
+
 clast_status clast_mesh_mass(const clast_mesh *mesh, clast_mass *mass)
 {
     CLX_ARGUMENTS(mesh, mass);
@@ -86,10 +106,8 @@ clast_status clast_mesh_mass(const clast_mesh *mesh, clast_mass *mass)
         add_second(c, det, p);
     }
     const double volume = six / 6.0;
-    if (!(volume > 0.0)) {
-        return clx_fail(CLAST_E_GEOMETRY,
-                        "volume is %g: the surface is inside out or open; run `clast mesh repair`",
-                        volume);
+    if (!(volume > 0.0) || !isfinite(volume)) {
+        return refuse_volume(mesh, volume);
     }
     double mean[3];
     v3_scale(mean, 1.0 / volume, first);

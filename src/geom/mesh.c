@@ -22,6 +22,8 @@ clast_status clast_mesh_alloc(int32_t n_vert, int32_t n_tri, clast_mesh *mesh)
     CLX_ARGUMENTS(mesh);
     clast_status status = CLAST_OK;
     clast_mesh made = {.n_vert = n_vert, .n_tri = n_tri};
+    CLX_CHECK(n_vert >= 0 && n_tri >= 0, CLAST_E_ARGUMENT,
+              "a surface of %d vertices and %d triangles", n_vert, n_tri);
     CLX_TRY(clx_alloc(&made.vert, n_vert, sizeof *made.vert));
     CLX_TRY(clx_alloc(&made.tri, n_tri, sizeof *made.tri));
     *mesh = made;

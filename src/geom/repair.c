@@ -6,6 +6,7 @@
 #include "geom/repair.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/status.h"
 #include "geom/check.h"
 #include "geom/intersect.h"
@@ -44,6 +45,19 @@ const clast_field clast_mesh_repair_fields[] = {
      "parts to keep: all, or the one of the largest volume with its cavities", "all|largest"},
     {0}};
 #undef FIELD
+
+const clast_idle *clast_mesh_repair_idle(const clast_mesh_repair_config *c,
+                                         clast_idle rules[CLAST_N_IDLE])
+{
+    if (c == NULL || rules == NULL) {
+        return NULL;
+    }
+    const clast_idle made[CLAST_N_IDLE] = {
+        {c->weld != CLAST_WELD_WITHIN, "weld_tolerance", "without --weld within"},
+        {!c->split, "split_tolerance", "with --no-split"},
+        {!c->fill, "fill_size", "with --no-fill"}};
+    return clx_idle_copy(made, rules);
+}
 
 int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark)
 {

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "geom/check.h"
 #include "geom/collapse.h"
 #include "geom/repair.h"
 #include "geom/topology.h"
@@ -282,6 +283,7 @@ clast_status clast_mesh_simplify(const clast_mesh *mesh, int32_t n_face, clast_m
     clast_mesh made = {0};
     clast_mesh_simplify_report r = {.n_triangle_before = mesh->n_tri, .correction = 1.0};
     CLX_CHECK(n_face >= 4, CLAST_E_USAGE, "%d triangles wanted; a solid has at least 4", n_face);
+    CLX_TRY(clx_check_finite(mesh));
     CLX_TRY(simplifier_init(mesh, &s));
     CLX_TRY(collapse_down_to(&s, n_face));
     CLX_TRY(harvest(&s.thin, &made));

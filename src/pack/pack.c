@@ -121,6 +121,7 @@ clast_status clx_pack_create_again(const clast_pack_config *config, const clast_
         CLX_TRY(clx_pack_start_check(made));
     }
     CLX_TRY(clx_pack_contain(made));
+    made->dem->may_touch_old = true; // shelves begin where grains of the last fill may still reach
     CLX_TRY(check_room(made));
     CLX_TRY(clx_pack_prepare(made));
     if (input->start == NULL) {

@@ -271,6 +271,7 @@ clast_status clast_report_write(const char *const *runs, int32_t n_run, const ch
     clast_status status = CLAST_OK;
     clast_report_config own = {0};
     if (config != NULL) {
+        CLX_GUARD(clast_fields_check(clast_report_fields, config));
         return write_page(runs, n_run, NULL, config, path);
     }
     CLX_TRY(clast_fields_default(clast_report_fields, &own));

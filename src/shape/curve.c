@@ -151,7 +151,7 @@ double clast_curve_passing(const clast_curve *curve, double size)
 
 double clast_curve_size(const clast_curve *curve, double share)
 {
-    if (clx_curve_fault(curve) != NULL || isnan(share)) {
+    if (clx_curve_fault(curve) != NULL || !(share >= 0.0 && share <= 1.0)) {
         return (double)NAN;
     }
     double below = 0.0;

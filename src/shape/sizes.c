@@ -2,12 +2,14 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "base/status.h"
 
 clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes)
 {
     CLX_ARGUMENTS(sizes);
     clast_status status = CLAST_OK;
     clast_sizes got = {.n = n};
+    CLX_CHECK(n >= 0, CLAST_E_ARGUMENT, "a list of %lld sizes", (long long)n);
     CLX_TRY(clx_alloc(&got.low, n, sizeof *got.low));
     CLX_TRY(clx_alloc(&got.high, n, sizeof *got.high));
     CLX_TRY(clx_alloc(&got.count, n, sizeof *got.count));

@@ -498,6 +498,148 @@ static void bad_work_on_surfaces_is_refused(void **state)
     }
 }
 
+/* --- every other function that takes a configuration with a table --- */
+
+static void try_dem(const void *config, void *context)
+{
+    clast_dem *dem;
+    (void)context;
+    REFUSED_INTO(dem, clast_dem_create(config, &dem));
+}
+
+static void try_pack(const void *config, void *context)
+{
+    clast_pack *pack;
+    clast_pack_source source;
+    clast_pack_result result;
+    REFUSED_INTO(pack, clast_pack_create(config, context, &pack));
+    REFUSED_INTO(source, clast_pack_load(config, &source));
+    REFUSED_INTO(result, clast_pack_run(config, NULL, NULL, NULL, &result));
+}
+
+static void try_aggregate(const void *config, void *context)
+{
+    clast_aggregate_source source;
+    clast_aggregate_report report;
+    clast_aggregate_fit fit;
+    clast_table nodes;
+    REFUSED(clast_aggregate_config_check(config));
+    REFUSED_INTO(source, clast_aggregate_load(config, &source));
+    REFUSED_INTO(report, clast_aggregate_run(config, NULL, NULL, NULL, &report));
+    REFUSED_INTO(fit, clast_aggregate_fit_run(config, context, NULL, &fit, &nodes));
+    REFUSED_INTO(fit, clast_aggregate_fit_study(config, NULL, NULL, &fit));
+}
+
+static void try_evolve(const void *config, void *context)
+{
+    clast_evolve *evolve;
+    clast_evolve_source source;
+    clast_evolve_result result;
+    REFUSED_INTO(evolve, clast_evolve_create(config, context, &evolve));
+    REFUSED_INTO(source, clast_evolve_load(config, &source));
+    REFUSED_INTO(result, clast_evolve_run(config, NULL, NULL, &result));
+}
+
+static void try_fit(const void *config, void *context)
+{
+    const clast_table *table = context;
+    const clast_fit_data beds = {.beds = *table}; // borrowed
+    clast_fit_data data;
+    clast_porosity_fit fit;
+    REFUSED_INTO(data, clast_fit_data_single(table, config, &data));
+    REFUSED_INTO(data, clast_fit_data_mixture(table, table, config, &data));
+    REFUSED_INTO(data, clast_fit_data_columns(table, config, &data));
+    REFUSED_INTO(fit, clast_porosity_fit_data(&beds, "fit", "table", config, &fit));
+}
+
+static void try_render(const void *config, void *context)
+{
+    clast_image image;
+    REFUSED_INTO(image, clast_render_assembly(context, config, NULL, &image));
+}
+
+static void try_report(const void *config, void *context)
+{
+    static const char *const runs[] = {"/no/run"};
+    REFUSED(clast_report_write(runs, 1, "/no/report.html", config));
+    REFUSED(clast_report_write_view(context, "/no/view.html", config));
+}
+
+static void try_study(const void *config, void *context)
+{
+    const clast_study_worker worker = {0};
+    clast_table plan;
+    clast_study_report report;
+    (void)context;
+    REFUSED_INTO(plan, clast_study_plan(config, &plan));
+    REFUSED_INTO(report, clast_study_run(config, "/no/study", &worker, NULL, NULL, &report));
+}
+
+static void try_pairs(const void *config, void *context)
+{
+    cloud_scene *s = context;
+    clast_pairs pairs;
+    REFUSED_INTO(pairs, clast_pairs_count(&s->domain, &s->cloud, config, &pairs));
+}
+
+static void try_policy(const void *config, void *context)
+{
+    cloud_scene *s = context;
+    REFUSED(clast_workspace_set_policy(s->workspace, config));
+}
+
+/* Before, clast_dem_create looked at 5 of its 33 fields: a friction of -0.5 or NAN, a law 7 and a
+ * viscosity of -1 were stepped. clast_report_write looked at none. */
+static void no_table_has_a_field_that_is_not_looked_at(void **state)
+{
+    (void)state;
+    static unsigned char config[4096];
+    const clast_pack_input no_input = {0};
+    const clast_aggregate_input no_core = {0};
+    const clast_evolve_input no_cloud = {0};
+    clast_table table = {0};
+    double *number;
+    clast_assembly ball = {0};
+    clast_shape shape = {0};
+    cloud_scene s = {.cloud = {.n = N, .dimension = 3, .x = points}};
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &shape));
+    CHECK_OK(clast_assembly_add_shape(&ball, &shape, NULL));
+    CHECK_OK(clast_assembly_add_grain(&ball, 0, (double[3]){0.0, 0.0, 0.0},
+                                      (double[4]){1.0, 0.0, 0.0, 0.0}, 1.0, 1.0));
+    CHECK_OK(clast_table_init(&table, "beds", 0));
+    CHECK_OK(clast_table_add_number(&table, "row", "-", &number));
+    CHECK_OK(clast_table_add_number(&table, "porosity", "-", &number));
+    CHECK_OK(clast_workspace_create(&s.workspace));
+    CHECK_OK(clast_domain_parse("box:0,0,0,1,1,1", &s.domain));
+    const struct {
+        const clast_field *fields;
+        size_t size;
+        try_function *attempt;
+        const void *context;
+    } all[] = {
+        {clast_dem_fields, sizeof(clast_dem_config), try_dem, NULL},
+        {clast_pack_fields, sizeof(clast_pack_config), try_pack, &no_input},
+        {clast_aggregate_fields, sizeof(clast_aggregate_config), try_aggregate, &no_core},
+        {clast_evolve_fields, sizeof(clast_evolve_config), try_evolve, &no_cloud},
+        {clast_porosity_fit_fields, sizeof(clast_porosity_fit_config), try_fit, &table},
+        {clast_render_fields, sizeof(clast_render_config), try_render, &ball},
+        {clast_report_fields, sizeof(clast_report_config), try_report, &ball},
+        {clast_study_fields, sizeof(clast_study_config), try_study, NULL},
+        {clast_pairs_fields, sizeof(clast_pairs_config), try_pairs, &s},
+        {clast_workspace_fields, sizeof(clast_workspace_policy), try_policy, &s},
+    };
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k) {
+        assert_true(all[k].size <= sizeof config);
+        CHECK_OK(clast_fields_default(all[k].fields, config));
+        spoil_fields(all[k].fields, config, all[k].size, all[k].attempt, (void *)all[k].context);
+        clast_fields_free(all[k].fields, config);
+    }
+    clast_workspace_destroy(s.workspace);
+    clast_table_free(&table);
+    clast_assembly_free(&ball);
+    clast_shape_free(&shape);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -509,6 +651,7 @@ int main(void)
         cmocka_unit_test(bad_agglomerations_are_refused),
         cmocka_unit_test(spectra_are_refused),
         cmocka_unit_test(bad_work_on_surfaces_is_refused),
+        cmocka_unit_test(no_table_has_a_field_that_is_not_looked_at),
     };
     return cmocka_run_group_tests(tests, make_points, NULL);
 }

@@ -148,6 +148,34 @@ static void fit_says_when_the_best_is_at_the_edge(void **state)
     tear_down(&s);
 }
 
+/* One packing alone is the loosest that was tried: 407 against 310 +- 50 was "no, within what was
+   tried". */
+static void fit_of_one_packing_ends_at_its_edge(void **state)
+{
+    (void)state;
+    static const double factor[2] = {0.3, 3.0}; /* of the density that it has: looser, tighter */
+    static const char *const word[2] = {"loosest", "tightest"};
+    for (int k = 0; k < 2; ++k) {
+        scene s;
+        clast_aggregate_fit fit;
+        clast_table nodes = {0};
+        set_up(&s);
+        const clast_field *field = clast_fields_find(clast_aggregate_fields, "fit_packing");
+        CHECK_OK(clast_field_set(field, &s.config, "1deg:1:1", false));
+        observe(&s, 1, 3);
+        s.config.observed_density *= factor[k];
+        s.config.observed_density_error *= factor[k];
+        CHECK_OK(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes));
+        assert_int_equal(fit.n_level, 1);
+        assert_int_equal(fit.packing_edge, k == 0 ? -1 : 1);
+        assert_int_equal(fit.verdict, CLAST_FIT_EDGE);
+        assert_int_equal(fit.n_freedom, 1);
+        assert_non_null(strstr(fit.words, word[k]));
+        clast_table_free(&nodes);
+        tear_down(&s);
+    }
+}
+
 /* A velocity that no packing has leaves the choice to size and density, and a degree of freedom. */
 static void fit_says_no_within_what_was_tried(void **state)
 {
@@ -301,6 +329,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fit_finds_what_it_was_grown_with),
         cmocka_unit_test(fit_says_when_the_best_is_at_the_edge),
+        cmocka_unit_test(fit_of_one_packing_ends_at_its_edge),
         cmocka_unit_test(fit_says_no_within_what_was_tried),
         cmocka_unit_test(fit_reports_a_total),
         cmocka_unit_test(fit_is_the_same_for_any_threads),

@@ -88,6 +88,89 @@ static void idle_fields_are_found_by_their_rule(void **state)
     clast_fields_free(f, &config);
 }
 
+/* The first name that the rules refuse, and why. */
+static const char *refused(const clast_field *fields, const void *values, const clast_idle *rules)
+{
+    static char text[200];
+    const char *why = "";
+    const clast_field *f = clast_fields_idle(fields, values, rules, &why);
+    (void)snprintf(text, sizeof text, "%s %s", f == NULL ? "none" : f->name, why);
+    return text;
+}
+
+static void each_configuration_knows_what_it_does_not_look_at(void **state)
+{
+    (void)state;
+    clast_idle rules[CLAST_N_IDLE];
+    clast_fill_config fill = {0};
+    CHECK_OK(clast_fields_default(clast_fill_fields, &fill));
+    assert_string_equal(refused(clast_fill_fields, &fill, clast_fill_idle(&fill, rules)), "none ");
+    fill.seed = 4;
+    assert_string_equal(refused(clast_fill_fields, &fill, clast_fill_idle(&fill, rules)),
+                        "seed with --strategy largest");
+    fill.strategy = CLAST_FILL_RANDOM;
+    assert_string_equal(refused(clast_fill_fields, &fill, clast_fill_idle(&fill, rules)), "none ");
+    clast_fields_free(clast_fill_fields, &fill);
+    clast_decompose_config cells = {0};
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &cells));
+    cells.strict = true;
+    assert_true(clast_decompose_takes_tree(&cells));
+    assert_string_equal(
+        refused(clast_decompose_fields, &cells, clast_decompose_idle(&cells, false, 0, rules)),
+        "strict with cells of the tree: --mesh boxes joins bins");
+    cells.mesh = CLAST_CELLS_BOXES;
+    cells.variable_tolerance = 2.0;
+    assert_string_equal(
+        refused(clast_decompose_fields, &cells, clast_decompose_idle(&cells, true, 0, rules)),
+        "none ");
+    assert_string_equal(
+        refused(clast_decompose_fields, &cells, clast_decompose_idle(&cells, false, 0, rules)),
+        "variable_tolerance without --variable-column");
+    clast_fields_free(clast_decompose_fields, &cells);
+    clast_agglomerate_config a = {0};
+    CHECK_OK(clast_fields_default(clast_agglomerate_fields, &a));
+    a.collide.medium.temperature = 400.0;
+    assert_string_equal(
+        refused(clast_agglomerate_fields, &a,
+                clast_agglomerate_idle(&a, &(clast_agglomerate_given){.temperature = true}, rules)),
+        "temperature with --temperature-column");
+    clast_fields_free(clast_agglomerate_fields, &a);
+}
+
+/* A misspelt name in a rule would refuse nothing. */
+static void check_names(const clast_idle *rules, const clast_field *fields)
+{
+    char names[400];
+    for (const clast_idle *r = rules; r->names != NULL; ++r) {
+        (void)snprintf(names, sizeof names, "%s", r->names);
+        for (char *name = strtok(names, "|"); name != NULL; name = strtok(NULL, "|")) {
+            if (clast_fields_find(fields, name) == NULL) {
+                fail_msg("no field %s", name);
+            }
+        }
+    }
+}
+
+static void rules_name_fields(void **state)
+{
+    (void)state;
+    static char empty[] = "";
+    clast_idle rules[CLAST_N_IDLE];
+    const clast_porosity_fit_config fit = {.use = empty};
+    check_names(clast_fill_idle(&(clast_fill_config){0}, rules), clast_fill_fields);
+    check_names(clast_render_idle(&(clast_render_config){0}, rules), clast_render_fields);
+    check_names(clast_mesh_repair_idle(&(clast_mesh_repair_config){0}, rules),
+                clast_mesh_repair_fields);
+    check_names(clast_synthesize_idle(&(clast_synthesize_config){0}, rules),
+                clast_synthesize_fields);
+    check_names(clast_porosity_fit_idle(&fit, true, rules), clast_porosity_fit_fields);
+    check_names(clast_agglomerate_idle(&(clast_agglomerate_config){0},
+                                       &(clast_agglomerate_given){0}, rules),
+                clast_agglomerate_fields);
+    assert_null(clast_fill_idle(NULL, rules));
+    assert_null(clast_decompose_idle(NULL, true, 0, rules));
+}
+
 static void deep_nesting_is_refused_before_it_is_read(void **state)
 {
     (void)state;
@@ -193,6 +276,8 @@ int main(void)
         cmocka_unit_test(values_carry_units_and_lists_replace),
         cmocka_unit_test(wrong_lines_are_named),
         cmocka_unit_test(idle_fields_are_found_by_their_rule),
+        cmocka_unit_test(each_configuration_knows_what_it_does_not_look_at),
+        cmocka_unit_test(rules_name_fields),
         cmocka_unit_test(deep_nesting_is_refused_before_it_is_read),
         cmocka_unit_test(bare_lengths_and_angles_are_refused_with_their_spelling),
         cmocka_unit_test(survives_refused_memory),

@@ -507,6 +507,15 @@ static void bad_input_is_refused(void **state)
     g = at(0.0, 0.0, -0.1);
     CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_GEOMETRY);
     assert_non_null(strstr(clast_error_detail(), "outside of the domain"));
+    assert_non_null(strstr(clast_error_detail(), "in x^2 + y^2 below (52 mm)^2, z above 0"));
+    clast_dem_destroy(dem);
+    c.domain = CLAST_DEM_BOX;
+    c.depth = 0.2;
+    dem = make(&c);
+    g = at(0.053, 0.0, 0.1); /* half of the default width is 0.052: the box is about x = y = 0 */
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_GEOMETRY);
+    assert_non_null(
+        strstr(clast_error_detail(), "in x within 52 mm of 0, y within 100 mm of 0, z above 0"));
     clast_dem_destroy(dem);
 }
 
@@ -526,6 +535,52 @@ static void overlapping_starts_are_refused(void **state)
     dem = make(&c);
     pair[1].position[0] = (2.0 - 0.999 * limit) * RADIUS;
     CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+    CHECK_OK(clast_dem_step(dem, 1));
+    clast_dem_destroy(dem);
+}
+
+/* Before, a second call went on with the overlap that the first had refused, of two grains in one
+ * place or of one inside of the floor; without the grain the run may go on. */
+static void refused_starts_stay_refused(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_space();
+    c.floor = true;
+    for (int k = 0; k < 2; ++k) {
+        const uint8_t goes[2] = {0, 1};
+        clast_dem *dem = make(&c);
+        const clast_dem_grain g[2] = {
+            at(0.0, 0.0, 2.0 * RADIUS),
+            at(0.0, k == 0 ? 0.0 : 9.0 * RADIUS, (2.0 - 1.9 * k) * RADIUS)};
+        CHECK_OK(clast_dem_add_grains(dem, 2, g));
+        for (int again = 0; again < 3; ++again) {
+            CHECK_STATUS(clast_dem_step(dem, 500), CLAST_E_GEOMETRY);
+            assert_int_equal(clast_dem_n_step(dem), 0);
+        }
+        CHECK_OK(clast_dem_remove_grains(dem, goes));
+        CHECK_OK(clast_dem_step(dem, 10));
+        clast_dem_destroy(dem);
+    }
+}
+
+/* A grain that is put into one that is there: before, pairs of an old grain and a new one were not
+ * looked at. Overlaps of old grains are the run's own. */
+static void grains_put_into_those_that_are_there_are_refused(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_space();
+    clast_dem *dem = make(&c);
+    clast_dem_grain g = at(0.0, 0.0, 0.0);
+    const uint8_t goes[2] = {0, 1};
+    CHECK_OK(clast_dem_add_grains(dem, 1, &g));
+    CHECK_OK(clast_dem_step(dem, 3));
+    g.position[0] = 0.1 * RADIUS;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &g));
+    CHECK_STATUS(clast_dem_step(dem, 1), CLAST_E_GEOMETRY);
+    assert_non_null(strstr(clast_error_detail(), "0 and 1 begin inside of each other, by 1.9 "));
+    CHECK_OK(clast_dem_remove_grains(dem, goes));
+    g.position[0] = 1.9 * RADIUS;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &g));
     CHECK_OK(clast_dem_step(dem, 1));
     clast_dem_destroy(dem);
 }
@@ -653,6 +708,8 @@ int main(void)
         cmocka_unit_test(drive_shakes_and_damps),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(overlapping_starts_are_refused),
+        cmocka_unit_test(refused_starts_stay_refused),
+        cmocka_unit_test(grains_put_into_those_that_are_there_are_refused),
         cmocka_unit_test(explosion_is_a_speed_that_no_contact_stops),
         cmocka_unit_test(boulder_finds_the_sand_that_it_touches),
         cmocka_unit_test(refused_memory_leaves_nothing),

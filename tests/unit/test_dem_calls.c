@@ -96,6 +96,27 @@ static void a_wall_does_not_swing_back_in_time(void **state)
     clast_dem_destroy(dem);
 }
 
+/* Before, a vibration or swing with a period of 0 was none, without a word. */
+static void a_vibration_has_a_period(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_space();
+    clast_dem *dem = NULL;
+    const clast_dem_wall_motion bad[] = {{.amplitude = {0.0, 0.0, 1e-3}},
+                                         {.axis = {0.0, 0.0, 1.0}, .swing = 0.1},
+                                         {.amplitude = {0.0, 0.0, 1e-3}, .period = 1e-300}};
+    c.floor = true;
+    CHECK_OK(clast_dem_create(&c, &dem));
+    CHECK_OK(clast_dem_watch_walls(dem));
+    for (int k = 0; k < 3; ++k) {
+        CHECK_STATUS(clast_dem_set_wall_motion(dem, 0, &bad[k]), CLAST_E_USAGE);
+        assert_non_null(strstr(clast_error_detail(), "period"));
+    }
+    CHECK_OK(
+        clast_dem_set_wall_motion(dem, 0, &(clast_dem_wall_motion){.velocity = {0.0, 0.0, 1e-3}}));
+    clast_dem_destroy(dem);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -103,6 +124,7 @@ int main(void)
         cmocka_unit_test(grains_that_there_are_not_are_not_read),
         cmocka_unit_test(steps_are_not_taken_back),
         cmocka_unit_test(a_wall_does_not_swing_back_in_time),
+        cmocka_unit_test(a_vibration_has_a_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,8 @@
 
 #include "dem_scenes.h"
 #include "math/vec3.h"
+#include <stdio.h>
+#include <string.h>
 
 static const double DENSITY = 2650.0;
 
@@ -224,6 +226,42 @@ static void open_bin_holds_a_ball(void **state)
     clast_mesh_free(&bin);
 }
 
+/* Before, triangles with such a corner were left out as if they had no area, and grains fell
+ * through the hole. A vertex that no triangle has is none of the wall. */
+static void walls_whose_vertices_are_no_places_are_refused(void **state)
+{
+    (void)state;
+    const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e200};
+    clast_dem_config c = scene_space();
+    clast_mesh box = {0};
+    clast_dem *dem = NULL;
+    int32_t wall = -7;
+    CHECK_OK(clast_mesh_box(0.03, 0.03, 0.03, &box));
+    CHECK_OK(clast_dem_create(&c, &dem));
+    for (int k = 0; k < 4; ++k) {
+        const double was = box.vert[k][k % 3];
+        char vertex[16];
+        box.vert[k][k % 3] = bad[k];
+        (void)snprintf(vertex, sizeof vertex, "vertex %d ", k + 1);
+        CHECK_STATUS(clast_dem_add_container(dem, &box), CLAST_E_GEOMETRY);
+        assert_non_null(strstr(clast_error_detail(), vertex));
+        CHECK_STATUS(clast_dem_add_wall(dem, &box, &wall), CLAST_E_GEOMETRY);
+        box.vert[k][k % 3] = was;
+    }
+    assert_int_equal(wall, -7);
+    box.n_tri = 2; /* of vertices 1 to 4 or so */
+    for (int32_t v = 0; v < box.n_vert; ++v) {
+        bool is_used = false;
+        for (int i = 0; i < 6; ++i) {
+            is_used = is_used || box.tri[i / 3][i % 3] == v;
+        }
+        box.vert[v][0] = is_used ? box.vert[v][0] : (double)NAN;
+    }
+    CHECK_OK(clast_dem_add_container(dem, &box));
+    clast_dem_destroy(dem);
+    clast_mesh_free(&box);
+}
+
 /// A plane through the origin that falls towards +x at this angle.
 static void make_slope(double angle, clast_mesh *mesh)
 {
@@ -374,6 +412,7 @@ int main(void)
         cmocka_unit_test(vertex_keeps_its_friction_over_an_edge),
         cmocka_unit_test(edges_of_a_flat_floor_are_not_felt),
         cmocka_unit_test(open_bin_holds_a_ball),
+        cmocka_unit_test(walls_whose_vertices_are_no_places_are_refused),
         cmocka_unit_test(ball_rolls_and_slides_on_a_slope),
         cmocka_unit_test(tripod_slides_beyond_the_angle_of_friction),
         cmocka_unit_test(walls_that_face_each_other_share_nothing),

@@ -28,24 +28,28 @@ static double rebound(clast_dem_scheme scheme, double e, double n_step, double p
     clast_dem *dem = scene_bodies(&c, &ball, 1, &g);
     assert_non_null(dem);
     const double lasted = scene_collide(dem, c.time_step);
+    /* exact steps: T_c to the nearest whole number of them */
     assert_true(scheme == CLAST_DEM_EXPLICIT ||
-                fabs(lasted - c.collision_time) <= 1.01 * c.time_step);
+                fabs(lasted - c.collision_time) <= 1.51 * c.time_step);
     clast_dem_read_grain(dem, 0, &g);
     clast_dem_destroy(dem);
     clast_shape_free(&ball);
     return g.velocity[2] / 0.1;
 }
 
-/* Wherever in a step the collision begins. The published step misses by up to 0.03 there. */
+/* Wherever in a step the collision begins, and however many steps it takes. The published step
+ * misses by up to 0.03 there; exact ones missed by 0.018 where a collision was no whole number of
+ * steps (20.5: 0.089 to 0.112 for 0.1). */
 static void exact_steps_have_the_restitution(void **state)
 {
     (void)state;
     const double wanted[] = {0.1, 0.3, 0.5, 0.9, 1.0};
+    const double n[] = {20.0, 20.25, 20.5, 33.3, 40.0, 40.0 - 1e-6, 80.0};
     for (int k = 0; k < 5; ++k) {
-        for (int n = 20; n <= 80; n *= 2) {
+        for (size_t i = 0; i < sizeof n / sizeof n[0]; ++i) {
             for (int p = 0; p < 10; ++p) {
                 const double phase = (p + 0.5) / 10.0;
-                CHECK_ABS(rebound(CLAST_DEM_EXACT, wanted[k], n, phase, false), wanted[k], 2e-4);
+                CHECK_ABS(rebound(CLAST_DEM_EXACT, wanted[k], n[i], phase, false), wanted[k], 2e-4);
             }
         }
     }

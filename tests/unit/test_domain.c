@@ -413,6 +413,35 @@ static void names_have_units_and_places(void **state)
     CHECK_STATUS(clast_domain_parse("box:0,0,,1", &domain), CLAST_E_CONFIG);
 }
 
+/* Before, volumes of 0 and INFINITY went through, and shares and events were 0, NaN or INFINITY. */
+static void domains_without_a_volume_are_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"sphere:1e-120",
+                                      "sphere:1e120",
+                                      "cylinder:1e-200,1",
+                                      "half-pipe:1,1e300",
+                                      "box:-1e300,-1e300,-1e300,1e300,1e300,1e300",
+                                      "box:-1e308,1e308",
+                                      "box:0,0,1e-160,1"};
+    static const char *const fine[] = {"sphere:1e-40", "sphere:1e40", "box:0,0,1e-100,1e100"};
+    const double radius = 1.0;
+    double share = -7.0;
+    clast_domain domain = {0};
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        CHECK_STATUS(clast_domain_parse(bad[k], &domain), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "volume"));
+    }
+    for (size_t k = 0; k < sizeof fine / sizeof fine[0]; ++k) {
+        CHECK_OK(clast_domain_parse(fine[k], &domain));
+    }
+    domain = (clast_domain){
+        .kind = CLAST_DOMAIN_SPHERE, .dimension = 3, .radius = 1e-120, .length = 1.0};
+    CHECK_STATUS(clast_pairs_uniform(&domain, 1, &radius, &share, NULL), CLAST_E_ARGUMENT);
+    assert_non_null(strstr(clast_error_detail(), "volume"));
+    assert_true(share == -7.0);
+}
+
 /* The ellipse x^2/9 + y^2 < 1 by (r^2, angle), area 3 pi. */
 static bool to_square(const void *context, const double *x, double *u)
 {
@@ -574,6 +603,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_have_units_and_places),
+        cmocka_unit_test(domains_without_a_volume_are_refused),
         cmocka_unit_test(cut_bins_of_a_corner_are_sixths),
         cmocka_unit_test(cut_bins_agree_with_boxes_points_and_the_whole),
         cmocka_unit_test(a_half_pipe_of_triangles_is_the_half_pipe),

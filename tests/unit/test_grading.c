@@ -432,9 +432,24 @@ static void curves_without_mass_are_refused(void **state)
     CHECK_OK(clast_curve_make(1, sieve, some, &one));
     CHECK_OK(clast_grading_of_curve(&one, CLAST_SPREAD_STEP, CLAST_COUNT_MEAN, &grading));
     CHECK_REL(clast_curve_size(&one, 0.5), sqrt(2.0) * 1e-3, 1e-15);
+    CHECK_REL(clast_curve_size(&one, 0.0), 1e-3, 1e-15);
+    CHECK_REL(clast_curve_size(&one, 1.0), 2e-3, 1e-15);
+    assert_true(isnan(clast_curve_size(&one, -1.0))); // the lowest sieve before
+    assert_true(isnan(clast_curve_size(&one, 1.5)));
     CHECK_REL(clast_grading_mass_size(grading, 1.0), 2e-3, 1e-15);
     clast_grading_destroy(grading);
     clast_curve_free(&one);
+}
+
+/* Before: no memory for -1 items. */
+static void a_list_has_no_negative_length(void **state)
+{
+    (void)state;
+    clast_sizes sizes = {.n = -7};
+    CHECK_STATUS(clast_sizes_alloc(-1, &sizes), CLAST_E_ARGUMENT);
+    assert_int_equal(sizes.n, -7);
+    CHECK_OK(clast_sizes_alloc(0, &sizes));
+    clast_sizes_free(&sizes);
 }
 
 static void bad_laws_are_refused(void **state)
@@ -744,6 +759,7 @@ int main(void)
         cmocka_unit_test(drawn_masses_match_the_curve),
         cmocka_unit_test(bad_curves_are_refused),
         cmocka_unit_test(curves_without_mass_are_refused),
+        cmocka_unit_test(a_list_has_no_negative_length),
         cmocka_unit_test(bad_laws_are_refused),
         cmocka_unit_test(lists_are_drawn_by_number_or_mass),
         cmocka_unit_test(files_say_retained_or_passing),

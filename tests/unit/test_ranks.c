@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include <clast/aggregate_run.h>
+#include <clast/run_folder.h>
 #include <clast/study.h>
 #include <stdio.h>
 #include <string.h>
@@ -245,6 +246,60 @@ static void stopped_repeats_go_on_with_other_ranks(void **state)
     clast_fields_free(clast_aggregate_fields, &config);
 }
 
+/// What ranks read, rank 2 in a way of its own.
+typedef struct {
+    const char *seed[2];
+    int32_t seeds[2];
+    char path[2][512];
+    int32_t n_file;
+    const char *says; ///< NULL: they agree
+} reading;
+
+static int read_inputs(const clast_comm *comm, void *context)
+{
+    const reading *r = context;
+    const int own = comm->rank == 2;
+    const char *const file[2] = {r->path[own], "absent"};
+    clast_study_config config;
+    RANK_CHECK(clast_fields_default(clast_study_fields, &config) == CLAST_OK);
+    RANK_CHECK(clast_field_set(clast_fields_find(clast_study_fields, "seed"), &config, r->seed[own],
+                               false) == CLAST_OK);
+    config.seeds = r->seeds[own];
+    const clast_status status =
+        clast_run_inputs_agree(comm, clast_study_fields, &config, r->n_file, file);
+    clast_fields_free(clast_study_fields, &config);
+    RANK_CHECK(status == (r->says != NULL ? CLAST_E_FORMAT : CLAST_OK));
+    RANK_CHECK(r->says == NULL || strstr(clast_error_detail(), r->says) != NULL);
+    return 0;
+}
+
+static void ranks_that_read_other_things_are_refused(void **state)
+{
+    (void)state;
+    reading r = {{"1", "1"}, {3, 3}, .n_file = 2};
+    for (int k = 0; k < 2; ++k) {
+        (void)snprintf(r.path[k], sizeof r.path[k], "%s/copy-%d", support_scratch(), k);
+        CHECK_OK(clx_file_write_all(r.path[k], "same", 4));
+    }
+    support_run_ranks(3, read_inputs, &r); // of other names: a caller's options would differ
+    support_run_ranks(1, read_inputs, &r);
+    CHECK_OK(clx_file_write_all(r.path[1], "some", 4));
+    r.says = "rank 2: reads another ";
+    support_run_ranks(3, read_inputs, &r);
+    (void)snprintf(r.path[1], sizeof r.path[1], "absent on rank 2");
+    r.says = NULL; // whoever opens it says so
+    support_run_ranks(3, read_inputs, &r);
+    r.n_file = 0;
+    r.seeds[1] = 4;
+    r.says = "rank 2: reads another configuration than rank 0 (seeds differs)";
+    support_run_ranks(3, read_inputs, &r);
+    r.seeds[1] = 3;
+    r.seed[0] = "18446744073709551614"; // one number, where JSON's are doubles
+    r.seed[1] = "18446744073709551615";
+    r.says = "rank 2: reads another configuration than rank 0 (the seed differs)";
+    support_run_ranks(3, read_inputs, &r);
+}
+
 static void a_disk_that_refuses_one_repeat_fails_all_ranks(void **state)
 {
     (void)state;
@@ -269,6 +324,7 @@ int main(void)
         cmocka_unit_test(a_stopped_study_goes_on_with_other_ranks),
         cmocka_unit_test(repeats_end_in_the_same_bytes),
         cmocka_unit_test(stopped_repeats_go_on_with_other_ranks),
+        cmocka_unit_test(ranks_that_read_other_things_are_refused),
         cmocka_unit_test(a_disk_that_refuses_one_repeat_fails_all_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -99,11 +99,19 @@ static void unusable_input_is_refused(void **state)
     (void)state;
     clast_shape s = {0};
     clast_mesh box = {0};
+    clast_spheres none = {0};
+    CHECK_STATUS(clast_mesh_alloc(-1, 2, &box), CLAST_E_ARGUMENT); /* no memory, before */
+    CHECK_STATUS(clast_mesh_alloc(1, -2, &box), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_spheres_alloc(-1, &none), CLAST_E_ARGUMENT);
     CHECK_STATUS(clast_shape_sphere("s", 0.0, &s), CLAST_E_GEOMETRY);
     CHECK_STATUS(clast_shape_sphere("s", -1.0, &s), CLAST_E_GEOMETRY);
     CHECK_STATUS(clast_shape_sphere("s", NAN, &s), CLAST_E_GEOMETRY);
     CHECK_STATUS(clast_shape_sphere("s", INFINITY, &s), CLAST_E_GEOMETRY);
     CHECK_STATUS(clast_shape_sphere("", 1.0, &s), CLAST_E_USAGE);
+    CHECK_STATUS(clast_shape_sphere("s", 1e200, &s), CLAST_E_GEOMETRY);  /* volume INFINITY */
+    CHECK_STATUS(clast_shape_sphere("s", 1e-200, &s), CLAST_E_GEOMETRY); /* volume 0 */
+    CHECK_STATUS(clast_shape_sphere("s", 1e-70, &s), CLAST_E_GEOMETRY);  /* inertia 0 */
+    assert_non_null(strstr(clast_error_detail(), "moment"));
     CHECK_STATUS(clast_shape_ellipsoid("e", (double[3]){1.0, 0.0, 1.0}, &s), CLAST_E_GEOMETRY);
     CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &box));
     for (int i = 0; i < box.n_vert; ++i) {

@@ -67,6 +67,29 @@ static void shadows_have_their_areas(void **state)
     clast_assembly_free(&a);
 }
 
+/* The error is no less than what is wrong. Before, of a shadow like its mirror image an even number
+ * of lines said 0: even and odd lines are each other's images. */
+static void shadows_tell_their_error(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    double area = 0.0;
+    double error = 0.0;
+    with_ball(&a);
+    for (int balls = 1; balls <= 2; ++balls) {
+        add(&a, 2.0 * balls, 0.0, 0.0, 1.0);
+        for (int n = 2; n <= 1024; n = n < 8 ? n + 1 : 2 * n) {
+            CHECK_OK(clast_assembly_projected_area(&a, (double[3]){0, 0, 1}, n, &area, &error));
+            assert_true(fabs(area - balls * CLAST_PI) <= error);
+            assert_true(error < 20.0 * fabs(area - balls * CLAST_PI) + 1e-12);
+        }
+    }
+    CHECK_STATUS(clast_assembly_projected_area(&a, (double[3]){0, 0, NAN}, 128, &area, &error),
+                 CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "not finite"));
+    clast_assembly_free(&a);
+}
+
 /* Cauchy: the mean shadow of a convex body is a quarter of its surface. */
 static void mean_shadow_is_a_quarter_of_the_surface(void **state)
 {
@@ -466,6 +489,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shadows_have_their_areas),
+        cmocka_unit_test(shadows_tell_their_error),
         cmocka_unit_test(mean_shadow_is_a_quarter_of_the_surface),
         cmocka_unit_test(extents_are_lengths_and_widths),
         cmocka_unit_test(radial_profile_cuts_balls_exactly),

@@ -418,7 +418,7 @@ static void another_table_or_configuration_is_named(void **state)
     check_says("run.yaml");
     set(&config, "fix", "c=1");
     CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
-    check_says("holds another study (study.json differs)");
+    check_says("holds another study (fix differs)");
     clast_fields_free(clast_study_fields, &config);
 }
 

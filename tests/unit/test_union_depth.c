@@ -82,6 +82,58 @@ static void pairs_across_the_border_count_once(void **state)
     clast_assembly_free(&a);
 }
 
+/* The same bed for grains that lie in other images of the box, and for a box that lies elsewhere:
+ * before, grains outside of it had other contacts, without a word. A contact across the border has
+ * its point beside the grain of lower number, wherever that is. */
+static void any_image_of_a_grain_has_its_contacts(void **state)
+{
+    (void)state;
+    const double at[5][3] = {
+        {0.5, 0.5, 0.5}, {4.0, 0.5, 0.5}, {2.2, 0.5, 3.9}, {2.2, 0.5, 0.4}, {4.9, 4.6, 4.7}};
+    const clast_period period = {{0.0, 0.0, 0.0}, {5.0, 5.0, 5.0}};
+    clast_assembly a;
+    clast_overlaps found;
+    two_shapes(&a);
+    for (int i = 0; i < 5; ++i) {
+        add(&a, 1, at[i][0], at[i][1], at[i][2]);
+    }
+    CHECK_OK(clast_assembly_find_contacts_periodic(&a, 0.0, &period));
+    CHECK_OK(clast_assembly_overlaps(&a, &period, &found));
+    const int32_t n = a.n_contact;
+    assert_true(n >= 3);
+    for (int k = 0; k < 40; ++k) {
+        clast_assembly b;
+        clast_overlaps moved;
+        clast_period box = period;
+        bool is_pair[2][5][5] = {{{false}}};
+        double shift[5][3];
+        two_shapes(&b);
+        for (int i = 0; i < 5; ++i) {
+            for (int c = 0; c < 3; ++c) {
+                shift[i][c] = 5.0 * ((i * 7 + c * 3 + k * 5) % 11 - 5) * (k % 2);
+                box.low[c] = k < 2 ? 0.0 : 0.73 * k - 9.0 + c;
+            }
+            add(&b, 1, at[i][0] + shift[i][0], at[i][1] + shift[i][1], at[i][2] + shift[i][2]);
+        }
+        CHECK_OK(clast_assembly_find_contacts_periodic(&b, 0.0, &box));
+        CHECK_OK(clast_assembly_overlaps(&b, &box, &moved));
+        assert_int_equal(b.n_contact, n);
+        assert_int_equal(moved.n, found.n);
+        CHECK_REL(moved.depth, found.depth, 1e-12);
+        for (int32_t c = 0; c < n; ++c) {
+            is_pair[1][b.contact[c][0]][b.contact[c][1]] = true;
+            is_pair[0][a.contact[c][0]][a.contact[c][1]] = true;
+            const double *own = b.position[b.contact[c][0]];
+            const double *point = b.contact_point[c];
+            assert_true(hypot(hypot(point[0] - own[0], point[1] - own[1]), point[2] - own[2]) <
+                        1.0);
+        }
+        assert_memory_equal(is_pair[0], is_pair[1], sizeof is_pair[0]);
+        clast_assembly_free(&b);
+    }
+    clast_assembly_free(&a);
+}
+
 /* Before, a period of NaN, -2.6 or INFINITY was none, without a word. */
 static void periods_that_cannot_be_are_refused(void **state)
 {
@@ -138,6 +190,7 @@ int main(void)
         cmocka_unit_test(a_shift_by_the_depth_parts_the_pair),
         cmocka_unit_test(a_grain_and_its_own_image_are_no_pair),
         cmocka_unit_test(pairs_across_the_border_count_once),
+        cmocka_unit_test(any_image_of_a_grain_has_its_contacts),
         cmocka_unit_test(periods_that_cannot_be_are_refused),
         cmocka_unit_test(gaps_and_tolerances_that_cannot_be_are_refused),
     };

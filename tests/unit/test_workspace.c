@@ -266,6 +266,33 @@ static void bad_points_are_told_and_leave_no_result(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
+/* Before, cells and events of the tests' own call were given. */
+static void tests_leave_no_decomposition(void **state)
+{
+    (void)state;
+    clast_decompose_config c = config_of("auto");
+    clast_workspace *workspace = NULL;
+    const clast_decomposition *made = NULL;
+    clast_uniformity tests;
+    static int32_t cell[N], again[N];
+    double events = -7.0;
+    const clast_points points = {.n = N, .dimension = 3, .x = dense, .stride = 3, .axis_stride = 1};
+    fill(5);
+    cell[0] = -7;
+    CHECK_OK(clast_workspace_create(&workspace));
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_workspace_test(workspace, &points, &c, &tests));
+        CHECK_STATUS(clast_workspace_cells(workspace, 1, k == 0 ? cell : again), CLAST_E_USAGE);
+        CHECK_STATUS(clast_workspace_events(workspace, 1, &events), CLAST_E_USAGE);
+        assert_true(k > 0 || (cell[0] == -7 && events == -7.0));
+        CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
+        CHECK_OK(clast_workspace_cells(workspace, 1, k == 0 ? cell : again));
+    }
+    assert_memory_equal(cell, again, sizeof cell);
+    clast_workspace_destroy(workspace);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
 static clast_status make_once(void *context)
 {
     clast_workspace *workspace = NULL;
@@ -763,6 +790,7 @@ int main(void)
 #endif
         cmocka_unit_test(threads_of_the_caller_do_not_disturb_each_other),
         cmocka_unit_test(bad_points_are_told_and_leave_no_result),
+        cmocka_unit_test(tests_leave_no_decomposition),
         cmocka_unit_test(first_call_is_that_of_clast_decompose),
         cmocka_unit_test(kept_cells_hold_the_points_of_the_call),
         cmocka_unit_test(policies_test_and_cut_when_they_say),
