@@ -58,7 +58,8 @@ static bool has_field(const cli_command *command, const char *name)
     return command->fields != NULL && clast_fields_find(command->fields, name) != NULL;
 }
 
-static clast_status check(const clast_study_config *config, const cli_command **command)
+static clast_status check(const clast_study_config *config, const cli_command **command,
+                          int64_t *n_run)
 {
     clast_table plan = {0};
     *command = find_command(config->run);
@@ -73,6 +74,7 @@ static clast_status check(const clast_study_config *config, const cli_command **
     CLI_TRY(check_keys(*command, config, &plan));
     CLI_CHECK(!(config->seeds > 1 && !has_field(*command, "seed")), CLAST_E_CONFIG,
               "clast %s draws nothing at random: seeds must be 1", config->run);
+    *n_run = plan.n_row;
 done:
     clast_table_free(&plan);
     return status;
@@ -117,10 +119,11 @@ static clast_status begin(const cli_common *common, const clast_study_config *co
                           const cli_command **command, cli_workers *workers)
 {
     clast_status status = CLAST_OK;
-    CLI_TRY(check(config, command));
+    int64_t n_run = 0;
+    CLI_TRY(check(config, command, &n_run));
     CLI_CHECK(common->output != NULL, CLAST_E_USAGE,
               "-o FOLDER is missing: a study needs a place for its runs");
-    CLI_TRY(workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers));
+    CLI_TRY(workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers, n_run));
 done:
     return cli_agree(common, status);
 }
@@ -159,11 +162,14 @@ static const char details[] =
     "  vary: [cone = 1 deg | 20 deg | 90 deg, rays = 1 | 10 | 100]\n"
     "  seeds: 3\n"
     "(values that hold commas go on lines of their own: - shapes = ellipsoid:3,2,1 | sphere)\n"
-    "Runs are processes of one thread, -j of them at once. The same call goes on where it was\n"
-    "stopped: whole runs stay, cut-off runs resume from their checkpoint. --shard K/N takes every\n"
-    "N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared disk. mpirun -n N clast-mpi\n"
-    "study ... (clast built with MPI) hands the runs to N ranks, -j of them on each, by default "
-    "1.\n"
+    "Runs are processes of one thread, -j of them at once, which share --max-memory. The same "
+    "call\n"
+    "goes on where it was stopped: whole runs stay, cut-off runs resume from their checkpoint.\n"
+    "--shard K/N takes every N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared "
+    "disk.\n"
+    "mpirun -n N clast-mpi study ... (clast built with MPI) hands the runs to N ranks, -j of them "
+    "on\n"
+    "each, by default 1.\n"
     "-o FOLDER holds plan.csv, runs/NNNNNN (result.json, messages.txt, out/), results.csv (a row "
     "a\n"
     "run: what varied, seed, exit code, the numbers of its --json object: a.b for b within a, "

@@ -132,10 +132,18 @@ done:
     return status;
 }
 
-static int exit_code(clast_status status)
+/// Of a stopped command that of the signal, also on ranks that got none: what came first of mpirun
+/// is the job's.
+static int exit_code(clast_status status, const clast_comm *comm)
 {
-    return status == CLAST_E_STOPPED && cli_signal_code() != 0 ? cli_signal_code()
-                                                               : clast_status_exit_code(status);
+    int64_t code = cli_signal_code();
+    if (status != CLAST_E_STOPPED) {
+        return clast_status_exit_code(status);
+    }
+    if (comm->n_rank > 1) {
+        code = -comm->least(comm->context, -code);
+    }
+    return code != 0 ? (int)code : clast_status_exit_code(status);
 }
 
 int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const clast_comm *comm)
@@ -160,7 +168,7 @@ int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const
         goto done;
     }
     cli_signals_begin(command->name, comm);
-    code = exit_code(perform(&p, argc - n_skip, argv + n_skip));
+    code = exit_code(perform(&p, argc - n_skip, argv + n_skip), comm);
     if (p.configs.fields != NULL) {
         clast_fields_free(p.configs.fields, p.config);
     }

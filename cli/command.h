@@ -128,6 +128,10 @@ void cli_signals_begin(const char *command, const clast_comm *comm);
 /// Whether a signal has asked the command to end; a loop that looks here saves its state.
 bool cli_stop_asked(void);
 
+/// The run in `folder` has a checkpoint once its loop looks: a command that a signal then ends
+/// without another says how to go on from it.
+void cli_signals_way_on(const char *command, const char *folder);
+
 /// Limits the library's memory to `text` (8GB, 50%; 0: not at all), NULL: 80 % of the machine's.
 clast_status cli_memory_limit(const char *text);
 

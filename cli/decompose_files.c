@@ -123,13 +123,14 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
     CLI_GUARD(clast_cells_write_vtu(r, j->domain, path));
-    if (j->is_part) {
-        return CLAST_OK; // the others show points
+    if (!j->is_part) { // no rank has all points
+        (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
+        CLI_GUARD(clast_decomposition_write_points(r, j->cloud, j->domain, path));
     }
-    (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
-    CLI_GUARD(clast_decomposition_write_points(r, j->cloud, j->domain, path));
     for (int k = 0; k < CLAST_N_DECOMPOSE_CHART; ++k) {
-        if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
+        const bool shows_points = k == CLAST_DECOMPOSE_CHART_POINTS;
+        if (!(j->is_part && shows_points) &&
+            clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
             (void)snprintf(path, sizeof path, "%s/%s.%s", folder,
                            clast_decompose_chart_name((clast_decompose_chart)k, r), j->chart_end);
             CLI_GUARD(clast_decompose_chart_write((clast_decompose_chart)k, j->cloud, r, path));

@@ -8,23 +8,62 @@
 
 static const double share = 0.8; // the rest is the system's and that of others
 
-/// The limit that a container's or a batch system's control group sets, or `bytes`.
+enum { PATH = 4096 };
+
+/// The least of `bytes` and the limit in a control group's file, where it is there and sets one.
+static double file_limit(const char *path, double bytes)
+{
+    char text[64] = "";
+    FILE *const file = fopen(path, "r");
+    if (file == NULL) {
+        return bytes;
+    }
+    const double most =
+        fgets(text, sizeof text, file) != NULL ? strtod(text, NULL) : 0.0; // "max": 0
+    (void)fclose(file);
+    return most > 0.0 && most < bytes ? most : bytes;
+}
+
+/// The same of a group and all above it, whose limits hold for it too. In a container the path may
+/// be that of another view of the tree: what is not there passes.
+static double group_limit(const char *root, char *group, const char *name, double bytes)
+{
+    char path[PATH];
+    for (;;) {
+        if (snprintf(path, sizeof path, "%s%s/%s", root, group, name) < (int)sizeof path) {
+            bytes = file_limit(path, bytes);
+        }
+        char *slash = strrchr(group, '/');
+        if (slash == NULL) {
+            return bytes;
+        }
+        *slash = '\0';
+    }
+}
+
+/// The limit that a container, or a batch system by the job's control group, sets; or `bytes`.
 static double group_memory(double bytes)
 {
-    static const char *const path[] = {"/sys/fs/cgroup/memory.max",
-                                       "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
-    for (int k = 0; k < 2; ++k) {
-        char text[64] = "";
-        FILE *const file = fopen(path[k], "r");
-        if (file == NULL) {
+    char line[PATH] = "";
+    FILE *const file = fopen("/proc/self/cgroup", "r");
+    bytes = group_limit("/sys/fs/cgroup", line, "memory.max", bytes);
+    bytes = group_limit("/sys/fs/cgroup/memory", line, "memory.limit_in_bytes", bytes);
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) { // "0::/job", "5:memory:/job"
+        char *const kind = strchr(line, ':');
+        char *const group = kind != NULL ? strchr(kind + 1, ':') : NULL;
+        if (group == NULL) {
             continue;
         }
-        const double most =
-            fgets(text, sizeof text, file) != NULL ? strtod(text, NULL) : 0.0; // "max": 0
-        (void)fclose(file);
-        if (most > 0.0 && most < bytes) {
-            bytes = most;
+        group[strcspn(group, "\n")] = '\0';
+        *group = '\0';
+        if (kind[1] == '\0') {
+            bytes = group_limit("/sys/fs/cgroup", group + 1, "memory.max", bytes);
+        } else if (strstr(kind, "memory") != NULL) {
+            bytes = group_limit("/sys/fs/cgroup/memory", group + 1, "memory.limit_in_bytes", bytes);
         }
+    }
+    if (file != NULL) {
+        (void)fclose(file);
     }
     return bytes;
 }

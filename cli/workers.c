@@ -17,7 +17,7 @@
 
 extern char **environ;
 
-clast_status cli_workers_init(cli_workers *workers)
+clast_status cli_workers_init(cli_workers *workers, int64_t n_run)
 {
     const ssize_t n = readlink("/proc/self/exe", workers->program, sizeof workers->program - 1);
     if (n <= 0) {
@@ -33,25 +33,30 @@ clast_status cli_workers_init(cli_workers *workers)
         }
     }
     workers->n = 0;
+    const int64_t limit = clast_memory_limit(); // shared out, so that all together stay below it
+    const int64_t most = clast_parallel_threads();
+    const int64_t each = limit / (n_run < most ? n_run : most);
+    (void)snprintf(workers->memory, sizeof workers->memory, "%lldB",
+                   (long long)(limit > 0 && each == 0 ? 1 : each));
     return CLAST_OK;
 }
 
-/// Starts the program with its three streams on files.
+/// Starts the program with its three streams on files, new ones: a process of an earlier attempt
+/// that has not ended yet writes into those that it has.
 static int spawn(const char *program, char **argument, const char *out, const char *err,
                  pid_t *process)
 {
+    const int flags = O_WRONLY | O_CREAT | O_TRUNC | O_APPEND;
     posix_spawn_file_actions_t actions;
+    (void)unlink(out);
+    (void)unlink(err);
     int error = posix_spawn_file_actions_init(&actions);
     if (error != 0) {
         return error;
     }
     error = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    error = error != 0 ? error
-                       : posix_spawn_file_actions_addopen(&actions, 1, out,
-                                                          O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    error = error != 0 ? error
-                       : posix_spawn_file_actions_addopen(&actions, 2, err,
-                                                          O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    error = error != 0 ? error : posix_spawn_file_actions_addopen(&actions, 1, out, flags, 0666);
+    error = error != 0 ? error : posix_spawn_file_actions_addopen(&actions, 2, err, flags, 0666);
     error = error != 0 ? error : posix_spawn(process, program, &actions, NULL, argument, environ);
     (void)posix_spawn_file_actions_destroy(&actions);
     return error;
@@ -61,17 +66,20 @@ clast_status cli_workers_start(void *context, const clast_study_item *item)
 {
     enum { WORDS = 4096 };
     cli_workers *workers = context;
+    static char memory_option[] = "--max-memory";
     char *argument[WORDS];
     char out[4200];
     char err[4200];
-    if (item->n_argument + 2 > WORDS || workers->n >= CLI_WORKERS_LIMIT) {
-        return cli_fail(CLAST_E_LIMIT, "a run's command line has more than %d words", WORDS - 2);
+    if (item->n_argument + 4 > WORDS || workers->n >= CLI_WORKERS_LIMIT) {
+        return cli_fail(CLAST_E_LIMIT, "a run's command line has more than %d words", WORDS - 4);
     }
     argument[0] = workers->program;
     for (int32_t i = 0; i < item->n_argument; ++i) {
         argument[i + 1] = item->argument[i];
     }
-    argument[item->n_argument + 1] = NULL;
+    argument[item->n_argument + 1] = memory_option;
+    argument[item->n_argument + 2] = workers->memory;
+    argument[item->n_argument + 3] = NULL;
     (void)snprintf(out, sizeof out, "%s/result.json", item->folder);
     (void)snprintf(err, sizeof err, "%s/messages.txt", item->folder);
     char parent[32]; // cli_signals_begin of the run looks for it

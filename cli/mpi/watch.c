@@ -29,6 +29,9 @@ enum { HOST = 64, BEATS_A_LIMIT = 10, LOST_CODE = 4 };
 /// In the place of a process: rank 0 ends the job.
 enum { ENDING = -1 };
 
+/// What a launcher has then to end the others; those that it leaves end themselves [s].
+static const double ending_grace = 10.0;
+
 /// Where rank 0 listens, told to all.
 typedef struct {
     double limit;   ///< s, 0: nobody is watched
@@ -59,6 +62,7 @@ static struct {
     meeting meeting;
     beat own;
     watched *other; ///< [n_rank] of rank 0, [1] else: rank 0
+    double ending;  ///< when rank 0 said that it ends the job, 0: never
 } watch;
 
 static double now(void)
@@ -107,6 +111,7 @@ static void take_beat(double at)
     }
     watched *w = &watch.other[is_first ? got.rank : 0];
     w->heard = got.process == ENDING ? 0.0 : at;
+    watch.ending = got.process == ENDING && watch.ending == 0.0 ? at : watch.ending;
     w->from = from;
     w->process = got.process;
     memcpy(w->host, got.host, sizeof w->host);
@@ -126,6 +131,16 @@ static void listen_for(double seconds)
             .tv_sec = (time_t)left, .tv_usec = (suseconds_t)(1e6 * (left - (double)(time_t)left))};
         (void)setsockopt(watch.socket, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
         take_beat(now());
+    }
+}
+
+/// Ends this process where rank 0, which said why, ended and the launcher did not end the others:
+/// MPI would wait for ever.
+static void end_after_first(double at)
+{
+    if (watch.ending > 0.0 && at - watch.ending > ending_grace) {
+        clast_outputs_abandon();
+        _exit(LOST_CODE);
     }
 }
 
@@ -164,6 +179,7 @@ static void *keep_watch(void *nothing)
             watch.other[k].heard = watch.other[k].heard > 0.0 ? at : 0.0;
         }
         look(at);
+        end_after_first(at);
         last = at;
     }
     return NULL;

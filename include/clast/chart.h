@@ -145,6 +145,9 @@ CLAST_API bool clast_decompose_chart_fits(clast_decompose_chart chart,
                                           const clast_decomposition *result);
 
 /// Draws one chart as .svg, .pdf or .png. Of more than 20000 points every k-th is drawn.
+///
+/// @param cloud  whose decomposition it is; one rank's part does but for
+/// CLAST_DECOMPOSE_CHART_POINTS
 CLAST_API clast_status clast_decompose_chart_write(clast_decompose_chart chart,
                                                    const clast_cloud *cloud,
                                                    const clast_decomposition *result,

@@ -83,7 +83,8 @@ CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_opt
 
 /// The points of one file, a part on each rank in the order of the rows: delimited text by
 /// stretches of its bytes, HDF5 arrays by rows, some at a time, so that no rank holds the file.
-/// Called by all ranks; a rank may get no point.
+/// Called by all ranks; a rank may get no point. A file that is not rank 0's (by its size and 64
+/// blocks of 64 KiB) is refused.
 ///
 /// @param comm  NULL: the only rank    @param columns  as of clast_cloud_from_table
 /// @param cloud  empty; written only on success

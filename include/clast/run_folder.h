@@ -50,9 +50,20 @@ CLAST_API void clast_text_free(char *text);
 /// SHA-256 of a file in 64 lower-case hexadecimal digits. CLAST_E_IO if it cannot be read.
 CLAST_API clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte);
 
+/// Refuses ranks that read different things, as from copies on their own disks: options, or files
+/// by their SHA-256. A file that a rank has not (or a pipe) passes. Called by all ranks before they
+/// begin; does nothing for one.
+///
+/// @param comm  NULL for one rank    @param file  paths [n_file]
+/// @return CLAST_E_FORMAT on all ranks, with one line that names a rank and the option or file
+CLAST_API clast_status clast_run_inputs_agree(const clast_comm *comm, const clast_field *fields,
+                                              const void *config, int32_t n_file,
+                                              const char *const *file);
+
 // A run's folder, taken and closed in one way by every command:
 //
-//     begin    refuses a folder that holds a run, unless force is set
+//     begin    refuses a folder that holds a run, unless force is set or that run was of the same
+//              command and cut off with nothing but its manifest written
 //     manifest, input: what the run is and what it reads
 //     open     makes the folder; from here on it holds a run that has not ended
 //     path     where the files go, summary.json last

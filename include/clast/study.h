@@ -78,8 +78,9 @@ typedef struct clast_study_report {
 /// checkpoint where the command can, and start anew where not. A run that fails is noted and the
 /// study goes on; it is tried again by the next call.
 /// A second call beside the first joins in: each run is done by one of them (a lock,
-/// runs/NNNNNN.lock). Ranks take runs from rank 0 one by one, each clast_parallel_threads() at a
-/// time, and write them into the same folder, which must lie on a disk that all of them see.
+/// runs/NNNNNN.lock). A run that a killed call has left under way is waited for, for 30 s. Ranks
+/// take runs from rank 0 one by one, each clast_parallel_threads() at a time, and write them into
+/// the same folder, which must lie on a disk that all of them see.
 ///
 /// @param comm    NULL for one rank    @param monitor  may be NULL; rank 0's hears of all runs
 /// @param report  the same on all ranks

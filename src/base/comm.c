@@ -246,6 +246,25 @@ done:
     return status;
 }
 
+clast_status clx_comm_first(const clast_comm *comm, const void *bytes, int64_t n,
+                            clx_gathered *first)
+{
+    CLAST_ASSERT(n >= 0 && first->bytes == NULL);
+    clast_status status = CLAST_OK;
+    clx_gathered made = {.n = n};
+    comm->broadcast(comm->context, 0, &made.n, (int64_t)sizeof made.n);
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&made.bytes, made.n, 1), NULL));
+    if (comm->rank == 0 && n > 0) {
+        memcpy(made.bytes, bytes, (size_t)n);
+    }
+    comm->broadcast(comm->context, 0, made.bytes, made.n);
+    *first = made;
+    made = (clx_gathered){0};
+done:
+    clx_gathered_free(&made);
+    return status;
+}
+
 clast_status clx_comm_share(const clast_comm *comm, const void *bytes, int64_t n, clx_gathered *all)
 {
     clast_status status = CLAST_OK;

@@ -41,6 +41,10 @@ bool clx_comm_is_same(const clast_comm *comm, int64_t value);
 clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const int64_t *n_out,
                                clx_gathered *in);
 
+/// The bytes of rank 0, on every rank.
+clast_status clx_comm_first(const clast_comm *comm, const void *bytes, int64_t n,
+                            clx_gathered *first);
+
 /// The bytes of all ranks, on every rank.
 clast_status clx_comm_share(const clast_comm *comm, const void *bytes, int64_t n,
                             clx_gathered *all);

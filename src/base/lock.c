@@ -1,7 +1,8 @@
-// Locks between processes: a file beside what is changed, held by flock.
+// Locks between processes: a file beside what is changed, held by flock, or by fcntl on disks that
+// know no flock (Lustre without the mount option flock, some FUSE).
 #ifdef __linux__
-// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): glibc's, for flock
-#define _DEFAULT_SOURCE 1
+// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): glibc's, for both
+#define _GNU_SOURCE 1
 #endif
 #include "base/lock.h"
 
@@ -26,6 +27,28 @@ static bool is_named(int descriptor, const char *path)
            held.st_dev == named.st_dev && held.st_ino == named.st_ino;
 }
 
+/// Whether an error says that the disk has no such kind of lock.
+static bool is_unknown(int error)
+{
+    return error == ENOSYS || error == ENOTSUP || error == EINVAL || error == ENOLCK;
+}
+
+/// Locks the file: 0, or why not; EWOULDBLOCK: another has it.
+static int lock_file(int file)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    int error = flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+#ifdef F_OFD_SETLK // the open file's, as flock's; the plain one goes as any descriptor is closed
+    if (is_unknown(error)) {
+        error = fcntl(file, F_OFD_SETLK, &whole) == 0 ? 0 : errno;
+    }
+#endif
+    if (is_unknown(error)) {
+        error = fcntl(file, F_SETLK, &whole) == 0 ? 0 : errno;
+    }
+    return error == EACCES || error == EAGAIN ? EWOULDBLOCK : error;
+}
+
 /// One attempt: 1 taken, 0 another has it, -1 the disk refuses (errno).
 static int try_take(const char *path, int *descriptor)
 {
@@ -33,9 +56,10 @@ static int try_take(const char *path, int *descriptor)
     if (file < 0) {
         return -1;
     }
-    const bool is_held = flock(file, LOCK_EX | LOCK_NB) == 0;
-    const int error = is_held ? EWOULDBLOCK : errno; // held, but by a name that is gone: once more
-    if (is_held && is_named(file, path)) {
+    const int refused = lock_file(file);
+    // held, but by a name that is gone: once more
+    const int error = refused == 0 ? EWOULDBLOCK : refused;
+    if (refused == 0 && is_named(file, path)) {
         *descriptor = file;
         return 1;
     }
@@ -101,7 +125,9 @@ clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bo
         taken = try_take(name, &descriptor);
     }
     *is_busy = taken == 0;
-    CLX_CHECK(taken >= 0, CLAST_E_DISK, "cannot write %s: %s", name, clx_errno_text());
+    CLX_CHECK(taken >= 0, CLAST_E_DISK, "cannot write %s: %s", name,
+              is_unknown(errno) ? "this disk has no file locks (Lustre: mount it with -o flock)"
+                                : clx_errno_text());
     if (taken == 0) {
         status = complain(path, name);
         goto done;

@@ -1,8 +1,9 @@
 #pragma once
 // One process at a time changes a file or folder that several may want to change.
 //
-// The lock is a file beside it, PATH.lock, held by flock(2): the kernel (of an NFS server, too)
-// lets it go with its process, so that none is ever stale. Who holds it is written inside.
+// The lock is a file beside it, PATH.lock, held by flock(2), by fcntl(2) where the disk has no
+// flock: the kernel (of an NFS server, too) lets it go with its process, so that none is ever
+// stale. Who holds it is written inside.
 #include "base/status.h"
 
 /// {0} holds nothing.

@@ -51,6 +51,10 @@ clast_status clx_points_check_options(const char *name, const clast_points_optio
 /// Whether a file that begins with these bytes is delimited text.
 bool clx_points_is_text(const char *bytes, size_t n);
 
+/// Refuses (CLAST_E_FORMAT on all ranks) a file that is not the one that rank 0 reads, by its size
+/// and blocks of it. Called by all ranks.
+clast_status clx_points_agree(const clast_comm *comm, const char *path);
+
 /// Part of a file of delimited text, whose first line has this number.
 clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
                                 const clast_csv_options *options, int64_t first_line,

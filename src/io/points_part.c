@@ -446,6 +446,7 @@ clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
     bool is_text = false;
     CLX_CHECK(clx_comm_has_sums(all), CLAST_E_ARGUMENT, "comm has no sum or no exchange");
     CLX_TRY(clast_comm_agree(all, find_kind(path, &is_text), NULL));
+    CLX_TRY(clx_points_agree(all, path));
     CLX_TRY(clast_comm_agree(all, clx_points_check_options(path, options, false, !is_text), NULL));
     if (is_text) {
         CLX_TRY(read_text(all, path, columns, &s));

@@ -305,7 +305,9 @@ static clast_status draw_events(const clast_decomposition *r, const char *path)
     if (r->beta_dt == 0.0) {
         (void)snprintf(label, sizeof label, "pair integral of a cell (1/m^%d)", r->dimension);
     }
-    const clast_chart chart = {.x = {.label = "particles of a cell (-)"},
+    const clast_chart chart = {.title =
+                                   r->beta_dt == 0.0 ? "Pair integral by cells" : "Events by cells",
+                               .x = {.label = "particles of a cell (-)"},
                                .y = {.label = label},
                                .series = series,
                                .n_series = r->n_capped > 0 ? 2 : 1};
@@ -321,7 +323,9 @@ clast_status clast_decompose_chart_write(clast_decompose_chart chart, const clas
     CLX_ARGUMENTS(cloud, result, path);
     CLX_GUARD(clx_cloud_check(cloud));
     CLX_WHOLE(decomposition, result);
-    if (result->n + result->n_outside != cloud->n || result->dimension != cloud->dimension) {
+    const bool is_whole = result->n + result->n_outside == cloud->n;
+    if ((chart == CLAST_DECOMPOSE_CHART_POINTS && !is_whole) ||
+        result->dimension != cloud->dimension) {
         return clx_fail(CLAST_E_ARGUMENT, "%s: the decomposition is not of this cloud", __func__);
     }
     if (!clast_decompose_chart_fits(chart, result)) {

@@ -3,7 +3,11 @@
 #include "run/checkpoint.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/file.h"
+#include "base/path.h"
+#include "io/h5_trailer.h"
+#include <clast/machine.h>
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -159,4 +163,43 @@ bool clx_checkpoint_exists(const char *folder)
 clast_status clx_checkpoint_clear(const char *folder)
 {
     return prune(folder, 0);
+}
+
+/// A checkpoint's name and last line, which has the sum and the number of its bytes.
+static clast_status describe_checkpoint(const char *path, char text[CLX_PATH_LIMIT])
+{
+    clast_status status = CLAST_OK;
+    char line[CLX_H5_TRAILER_SIZE + 1] = "";
+    FILE *file = fopen(path, "rb");
+    CLX_CHECK(file != NULL && fseeko(file, -(off_t)CLX_H5_TRAILER_SIZE, SEEK_END) == 0 &&
+                  fread(line, 1, CLX_H5_TRAILER_SIZE, file) == CLX_H5_TRAILER_SIZE,
+              CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
+    (void)snprintf(text, CLX_PATH_LIMIT, "%s %s", clx_path_name(path), line);
+done:
+    if (file != NULL) {
+        (void)fclose(file);
+    }
+    return status;
+}
+
+clast_status clx_checkpoint_agree(const clast_comm *comm, const char *path)
+{
+    clast_status status = CLAST_OK;
+    char text[CLX_PATH_LIMIT] = "";
+    clx_gathered first = {0};
+    if (comm->n_rank == 1) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_comm_agree(comm, describe_checkpoint(path, text), NULL));
+    CLX_TRY(clx_comm_first(comm, text, (int64_t)sizeof text, &first));
+    if (strcmp(text, first.bytes) != 0) {
+        status = clx_fail(CLAST_E_FORMAT,
+                          "finds %s where rank 0 goes on from another checkpoint (%.*s); put the "
+                          "run's folder on a disk that all ranks see",
+                          path, (int)strcspn(first.bytes, " "), first.bytes);
+    }
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
+done:
+    clx_gathered_free(&first);
+    return status;
 }

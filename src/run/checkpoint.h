@@ -20,6 +20,10 @@ CLX_SHARED clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int
 CLX_SHARED clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
                                               int32_t *n_damaged);
 
+/// Refuses (CLAST_E_FORMAT on all ranks) a checkpoint, or another file of clx_h5, that is not the
+/// one that rank 0 goes on from, by name and sum. Called by all ranks.
+CLX_SHARED clast_status clx_checkpoint_agree(const clast_comm *comm, const char *path);
+
 /// True when the folder holds one, whole or not.
 CLX_SHARED bool clx_checkpoint_exists(const char *folder);
 

@@ -21,6 +21,7 @@ struct clast_run_folder {
     char *path;     ///< where the run is made: folder, or FOLDER.new
     bool is_beside; ///< path takes the place of folder at the end
     bool is_resumed, is_open;
+    bool is_again;  ///< the folder holds a run of the same command that left nothing
     bool is_sealed; ///< its files are whole and listed
     int lock;       ///< descriptor of the folder, or -1
     char *command;
@@ -201,6 +202,32 @@ done:
     return status;
 }
 
+/// Whether a process at the folder would be seen: some disks have no locks.
+static bool knows_locks(const char *folder)
+{
+    const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool is_locked = descriptor >= 0 && flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+    if (descriptor >= 0) {
+        (void)close(descriptor); // and with it the lock
+    }
+    return is_locked;
+}
+
+/// Whether a run of this command was cut off before it had written anything but its manifest: to
+/// begin it anew, as a queue does with the same words, takes nothing away.
+static bool has_left_nothing(const clast_run_folder *run, const clx_run_state *state)
+{
+    const bool is_cut_off =
+        strcmp(state->outcome, "running") == 0 || strcmp(state->outcome, "stopped") == 0;
+    clx_folder there = {0};
+    const bool is_empty = is_cut_off && !state->is_running && knows_locks(run->folder) &&
+                          strcmp(state->command, run->command) == 0 &&
+                          clx_folder_list(run->folder, &there) == CLAST_OK && there.n == 1 &&
+                          strcmp(there.name[0], "manifest.json") == 0;
+    clx_folder_free(&there);
+    return is_empty;
+}
+
 /// Makes sure that no earlier run is overwritten or mixed in.
 static clast_status take_folder(clast_run_folder *run, bool force)
 {
@@ -213,9 +240,11 @@ static clast_status take_folder(clast_run_folder *run, bool force)
     clx_run_state_line(run->folder, &state, line);
     CLX_CHECK(!state.is_study, CLAST_E_USAGE, "%s holds a study; take another folder", run->folder);
     CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; take another folder", line);
+    run->is_again = state.is_run && has_left_nothing(run, &state);
     if (state.is_run && force) {
+        run->is_again = false;
         CLX_TRY(prepare_beside(run));
-    } else if (state.is_run) {
+    } else if (state.is_run && !run->is_again) {
         CLX_CHECK(!state.is_whole, CLAST_E_USAGE,
                   "%s holds a finished run; take another folder, or replace it with --force",
                   run->folder);
@@ -318,6 +347,7 @@ clast_status clast_run_folder_open(clast_run_folder *run)
 {
     CLX_ARGUMENTS(run);
     clast_status status = CLAST_OK;
+    char old_manifest[CLX_PATH_LIMIT];
     struct stat old;
     CLX_TRY(clx_folder_make(run->path));
     if (run->is_beside) {
@@ -327,8 +357,12 @@ clast_status clast_run_folder_open(clast_run_folder *run)
         CLX_TRY(clast_manifest_note(run->manifest, "replaces", clx_path_name(run->folder)));
     }
     CLX_TRY(lock_folder(run));
-    if (run->is_resumed && run->lock >= 0) {
+    if ((run->is_resumed || run->is_again) && run->lock >= 0) {
         clx_run_remove_temporaries(run->path);
+    }
+    if (run->is_again) { // as if it had not been there: it is listed with the others else
+        (void)clast_run_folder_file(run, "manifest.json", old_manifest);
+        (void)unlink(old_manifest);
     }
     CLX_TRY(note_others(run));
     CLX_TRY(write_manifest(run, "running"));

@@ -142,7 +142,7 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
 {
     CLX_ARGUMENTS(config, fit);
     CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
-    CLX_GUARD(clx_aggregate_idle(config, monitor));
+    CLX_GUARD(clx_aggregate_idle(config, folder != NULL, monitor));
     clast_status status = CLAST_OK;
     clast_aggregate_source source = {0};
     clast_run_folder *run = NULL;

@@ -10,12 +10,14 @@
 #include "base/queue.h"
 #include "io/config_files.h"
 #include "io/h5.h"
+#include "run/checkpoint.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
 #include <clast/field.h>
 #include <clast/machine.h>
 #include <clast/report.h>
+#include <clast/state.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
@@ -335,6 +337,23 @@ static clast_status finish(run *r, clast_status status)
     return status == CLAST_OK ? tell_outcome(r, printed, why) : status;
 }
 
+/// Refuses ranks that read other options or files than rank 0.
+static clast_status check_ranks(const run *r)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = clx_aggregate_n_file(r->config);
+    const char **file = NULL;
+    CLX_TRY(clast_comm_agree(r->comm, clx_alloc(&file, n, sizeof *file), NULL));
+    for (int32_t i = 0; i < n; ++i) {
+        const char *role = NULL;
+        file[i] = clx_aggregate_file(r->config, i, &role);
+    }
+    CLX_TRY(clast_run_inputs_agree(r->comm, clast_aggregate_fields, r->config, n, file));
+done:
+    clx_free((void *)file);
+    return status;
+}
+
 /// Loads; rank 0 makes the first repeat, so that bad input is refused before anything is written.
 static clast_status begin(run *r, const char *folder, bool force)
 {
@@ -403,7 +422,7 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
 {
     CLX_ARGUMENTS(config, report);
     CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
-    CLX_GUARD(clx_aggregate_idle(config, monitor));
+    CLX_GUARD(clx_aggregate_idle(config, folder != NULL, monitor));
     CLX_GUARD(clx_aggregate_check_printable(config));
     clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own,
@@ -411,17 +430,22 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
              .monitor = monitor,
              .comm = clx_comm_or_one(comm)};
     own.force = false;
-    const clast_status status = go(&r, begin(&r, folder, config->force), report);
+    clast_status status = check_ranks(&r);
+    if (status == CLAST_OK) {
+        status = go(&r, begin(&r, folder, config->force), report);
+    }
     free_run(&r);
     return status;
 }
 
-/// The configuration that the folder's first checkpoint holds.
-static clast_status read_config(const char *folder, clast_aggregate_config *config)
+/// The configuration that the folder's first checkpoint holds, and the path of that; clx_free it.
+static clast_status read_config(const char *folder, clast_aggregate_config *config, char **path)
 {
     clast_status status = CLAST_OK;
     clast_state state = {0};
-    CLX_TRY(clx_folder_read_checkpoint(folder, 0, &state));
+    int64_t step = 0;
+    CLX_TRY(clx_checkpoint_newest(folder, path, &step, NULL));
+    CLX_TRY(clast_state_read(*path, &state));
     CLX_CHECK(state.config != NULL, CLAST_E_FORMAT, "%s: the checkpoint has no configuration",
               folder);
     CLX_TRY(clast_fields_parse(folder, state.config, clast_aggregate_fields, config));
@@ -436,6 +460,7 @@ clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
     CLX_ARGUMENTS(folder, report);
     clast_status status = CLAST_OK;
     clast_aggregate_config config = {0};
+    char *path = NULL;
     run r = {.config = &config,
              .has_folder = true,
              .is_resumed = true,
@@ -443,7 +468,10 @@ clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
              .comm = clx_comm_or_one(comm)};
     (void)snprintf(r.folder, sizeof r.folder, "%s", folder);
     CLX_TRY(clast_comm_agree(r.comm, clast_fields_default(clast_aggregate_fields, &config), NULL));
-    status = clast_comm_agree(r.comm, read_config(folder, &config), NULL);
+    status = clast_comm_agree(r.comm, read_config(folder, &config, &path), NULL);
+    status = status == CLAST_OK ? clx_checkpoint_agree(r.comm, path) : status;
+    status = status == CLAST_OK ? check_ranks(&r) : status;
+    clx_free(path);
     if (status == CLAST_OK) {
         status = go(&r, begin_again(&r), report);
     }

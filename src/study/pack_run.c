@@ -265,6 +265,23 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
     return status;
 }
 
+/// Refuses ranks that read other options or files than rank 0.
+static clast_status check_ranks(const run *r)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = clx_pack_n_file(r->config);
+    const char **file = NULL;
+    CLX_TRY(clast_comm_agree(r->comm, clx_alloc(&file, n, sizeof *file), NULL));
+    for (int32_t i = 0; i < n; ++i) {
+        const char *role = NULL;
+        file[i] = clx_pack_file(r->config, i, &role);
+    }
+    CLX_TRY(clast_run_inputs_agree(r->comm, clast_pack_fields, r->config, n, file));
+done:
+    clx_free((void *)file);
+    return status;
+}
+
 /// Loads all that can be wrong before anything is written.
 static clast_status prepare(run *r, bool goes_on)
 {
@@ -321,6 +338,7 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
     if (own.start == NULL || own.start[0] == '\0') {
         clx_pack_set_density(&own);
     }
+    CLX_TRY(check_ranks(&r));
     CLX_TRY(clast_comm_agree(r.comm, begin(&r, folder, config->force), NULL));
     status = save(&r);
     status = finish(&r, status == CLAST_OK ? go(&r) : status, result);
@@ -410,6 +428,8 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     CLX_TRY(clast_comm_agree(r.comm, clast_fields_default(clast_pack_fields, &config), NULL));
     has_config = true;
     CLX_TRY(clast_comm_agree(r.comm, find_origin(&r, folder, max_steps, &from, &config), NULL));
+    CLX_TRY(clx_checkpoint_agree(r.comm, from.found.path));
+    CLX_TRY(check_ranks(&r));
     CLX_TRY(clast_comm_agree(r.comm, begin_again(&r, folder, max_steps, &from), NULL));
     if (from.is_end) { // a new state.h5 may outlive a kill alone, without the other results
         status = save(&r);

@@ -43,6 +43,13 @@ clast_status clx_study_record_update(const clast_study_config *config, const cha
 clast_status clx_study_keep(const clast_study_config *config, const char *folder,
                             const clast_table *plan);
 
+/// The file that an argument names, also as "list:FILE"; NULL for none.
+const char *clx_study_file_of(const char *argument);
+
+/// Refuses ranks that read other options, or another configuration, table or argument's file, than
+/// rank 0. Called by all ranks.
+clast_status clx_study_check_ranks(const clast_study_config *config, const clast_comm *comm);
+
 /// Refuses to go on (CLAST_E_USAGE) when an input file of a run that is done, by its manifest, has
 /// changed since. Files that are gone pass.
 clast_status clx_study_check_inputs(const char *folder, const clast_table *plan);

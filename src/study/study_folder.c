@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/lock.h"
+#include "base/path.h"
 #include "run/run.h"
 #include <clast/table.h>
 #include <stdio.h>
@@ -11,6 +13,9 @@
 #include <unistd.h>
 
 enum { STUDY_LIMIT = 1 << 28 };
+
+/// A study is kept in some milliseconds, and the time that the digests of its inputs take [s].
+static const double keep_patience = 300.0;
 
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
                                   char path[CLX_STUDY_PATH])
@@ -110,12 +115,15 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
                             const clast_table *plan)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH];
+    char path[CLX_PATH_LIMIT];
     clx_study_record record = {0};
+    clx_lock lock = {0};
+    bool is_busy = false;
     CLX_TRY(check_free(folder));
-    CLX_CHECK(snprintf(path, sizeof path, "%s/runs", folder) < (int)sizeof path, CLAST_E_DISK,
-              "path too long: %s", folder);
+    CLX_TRY(clx_path_join(path, folder, "runs"));
     CLX_TRY(clx_folder_make(path));
+    CLX_TRY(clx_path_join(path, folder, "study")); // another study may begin in this moment
+    CLX_TRY(clx_lock_take(path, keep_patience, &lock, &is_busy));
     CLX_TRY(clx_study_record_read(config, folder, &record));
     const bool is_new = record.before == NULL;
     if (is_new) { // study.json first: the folder is a study's from then on
@@ -126,6 +134,7 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
         CLX_TRY(clx_study_record_update(config, folder, plan, &record));
     }
 done:
+    clx_lock_release(&lock);
     clx_study_record_free(&record);
     return status;
 }

@@ -1,9 +1,10 @@
-// Whether the files that a study's runs have read are still what they were: tables are of one set
-// of inputs, also when the work is shared out or gone on with.
+// Whether the files that a study's runs have read are still what they were, and the same on all
+// ranks: tables are of one set of inputs, also when the work is shared out or gone on with.
 #include "study/study.h"
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include <clast/machine.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>
 #include <jansson.h>
@@ -87,5 +88,24 @@ clast_status clx_study_check_inputs(const char *folder, const clast_table *plan)
     }
 done:
     json_decref(known);
+    return status;
+}
+
+clast_status clx_study_check_ranks(const clast_study_config *config, const clast_comm *comm)
+{
+    clast_status status = CLAST_OK;
+    const char **file = NULL;
+    int32_t n = 0;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&file, config->argument.n + INT64_C(2), sizeof *file),
+                             NULL));
+    file[n++] = config->config;
+    file[n++] = config->table;
+    for (int32_t i = 0; i < config->argument.n; ++i) { // "": a word, or a file that is not there
+        const char *path = clx_study_file_of(config->argument.item[i]);
+        file[n++] = path != NULL ? path : "";
+    }
+    CLX_TRY(clast_run_inputs_agree(comm, clast_study_fields, config, n, file));
+done:
+    clx_free((void *)file);
     return status;
 }

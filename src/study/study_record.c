@@ -58,13 +58,32 @@ done:
     return status;
 }
 
+/// Whether two values of a key make the same study. A configuration is compared by its digest, a
+/// table by the plan that follows, whatever the spelling of their paths.
+static bool is_alike(const json_t *record, const char *key, const json_t *now, const json_t *was)
+{
+    const bool is_path = strcmp(key, "table") == 0 || (strcmp(key, "config") == 0 &&
+                                                       text_in(record, "config_sha256")[0] != '\0');
+    return json_equal(now, was) ||
+           (is_path && json_string_length(now) > 0 && json_string_length(was) > 0);
+}
+
 static clast_status check_study(const char *folder, const json_t *record, const json_t *study)
 {
-    return json_equal(json_object_get(record, "study"), study)
-               ? CLAST_OK
-               : clx_fail(CLAST_E_USAGE,
-                          "%s holds another study (study.json differs); give another folder by -o",
-                          folder);
+    clast_status status = CLAST_OK;
+    const json_t *was = json_object_get(record, "study");
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)study, key, value)
+    {
+        CLX_CHECK(is_alike(record, key, value, json_object_get(was, key)), CLAST_E_USAGE,
+                  "%s holds another study (%s differs); give another folder by -o", folder, key);
+    }
+    CLX_CHECK(json_object_size(was) == json_object_size(study), CLAST_E_USAGE,
+              "%s holds another study (study.json has other keys); give another folder by -o",
+              folder);
+done:
+    return status;
 }
 
 static bool is_file(const char *path)
@@ -73,8 +92,7 @@ static bool is_file(const char *path)
     return stat(path, &found) == 0 && S_ISREG(found.st_mode);
 }
 
-/// The file that an argument names, also as "list:FILE"; NULL for none.
-static const char *file_of(const char *argument)
+const char *clx_study_file_of(const char *argument)
 {
     const char *colon = strchr(argument, ':');
     const char *behind = colon != NULL ? colon + 1 : "";
@@ -107,7 +125,7 @@ static clast_status find_inputs(const clast_study_config *config, json_t *inputs
     CLX_TRY(add_input(inputs, "config", config->config));
     CLX_TRY(add_input(inputs, "table", config->table));
     for (int32_t i = 0; i < config->argument.n; ++i) {
-        CLX_TRY(add_input(inputs, "argument", file_of(config->argument.item[i])));
+        CLX_TRY(add_input(inputs, "argument", clx_study_file_of(config->argument.item[i])));
     }
 done:
     return status;

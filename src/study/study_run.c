@@ -5,6 +5,7 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/comm.h"
 #include "base/file.h"
 #include "base/lock.h"
@@ -18,6 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /// A run that this process does, and no other study beside it.
 typedef struct {
@@ -41,6 +43,9 @@ typedef struct {
     taken_row *taken;       ///< [n_busy] that this rank has begun
     int64_t capacity;
 } scheduler;
+
+/// For how long a run whose study was killed may take to end itself, with its checkpoint [s].
+static const double orphan_patience = 30.0;
 
 /// Codes of a run that was asked to stop and has no answer, and of one that another study does.
 enum { CUT_OFF = -1, ELSEWHERE = -2 };
@@ -111,6 +116,55 @@ static void give_row_back(scheduler *s, int64_t row)
     }
 }
 
+static bool asked_to_stop(void *context)
+{
+    const scheduler *s = context;
+    return clx_monitor_stops(s->monitor);
+}
+
+/// Whether a process is at the run.
+static bool is_under_way(const char *run_folder)
+{
+    char out[CLX_PATH_LIMIT];
+    clx_run_state state = {0};
+    const bool is_known = clx_path_join(out, run_folder, "out") == CLAST_OK &&
+                          clx_run_state_read(out, &state) == CLAST_OK;
+    const bool is = is_known && state.is_running;
+    clx_run_state_free(&state);
+    return is;
+}
+
+/// Waits for the process that a killed study has left at the run; false when it stays, or this
+/// study is asked to stop.
+static bool wait_for_orphan(scheduler *s, const char *run_folder)
+{
+    const struct timespec pause = {0, 50000000};
+    const double begun = clx_clock();
+    bool is_free = !is_under_way(run_folder);
+    while (!is_free && clx_clock() - begun < orphan_patience && !asked_to_stop(s)) {
+        clx_queue_serve(&s->queue);
+        (void)nanosleep(&pause, NULL);
+        is_free = !is_under_way(run_folder);
+    }
+    return is_free;
+}
+
+/// The words of a run whose folder is free: it goes on from its checkpoint, or begins anew.
+static clast_status prepare_run(const scheduler *s, int64_t row, const char *folder,
+                                clast_text_list *words)
+{
+    clast_status status = CLAST_OK;
+    const bool resume = s->worker->has_folder && s->worker->has_resume && has_checkpoint(folder);
+    if (!resume) {
+        CLX_TRY(clx_run_remove_tree(folder));
+    }
+    CLX_TRY(clx_folder_make(folder));
+    const clx_study_words_of shared = {s->config, s->worker, s->plan};
+    CLX_TRY(clx_study_words(&shared, row, folder, resume, words));
+done:
+    return status;
+}
+
 static clast_status start(scheduler *s, int64_t row)
 {
     CLAST_ASSERT(row >= 0 && row < s->plan->n_row);
@@ -119,18 +173,16 @@ static clast_status start(scheduler *s, int64_t row)
     clast_text_list words = {0};
     bool is_mine = false;
     CLX_TRY(take_row(s, row, &is_mine));
+    if (is_mine) {
+        CLX_TRY(clx_study_run_folder(s->folder, row, ".part", folder));
+        is_mine = wait_for_orphan(s, folder);
+    }
     if (!is_mine) {
+        give_row_back(s, row);
         clx_queue_end(&s->queue, item_of(s, row), ELSEWHERE);
         return CLAST_OK;
     }
-    CLX_TRY(clx_study_run_folder(s->folder, row, ".part", folder));
-    const bool resume = s->worker->has_folder && s->worker->has_resume && has_checkpoint(folder);
-    if (!resume) {
-        CLX_TRY(clx_run_remove_tree(folder));
-    }
-    CLX_TRY(clx_folder_make(folder));
-    const clx_study_words_of shared = {s->config, s->worker, s->plan};
-    CLX_TRY(clx_study_words(&shared, row, folder, resume, &words));
+    CLX_TRY(prepare_run(s, row, folder, &words));
     const clast_study_item item = {row, folder, words.n, words.item};
     CLX_TRY(s->worker->start(s->worker->context, &item));
 done:
@@ -173,12 +225,6 @@ done:
     give_row_back(s, row);
     clx_queue_end(&s->queue, item_of(s, row), code);
     return status;
-}
-
-static bool asked_to_stop(void *context)
-{
-    const scheduler *s = context;
-    return clx_monitor_stops(s->monitor);
 }
 
 static void tell(const scheduler *s)
@@ -328,6 +374,7 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
                    .plan = &plan,
                    .n_shard = 1};
     const clast_comm *all = clx_comm_or_one(comm);
+    CLX_TRY(clx_study_check_ranks(config, all));
     CLX_TRY(clast_comm_agree(all, prepare(&s, all, &plan), NULL));
     status = clast_comm_agree(all, work(&s, clast_parallel_threads()), NULL);
     if (all->rank == 0) {

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from clitest import CLAST, ROOT, Case, clast
+from clitest import CLAST, ROOT, Case, clast, preload
 
 
 class Memory(Case):
@@ -35,6 +35,37 @@ class Memory(Case):
             self.assertEqual(clast("shape", grain, "--max-memory", size).code, 0, size)
         for size, says in (("8", "8 has no unit"), ("x", "not a number"), ("-1GB", "-1GB"), ("", "empty value"), ("8m", "known here: B, kB")):
             self.assert_fails(2, "shape", grain, "--max-memory", size, says=["max-memory", says])
+
+    def test_the_least_limit_of_the_control_groups_holds(self):
+        """Those of a job under Slurm were not looked at: it set them on the job's group, not on the root."""
+        source = """#include <dlfcn.h>
+            #include <stdio.h>
+            #include <stdlib.h>
+            #include <string.h>
+            static FILE *pass(const char *name, const char *path, const char *mode)
+            {
+                char other[4096];
+                if (strcmp(path, "/proc/self/cgroup") == 0 || strncmp(path, "/sys/fs/cgroup", 14) == 0) {
+                    snprintf(other, sizeof other, "%s%s", getenv("GROUPS_AT"), path);
+                    path = other;
+                }
+                return ((FILE *(*)(const char *, const char *))dlsym(RTLD_NEXT, name))(path, mode);
+            }
+            FILE *fopen(const char *path, const char *mode) { return pass("fopen", path, mode); }
+            FILE *fopen64(const char *path, const char *mode) { return pass("fopen64", path, mode); }"""
+        env = preload(self.folder, source)
+        none = "9223372036854771712"
+        for number, (own, limits, says) in enumerate((
+                ("0::/slurm/job_7/step_0\n", {"slurm/job_7/memory.max": "23000", "slurm/job_7/step_0/memory.max": "max"}, "23 kB"),
+                ("0::/slurm/job_7/step_0\n", {"slurm/memory.max": "25000", "slurm/job_7/step_0/memory.max": "24000"}, "24 kB"),
+                ("5:cpu:/a\n4:memory:/slurm/uid_0/job_7\n0::/b\n",
+                 {"memory/slurm/uid_0/memory.limit_in_bytes": "26000", "memory/slurm/uid_0/job_7/memory.limit_in_bytes": none}, "26 kB"),
+                ("0::/not/to/be/seen/here\n", {"memory.max": "27000"}, "27 kB"))):
+            root = self.folder / str(number)
+            for name, text in {"proc/self/cgroup": own, **{f"sys/fs/cgroup/{name}": f"{text}\n" for name, text in limits.items()}}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text)
+            self.assert_fails(4, "mesh", "check", ROOT / "data/standin63/grain00.ply", "--max-memory", "100%", env={**env, "GROUPS_AT": str(root)}, says=[f"the limit is {says}"])
 
     def test_a_small_limit_is_one_line(self):
         grain = ROOT / "data/standin63/grain00.ply"

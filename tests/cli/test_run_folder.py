@@ -182,6 +182,22 @@ class RunFolder(Case):
             process.kill()
             process.wait()
 
+    def test_a_run_killed_before_its_first_checkpoint_is_begun_anew(self):
+        """A queue's job said for ever that there was no checkpoint."""
+        run = self.folder / "run"
+        self.start((*GROW, "--replicate", "20000", "--checkpoint-every", "1000000"), run, f"{run.name}/manifest.json", signal.SIGKILL)
+        self.assertEqual([path.name for path in run.iterdir() if path.name[0] != "."], ["manifest.json"])
+        self.assert_fails(2, *PACK, "-o", run, says=("without a checkpoint",))  # of another command
+        (run / "mine.csv").write_text("1\n")
+        self.assert_fails(2, *GROW, "--replicate", "2", "-o", run, says=("without a checkpoint", "--force"))
+        (run / "mine.csv").unlink()
+        done = clast(*GROW, "--replicate", "2", "-o", run)
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(clast(*GROW, "--replicate", "2", "-o", self.folder / "other").code, 0)
+        manifests = [json.loads((self.folder / name / "manifest.json").read_text()) for name in ("run", "other")]
+        self.assertEqual(manifests[0]["outputs"], manifests[1]["outputs"])
+        self.assert_fails(2, *GROW, "--replicate", "2", "-o", run, says=("holds a finished run",))
+
     def test_a_failed_run_is_named(self):
         run = self.folder / "run"
         run.mkdir()

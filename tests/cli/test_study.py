@@ -1,6 +1,8 @@
 """CLI: clast study runs, resumes and tabulates."""
 import csv
 import json
+import os
+import pathlib
 import signal
 import statistics
 import subprocess
@@ -8,7 +10,7 @@ import sys
 import time
 import unittest
 
-from clitest import CLAST, ROOT, Case, clast
+from clitest import CLAST, ROOT, Case, clast, preload
 
 SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
 
@@ -77,6 +79,83 @@ class Study(Case):
         self.assertEqual(left(), [])
         again = clast("study", self.folder / "study.yaml", "-o", self.folder / "out", "-q", cwd=ROOT)
         self.assertEqual(again.code, 0, again.err)
+
+    def test_two_other_studies_begun_at_once_do_not_mix(self):
+        """Both went on, with rows of the one and of the other."""
+        for n in range(8):
+            out = self.folder / f"mix-{n}"
+            words = [CLAST, "study", "--run", "fill", "--argument", SURFACE, "-o", out, "-q", "--vary"]
+            both = [subprocess.Popen([*words, values], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                    for values in ("spheres=5|6", "spheres=15|16")]
+            errors = [one.communicate()[1] for one in both]
+            self.assertEqual(sorted(one.returncode for one in both), [0, 2], errors)
+            self.assertIn("holds another study (vary differs)", "".join(errors))
+            with open(out / "results.csv", newline="", encoding="utf-8") as file:
+                rows = [(row["spheres"], row["exit_code"]) for row in csv.DictReader(file)]
+            self.assertEqual(rows, [("5", "0"), ("6", "0")] if both[0].returncode == 0 else [("15", "0"), ("16", "0")])
+            self.assertEqual(list(out.rglob("*.lock")), [])
+
+    def test_a_killed_study_begun_again_at_once_waits_for_its_runs(self):
+        """They were still writing their checkpoints, and the new ones failed; both wrote one messages.txt."""
+        if not sys.platform.startswith("linux"):
+            self.skipTest("SKIPPED LOUDLY: only Linux tells a process that its parent has gone")
+        plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g, max_steps=1500]\nseeds: 2\n")
+        runs = self.folder / "out/runs"
+        with self.start(plan, "-j", "2", "-q") as study:
+            while len(list(runs.glob("*.part/out/checkpoint-*"))) < 2 and study.poll() is None:
+                time.sleep(0.01)
+            left = [int(pid) for pid in pathlib.Path(f"/proc/{study.pid}/task/{study.pid}/children").read_text().split()]
+            self.assertEqual(len(left), 2)
+            for pid in left:  # a busy machine
+                os.kill(pid, signal.SIGSTOP)
+            study.kill()
+        with self.start(plan, "-j", "2", "-q") as again:
+            time.sleep(1)
+            for pid in left:
+                os.kill(pid, signal.SIGCONT)
+            error = again.communicate()[1]
+        self.assertEqual((again.returncode, error), (0, ""))
+        self.assertEqual([path.read_text() for path in runs.glob("*/messages.txt")], ["", ""])
+
+    def test_runs_share_the_memory(self):
+        """--max-memory was the study's alone."""
+        grain = ROOT / "data/standin63/grain00.ply"
+        study = ("study", "--run", "shape", "--argument", grain, "--vary", "axes=feret|fitted", "-q", "-j", "2")
+        self.assertEqual(clast(*study, "--max-memory", "300kB", "-o", self.folder / "little").code, 1)
+        self.assertIn("the limit is 150 kB", (self.folder / "little/runs/000001.part/messages.txt").read_text())
+        self.assertEqual(clast(*study, "--max-memory", "0", "-o", self.folder / "any").code, 0)
+
+    def test_a_study_is_the_same_however_its_files_are_spelled(self):
+        """It was another for --config ./grain.yaml."""
+        (self.folder / "grain.yaml").write_text("strategy: largest\n")
+        study = ("study", "--run", "fill", "--argument", ROOT / SURFACE, "--vary", "spheres=5", "-q", "-o", "out")
+        for spelling in ("grain.yaml", "./grain.yaml", self.folder / "grain.yaml"):
+            done = clast(*study, "--config", spelling, cwd=self.folder)
+            self.assertEqual(done.code, 0, done.err)
+        self.assert_fails(2, *study, "--config", "grain.yaml", "--seed", "7", cwd=self.folder, says=["holds another study (seed differs)"])
+        (self.folder / "other.yaml").write_text("strategy: random\n")
+        self.assert_fails(2, *study, "--config", "other.yaml", cwd=self.folder, says=["other.yaml is not the configuration"])
+
+    def test_disks_without_flock(self):
+        """Lustre, mounted without -o flock: no study ran."""
+        study = ("study", "--run", "fill", "--argument", ROOT / SURFACE, "--vary", "spheres=5|6", "-q", "-o")
+        flock = "#include <errno.h>\nint flock(int file, int kind) { (void)file; (void)kind; errno = ENOSYS; return -1; }\n"
+        done = clast(*study, self.folder / "out", env=preload(self.folder, flock))
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual([row["exit_code"] for row in self.rows()], ["0", "0"])
+        fcntl = """#include <dlfcn.h>
+            #include <fcntl.h>
+            #include <stdarg.h>
+            static int pass(const char *name, int file, int command, void *word)
+            {
+                if (command == F_SETLK || command == F_OFD_SETLK) { errno = ENOSYS; return -1; }
+                return ((int (*)(int, int, void *))dlsym(RTLD_NEXT, name))(file, command, word);
+            }
+            #define PASS(name) int name(int file, int command, ...) { va_list list; va_start(list, command); \\
+                void *word = va_arg(list, void *); va_end(list); return pass(#name, file, command, word); }
+            PASS(fcntl) PASS(fcntl64)"""
+        self.assert_fails(4, *study, self.folder / "none", env=preload(self.folder, flock + fcntl),
+                          says=["study.lock: this disk has no file locks (Lustre: mount it with -o flock)"])
 
     def test_wanted_and_achieved_values_of_one_name_stand_side_by_side(self):
         plan = self.plan("run: pack\nfix: [form_law=true, curve=6 mm, mass=1e-6, max_steps=1, height=0.3m, width=0.1m]\n"

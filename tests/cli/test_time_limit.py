@@ -2,6 +2,7 @@
 import os
 import pathlib
 import subprocess
+import time
 import unittest
 
 from clitest import CLAST, ROOT, Case, clast
@@ -63,6 +64,24 @@ class TimeLimit(Case):
                                           SLURM_ARRAY_TASK_COUNT="2")
             self.assertEqual((code, asked), (0, []), error)
         self.assertEqual(len(list((self.folder / "many/runs").glob("00000[1-4]"))), 4)
+
+    def test_a_job_killed_before_its_first_checkpoint_begins_anew(self):
+        config = self.folder / "ball.yaml"
+        config.write_text("core: sphere\ncore_size: 30um\ncoat: sphere\nsize: 8um\nrays: 10\npicture: false\nreplicate: 4\n")
+        with subprocess.Popen([CLAST, "aggregate", config, "--replicate", "20000", "--checkpoint-every", "1000000", "-q", "-o", "ball"], cwd=self.folder) as job:
+            while not (self.folder / "ball/manifest.json").exists() and job.poll() is None:
+                time.sleep(0.01)
+            job.kill()
+        code, asked, error = self.job("run.sbatch", "aggregate", config, "ball", limit="250s", SLURM_JOB_ID="7")
+        self.assertEqual((code, asked), (0, []), error)
+        self.assertTrue((self.folder / "ball/summary.json").exists())
+
+    def test_a_lost_rank_ends_the_job(self):
+        """srun leaves the others waiting for it unless it is told."""
+        for script in SLURM.glob("*.sbatch"):
+            for line in script.read_text().splitlines():
+                if line.startswith("srun "):
+                    self.assertIn(" --kill-on-bad-exit=1 ", line, script)
 
     def test_scripts_are_scripts(self):
         for script in SLURM.glob("*.sbatch"):

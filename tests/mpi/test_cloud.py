@@ -150,7 +150,21 @@ class Cloud(Case):
             self.assertEqual(out, alone.out)
             for name in ("cells.csv", "point_cells.csv", "cells.vtu", "summary.json"):
                 self.assertTrue((self.folder / str(n) / name).read_bytes() == (self.folder / "alone" / name).read_bytes(), name)
-            self.assertFalse((self.folder / str(n) / "points.vtp").exists())
+            left_out = {path.name for path in (self.folder / "alone").iterdir()} - {path.name for path in (self.folder / str(n)).iterdir()}
+            self.assertEqual(left_out, {"points.vtp", "points.svg"})
+
+    def test_charts_are_the_same_bytes(self):
+        """All charts were left out with those that show points."""
+        path = self.write("points.csv", "x,y,z\n" + rows(cloud(1500, 5)))
+        for more, names in ((("--mesh", "boxes"), {"density.svg", "score.svg", "pair_integral.svg"}),
+                            (("--beta-dt", "1e-4"), {"events.svg"})):
+            run = self.folder / more[0]
+            self.assertEqual(clast("decompose", path, *BOX, *more, "-q", "-o", f"{run}-alone").code, 0)
+            code, _, err = ranks(3, "decompose", path, *BOX, *more, "-q", "-o", run)
+            self.assertEqual(code, 0, err)
+            self.assertLessEqual(names, {found.name for found in run.iterdir()})
+            for name in names:
+                self.assertEqual((run / name).read_bytes(), (self.folder / f"{run}-alone" / name).read_bytes(), name)
 
     def test_any_text_of_numbers_is_shared_out(self):
         points = rows(cloud(700, 6))

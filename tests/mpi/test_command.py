@@ -7,7 +7,7 @@ import time
 import unittest
 
 from clitest import Case, clast
-from ranktest import own_lines, ranks, start, wait_until_free
+from ranktest import own_lines, process_of_rank, ranks, start, wait_until_free
 
 SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
 SPHERES = ("aggregate", "--core", "sphere", "--core-size", "30um", "--coat", "sphere", "--size", "8um", "--rays", "10",
@@ -84,6 +84,19 @@ class Ranks(Case):
             code, _, err = ranks(n, "aggregate", "--resume", run, "-q")
             self.assertEqual(code, 0, err)
             self.assertTrue(self.files(run) == self.files(self.folder / "whole"))
+
+    def test_a_signal_to_one_rank_is_the_code_of_all(self):
+        """mpirun ended with 130, which no script asks for."""
+        command = (*SPHERES, "--replicate", 60, "--rays", 1000, "--checkpoint-every", 5, "--repeats", 600)
+        for rank in (1, 0):
+            run = self.folder / f"cut-{rank}"
+            process = start(2, *command, "-o", run)
+            until = time.time() + 60
+            while not list(run.glob("repeat-*/checkpoint-*.h5")) and time.time() < until and process.poll() is None:
+                time.sleep(0.01)
+            os.kill(process_of_rank(process, rank), signal.SIGTERM)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 143, err)
 
     def test_what_cannot_be_shared_says_so_once(self):
         for arguments, code, says in (

@@ -134,14 +134,87 @@ class Faults(Case):
         shutil.copy("data/scarlet/stl/27sk21_shape_fine.stl", here / "grain.stl")
         for words, name in ((("decompose", "points.csv", "--domain", "box:0,0,0,1,1,1"), "points.csv"),
                             (("pack", "--shapes", "grain.stl", "--hull", "--mass", "1g"), "grain.stl")):
-            rank = 'cd "$1"; shift; exec "$0" "$@"'
-            job = [MPIEXEC]
-            for number, folder in enumerate((here, there)):
-                job += [":"] * number + ["-n", "1", "bash", "-c", rank, CLAST_MPI, str(folder), *words]
-            done = subprocess.run(job, env=ENV, text=True, capture_output=True, timeout=60)
+            done = self.on_two_machines(here, there, *words)
             self.assertNotEqual(done.returncode, 0)
             self.assertEqual(len(own_lines(done.stderr)), 1, done.stderr)
             self.assertRegex(own_lines(done.stderr)[0], rf"rank 1: .*{name}.*No such file")
+
+    def on_two_machines(self, here, there, *words):
+        """A rank in each of two folders, as on disks of their own."""
+        rank = 'cd "$1"; shift; exec "$0" "$@"'
+        job = [MPIEXEC]
+        for number, folder in enumerate((here, there)):
+            job += [":"] * number + ["-n", "1", "bash", "-c", rank, CLAST_MPI, str(folder), *map(str, words)]
+        return subprocess.run(job, env=ENV, text=True, capture_output=True, timeout=60)
+
+    def test_files_that_are_other_ones_on_one_machine(self):
+        """The result was of neither, MPI's error, or the job hung."""
+        here, there = self.folder / "here", self.folder / "there"
+        stl = pathlib.Path("data/scarlet/stl")
+        rows = [f"0.{3 * k % 997:03d},0.{7 * k % 991:03d},0.{11 * k % 983:03d}\n" for k in range(1, 2001)]
+        for folder, fine, friction, n in ((here, "fine", 0.1, 2000), (there, "coarse", 0.5, 1500)):
+            folder.mkdir()
+            shutil.copy(stl / f"27sk21_shape_{fine}.stl", folder / "grain.stl")
+            (folder / "bed.yaml").write_text(f"curve: 4mm\nwidth: 24mm\nheight: 40mm\nmass: 6g\nfriction: {friction}\n")
+            (folder / "study.yaml").write_text(f"run: fill\nargument: [grain.stl]\nvary: [spheres = 5 | {n}]\n")
+            (folder / "points.csv").write_text("x,y,z\n" + "".join(rows[:n]))
+            (folder / "swapped.csv").write_text("x,y,z\n" + "".join(rows[:2000] if n == 2000 else rows[1::-1] + rows[2:]))
+            (folder / "cell.stl").write_bytes((folder / "grain.stl").read_bytes())
+        box = ("--domain", "box:0,0,0,1,1,1")
+        core = ("--core", "grain.stl", "--coat", "sphere", "--size", "8um", "--replicate", "2", "--repeats", "2", "--unit", "um")
+        for words, says in (
+                (("pack", "bed.yaml", "--max-steps", "100"), "rank 1: reads another configuration than rank 0 (friction differs)"),
+                (("pack", "--shapes", "grain.stl", "--hull", "--mass", "1g", "--max-steps", "9"), "rank 1: reads another grain.stl than rank 0"),
+                (("aggregate", *core, "-o", self.folder / "grown"), "rank 1: reads another grain.stl than rank 0"),
+                (("study", "study.yaml", "-o", self.folder / "many"), "rank 1: reads another configuration than rank 0 (vary differs)"),
+                (("study", "--run", "fill", "--argument", "grain.stl", "--vary", "spheres=5|6", "-o", self.folder / "many"),
+                 "rank 1: reads another grain.stl than rank 0"),
+                (("decompose", "points.csv", *box, "--json"), "rank 1: reads another points.csv than rank 0"),
+                (("decompose", "swapped.csv", *box, "-o", self.folder / "cells"), "rank 1: reads another swapped.csv than rank 0"),
+                (("decompose", here / "points.csv", "--domain", "mesh:cell.stl", "--unit", "mm"), "rank 1: reads another cell.stl than rank 0")):
+            with self.subTest(words[:3]):
+                done = self.on_two_machines(here, there, *words, "-q")
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertEqual(len(own_lines(done.stderr)), 1, done.stderr)
+                self.assertIn(says, own_lines(done.stderr)[0])
+        self.assertEqual([path.name for path in self.folder.iterdir() if path not in (here, there)], [])
+
+    def test_a_run_that_is_another_one_on_one_machine(self):
+        """It hung."""
+        here, there = self.folder / "here", self.folder / "there"
+        for folder, steps in ((here, 200), (there, 300)):
+            folder.mkdir()
+            self.assertEqual(clast(*SPHERES[:-2], "--max-steps", steps, "-o", folder / "run").code, 0)
+        done = self.on_two_machines(here, there, "pack", "--resume", "run", "-q")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(len(own_lines(done.stderr)), 1, done.stderr)
+        self.assertIn("rank 1: finds run/state.h5 where rank 0 goes on from another checkpoint", own_lines(done.stderr)[0])
+
+    def test_a_launcher_that_keeps_on_leaves_no_rank(self):
+        """srun without --kill-on-bad-exit: rank 0 said which rank was lost and ended, the others waited for ever."""
+        if "open" not in subprocess.run([MPIEXEC, "--version"], text=True, capture_output=True).stdout.lower():
+            self.skipTest("SKIPPED LOUDLY: no Open MPI, whose launcher can be told to keep on")
+        plan = self.folder / "study.yaml"
+        plan.write_text("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g]\nseeds: 4\n")
+        with subprocess.Popen([MPIEXEC, "--enable-recovery", "--mca", "orte_abort_on_non_zero_status", "0", "-n", "3", CLAST_MPI, "study", plan,
+                               "-q", "-o", self.folder / "many", "--time-limit", "300s"], env={**ENV, "CLAST_RANK_TIMEOUT": str(LIMIT)},
+                              text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
+            runs = self.folder / "many/runs"
+            while len(list(runs.glob("*.part/out/checkpoint-*"))) < 3 and process.poll() is None:
+                time.sleep(0.05)
+            pids = [process_of_rank(process, k) for k in range(3)]
+            os.kill(pids[2], signal.SIGKILL)
+            try:
+                until = time.time() + KILLING
+                while time.time() < until and any(map(is_alive, pids)):
+                    time.sleep(0.05)
+                self.assertEqual([pid for pid in pids if is_alive(pid)], [])
+            finally:
+                os.killpg(process.pid, signal.SIGKILL)
+                for pid in filter(is_alive, pids):
+                    os.kill(pid, signal.SIGKILL)
+            _, err = process.communicate()
+        self.assertIn("rank 2", err)
 
     def test_a_launcher_of_another_mpi(self):
         others = [path for path in map(shutil.which, ("mpiexec.openmpi", "mpiexec.mpich"))

@@ -2,7 +2,9 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -29,6 +31,17 @@ def clast(*arguments, cwd=None, stdin=None, timeout=300, env=None):
         print(f"SKIPPED LOUDLY: clast {arguments[0]}: this clast is built without HDF5; this test did not end")
         raise unittest.SkipTest("built without HDF5")
     return Result(done)
+
+
+def preload(folder, source):
+    """Environment in which the C functions of `source` take the place of the C library's; skips loudly without a compiler."""
+    if shutil.which("cc") is None or not sys.platform.startswith("linux"):
+        print("SKIPPED LOUDLY: no cc, or no Linux: what a library in between shows was not tried")
+        raise unittest.SkipTest("no cc")
+    (folder / "between.c").write_text("#define _GNU_SOURCE 1\n" + source)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", folder / "between.so", folder / "between.c", "-ldl"], check=True)
+    return {"LD_PRELOAD": f"{os.environ.get('LD_PRELOAD', '')} {folder / 'between.so'}".strip(),
+            "ASAN_OPTIONS": f"{os.environ.get('ASAN_OPTIONS', '')}:verify_asan_link_order=0".strip(":")}
 
 
 class Case(unittest.TestCase):
