@@ -72,6 +72,10 @@ static void print_no_porosity(const clast_pack_result *r)
                      "give a smaller --trim; %.4f with nothing left out\n",
                      "bulk porosity", cli_quantity(r->top, "m"), cli_quantity(r->trim, "m"),
                      r->untrimmed);
+    } else if (r->porosity_state == CLAST_PACK_FALLING) {
+        (void)printf("%-26s none: there is no bed yet, more than half of the grains touch "
+                     "nothing\n",
+                     "bulk porosity");
     } else {
         (void)printf("%-26s none: there is no bed yet\n", "bulk porosity");
     }
@@ -358,7 +362,7 @@ const cli_command cli_pack = {
     .arguments = "",
     .summary = "pour, shake and damp a bed of grains (DEM); its porosity",
     .example =
-        {"clast pack --curve 4mm --mass 2g --width 30mm --height 0.1m --shaking-time 0",
+        {"clast pack --curve 4mm --mass 20g --width 2cm --height 9cm --shaking-time 0 --rule speed",
          "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/",
          "clast pack --resume bed/"},
     .details = details,

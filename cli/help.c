@@ -151,43 +151,68 @@ static void print_field(const clast_field *f)
     print_wrapped(text, at, at > NAME_COLUMN ? NAME_COLUMN + 1 : at);
 }
 
+static const char MORE[] = ", ..."; ///< a list that goes on
+
 /// Length of the longest part of a help text that ends with a clause and has at most `most` bytes:
-/// before a comma, colon or bracket that stands in no brackets; 0 when there is none.
-static int whole_clauses(const char *text, int most)
+/// before a comma, colon or bracket that stands in no brackets; 0 when there is none. `is_part` of
+/// a list behind a colon, whose other members are left out: MORE then has its place too.
+static int whole_clauses(const char *text, int most, bool *is_part)
 {
-    const int n = (int)strcspn(text, ";");
-    int found = n <= most ? n : 0;
+    int found = 0;
     int depth = 0;
-    for (int k = 0; k < n && k <= most && n > most; ++k) {
-        const bool is_end = (text[k] == ',' || text[k] == ':') && text[k + 1] == ' ';
-        if (depth == 0 && (is_end || (text[k] == ' ' && text[k + 1] == '('))) {
+    bool is_list = false;
+    *is_part = false;
+    for (int k = 0;; ++k) {
+        const char next = text[k] != '\0' ? text[k + 1] : '\0';
+        const bool is_last = text[k] == '\0' || (depth == 0 && text[k] == ';');
+        const bool is_clause = depth == 0 && (((text[k] == ',' || text[k] == ':') && next == ' ') ||
+                                              (text[k] == ' ' && next == '('));
+        const bool cuts = is_list && !is_last;
+        if ((is_last || is_clause) && k + (cuts ? (int)strlen(MORE) : 0) <= most) {
             found = k;
+            *is_part = cuts;
         }
+        if (is_last) {
+            return found;
+        }
+        is_list = is_list || (is_clause && text[k] == ':');
         depth += text[k] == '(' || text[k] == '[' ? 1 : text[k] == ')' || text[k] == ']' ? -1 : 0;
     }
-    return found;
 }
 
-/// One line: the help's first clauses and the values, as much of both as fits.
+/// The same of a field of choices: all of it, or what stands before the colon that opens their
+/// meanings; a part of those would read as the meaning of all.
+static int before_meanings(const char *text, int most)
+{
+    bool is_part = false;
+    const char *colon = strstr(text, ": ");
+    const int n = whole_clauses(text, (int)strlen(text), &is_part);
+    const int first = colon != NULL && colon - text < n ? (int)(colon - text) : n;
+    return n <= most ? n : first <= most ? first : whole_clauses(text, most, &is_part);
+}
+
+/// One line: the help's first clauses and the values, as much of both as fits. The choices are
+/// there always, their default where it fits.
 static void print_short(const clast_field *f)
 {
+    const bool is_choice = f->type == CLAST_FIELD_CHOICE;
     char name[CLI_NAME_SIZE];
     char values[CLI_WORDS_SIZE];
+    bool is_part = false;
     cli_field_name(f, name);
     cli_field_values(f, values);
     const int at = printf("  --%-*s ", NAME_COLUMN - 5, name);
-    int n = whole_clauses(f->help, COLUMNS - at - (int)strlen(values));
-    if (n == 0 && f->type == CLAST_FIELD_CHOICE) { // the choices are in --help-all
-        char value[128];
-        default_text(f, value, sizeof value);
-        (void)snprintf(values, sizeof values, " (default %s)", value);
-        n = whole_clauses(f->help, COLUMNS - at - (int)strlen(values));
-    }
-    if (n == 0) {
+    const int left = COLUMNS - at - (int)strlen(values);
+    int n = is_choice ? before_meanings(f->help, left) : whole_clauses(f->help, left, &is_part);
+    if (n == 0 && is_choice) {
+        (void)snprintf(values, sizeof values, " {%s}", f->text);
+        n = before_meanings(f->help, COLUMNS - at - (int)strlen(values));
+    } else if (n == 0) {
         values[0] = '\0';
-        n = whole_clauses(f->help, COLUMNS - at);
+        n = whole_clauses(f->help, COLUMNS - at, &is_part);
     }
-    (void)printf("%.*s%s\n", n > 0 ? n : (int)strlen(f->help), f->help, values);
+    (void)printf("%.*s%s%s\n", n > 0 ? n : (int)strlen(f->help), f->help, is_part ? MORE : "",
+                 values);
 }
 
 static void print_usage(const cli_command *command)

@@ -305,8 +305,10 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
                      cli_quantity(f->pores.mean, unit), f->pores.porosity);
     }
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
-        (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
-                     f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
+        if (strcmp(f->fabric.column[0].text[k], "coordination") != 0) { // told above
+            (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
+                         f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
+        }
     }
     for (int64_t k = 0; k < f->stress.n_row; ++k) {
         (void)printf("%-20s %s   %s\n", f->stress.column[0].text[k],

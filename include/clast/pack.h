@@ -194,7 +194,8 @@ typedef enum {
     CLAST_PACK_POROUS,    ///< it has one
     CLAST_PACK_NO_BED,    ///< grains are still made
     CLAST_PACK_ABOVE_CUT, ///< no slice of the profile is denser than the cut
-    CLAST_PACK_TRIMMED    ///< the trim leaves nothing of it
+    CLAST_PACK_TRIMMED,   ///< the trim leaves nothing of it
+    CLAST_PACK_FALLING    ///< more than half of the grains touch nothing
 } clast_pack_porosity_state;
 
 typedef struct clast_pack_result {

@@ -95,6 +95,18 @@ static void say_freedom(clast_aggregate_fit *r)
     append(r, part);
 }
 
+/// Which side of a packing that was tried alone the observation lies on: denser and faster than
+/// observed is too tight, and no looser one was tried. A size tells none: N_A answers for it.
+static int32_t edge_of_one(const clast_aggregate_fit *r)
+{
+    for (int k = CLAST_FIT_DENSITY; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        if (isfinite(r->observed[k]) && fabs(r->pull[k]) > 1.0) {
+            return r->pull[k] > 0.0 ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
 static void say(clast_aggregate_fit *r)
 {
     static const char *const opening[] = {
@@ -121,10 +133,11 @@ void clx_fit_judge(const clx_fit *fit, clast_aggregate_fit *result)
     r->n_choice = (fit->n_level > 1) + (limit > 1);
     r->n_freedom = r->n_observed > r->n_choice ? r->n_observed - r->n_choice : 0;
     r->p_value = r->n_freedom > 0 ? p_value_of(r->chi2, r->n_freedom) : (double)NAN;
-    if (fit->n_level > 1) { // tighter ones that were left out were out of the question
-        const bool is_last = r->at_level == fit->n_level - 1;
-        r->packing_edge = r->at_level == 0 ? -1 : is_last;
-    }
+    // tighter packings that were left out were out of the question
+    r->packing_edge = fit->n_level == 1                 ? edge_of_one(r)
+                      : r->at_level == 0                ? -1
+                      : r->at_level == fit->n_level - 1 ? 1
+                                                        : 0;
     if (limit > 1) {
         r->replicate_edge = r->replicate == 1 ? -1 : r->replicate == limit;
     }

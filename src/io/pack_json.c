@@ -111,7 +111,8 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     static const char *const why[] = {[CLAST_PACK_POROUS] = "",
                                       [CLAST_PACK_NO_BED] = "no bed yet",
                                       [CLAST_PACK_ABOVE_CUT] = "above cut",
-                                      [CLAST_PACK_TRIMMED] = "trimmed away"};
+                                      [CLAST_PACK_TRIMMED] = "trimmed away",
+                                      [CLAST_PACK_FALLING] = "no bed yet"};
     char hash[32];
     json_t *o = json_object();
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, r->hash);
@@ -125,7 +126,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     clx_json_set_number(o, "mass_wanted", r->mass_wanted);
     clx_json_set_count(o, "n_outside", r->n_outside);
     clx_json_set_number(o, "porosity_bulk", r->porosity);
-    if (r->porosity_state > CLAST_PACK_POROUS && r->porosity_state <= CLAST_PACK_TRIMMED) {
+    if (r->porosity_state > CLAST_PACK_POROUS && r->porosity_state <= CLAST_PACK_FALLING) {
         (void)json_object_set_new(o, "porosity_none", json_string(why[r->porosity_state]));
     }
     clx_json_set_number(o, "porosity_least", r->porosity_least);

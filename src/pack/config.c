@@ -121,8 +121,8 @@ const clast_field clast_pack_fields[] = {
     NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two looks at it"),
     NUMBER(still_speed, 1e-3, 0, 1e6, "m/s",
            "of the fastest grain; for grains below 1 mm their size a second or less"),
-    {FIELD(I64, max_steps), 0, 0, 9e15, "-", "stop after so many time steps as it is; 0: never",
-     NULL, .common = true},
+    {FIELD(I64, max_steps), 0, 0, 9e15, "-",
+     "stop after so many time steps, finished or not; 0: never", NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
 
     {FIELD(TEXT_LIST, wall), 0, 0, 0, "-",

@@ -132,8 +132,16 @@ static double least_porosity(const clast_table *profile)
     return isinf(least) ? (double)NAN : least;
 }
 
+/// Whether the grains still fall, however dense a layer they fall in: most of them touch nothing. A
+/// bed that its rule has ended is one all the same, and so is one that stages throw up.
+static bool is_falling(const clast_pack *p, int32_t n_free)
+{
+    return p->phase < CLAST_PACK_DONE && p->config.stages.n == 0 &&
+           2 * (int64_t)n_free > clast_dem_n_grain(p->dem);
+}
+
 /// Bulk porosity as published, and the forms; NAN while there is no bed.
-static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
+static clast_status measure_bed(const clast_pack *p, int32_t n_free, clast_pack_result *r)
 {
     clast_status status = CLAST_OK;
     clast_assembly a = {0};
@@ -172,6 +180,10 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     if (p->phase == CLAST_PACK_GENERATE) { // a layer of the lattice may be as dense as a bed
         goto done;
     }
+    if (is_falling(p, n_free)) {
+        r->porosity_state = CLAST_PACK_FALLING;
+        goto done;
+    }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     r->porosity_least = least_porosity(&profile);
     r->porosity_state = p->phase >= CLAST_PACK_DAMP ? CLAST_PACK_ABOVE_CUT : CLAST_PACK_NO_BED;
@@ -196,8 +208,8 @@ done:
     return status;
 }
 
-/// Grains that four contacts do not hold.
-static clast_status count_loose(const clast_pack *p, clast_pack_result *r)
+/// Grains that four contacts do not hold, and those of them that touch nothing.
+static clast_status count_loose(const clast_pack *p, int32_t *n_free, clast_pack_result *r)
 {
     clast_status status = CLAST_OK;
     int32_t *count = NULL;
@@ -205,6 +217,7 @@ static clast_status count_loose(const clast_pack *p, clast_pack_result *r)
     clx_count_contacts(p->dem, count);
     for (int32_t i = 0; i < r->dem.n_grain; ++i) {
         r->n_loose += count[i] < 4 ? 1 : 0;
+        *n_free += count[i] == 0 ? 1 : 0;
     }
 done:
     clx_free(count);
@@ -271,6 +284,7 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .clocked_steps = pack->clocked_steps,
                            .grain_steps = pack->grain_steps};
     int32_t first = -1;
+    int32_t n_free = 0;
     clast_dem_measure(pack->dem, &r.dem);
     clast_dem_read_cell(pack->dem, &r.cell);
     CLX_TRY(clast_dem_load_measure(pack->dem, &r.load));
@@ -278,8 +292,8 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
     r.n_outside = clx_pack_n_outside(pack, &first);
     measure_motion(pack, &r);
     clx_pack_own_density(pack, &r.own_density, &r.given_density);
-    CLX_TRY(count_loose(pack, &r));
-    CLX_TRY(measure_bed(pack, &r));
+    CLX_TRY(count_loose(pack, &n_free, &r));
+    CLX_TRY(measure_bed(pack, n_free, &r));
     *result = r;
 done:
     return status;

@@ -153,7 +153,8 @@ static int by_x(const void *a, const void *b)
     return p->x != q->x ? (p->x < q->x ? -1 : 1) : (p->y > q->y) - (p->y < q->y);
 }
 
-/// Mean and one standard deviation to either side of pairs of equal x.
+/// Mean and one standard deviation to either side of pairs of equal x; of what has no negative
+/// values the band begins at 0.
 static void add_group(const pair *p, int64_t n, line *l)
 {
     double mean = 0.0;
@@ -167,7 +168,7 @@ static void add_group(const pair *p, int64_t n, line *l)
     const double deviation = n > 1 ? sqrt(square / (double)(n - 1)) : 0.0;
     l->x[l->n] = p[0].x;
     l->y[l->n] = mean;
-    l->low[l->n] = mean - deviation;
+    l->low[l->n] = mean >= 0.0 ? fmax(mean - deviation, 0.0) : mean - deviation;
     l->high[l->n++] = mean + deviation;
     l->has_band = l->has_band || n > 1;
 }

@@ -17,6 +17,17 @@ static void sum_passing(const double *share, int64_t n_sieve, double *passing)
     }
 }
 
+/// Whether two curves cannot be told apart in a picture.
+static bool is_same(const double *a, const double *b, int64_t n)
+{
+    static const double SEEN = 1e-3; // a pixel of a picture is some 1/500 of its height
+    double most = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        most = fmax(most, fabs(a[i] - b[i]));
+    }
+    return most < SEEN;
+}
+
 clast_status clast_chart_grading(const clast_table *classes, const char *path)
 {
     CLX_ARGUMENTS(classes, path);
@@ -25,6 +36,8 @@ clast_status clast_chart_grading(const clast_table *classes, const char *path)
                                           "achieved_number"};
     static const char *const label[4] = {"wanted, by mass", "achieved, by mass",
                                          "wanted, by number", "achieved, by number"};
+    static const char *const both[2] = {"wanted, by mass and by number",
+                                        "achieved, by mass and by number"};
     clast_status status = CLAST_OK;
     clast_series series[4];
     double *size = NULL;
@@ -44,6 +57,10 @@ clast_status clast_chart_grading(const clast_table *classes, const char *path)
             continue; // no law of numbers
         }
         sum_passing(share, n, passing + k * n);
+        if (k >= 2 && is_same(passing + (k - 2) * n, passing + k * n, n)) {
+            series[k - 2].label = both[k - 2]; // of one class: the line of numbers would hide it
+            continue;
+        }
         series[n_series++] =
             (clast_series){.kind = k % 2 == 0 ? CLAST_SERIES_LINE : CLAST_SERIES_POINTS,
                            .label = label[k],

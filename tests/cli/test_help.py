@@ -21,7 +21,8 @@ def output(*arguments):
 COMMANDS = re.findall(r"^  (\w+(?: \w+)?)  +\S", output("--help"), re.M)
 OF_EVERY_COMMAND = {"--output", "--threads", "--max-memory", "--time-limit", "--set", "--json", "--quiet", "--help", "--help-all"}
 # examples that take more than some seconds with sanitizers
-SLOW = {"clast aggregate examples/27sk21.yaml -o run/", "clast study examples/packing-study.yaml -o study/ -j 2",
+SLOW = {"clast aggregate examples/27sk21.yaml -o run/", "clast evolve examples/evolve/ash.yaml --duration 100s", "clast study examples/packing-study.yaml -o study/ -j 2",
+        "clast pack --curve 4mm --mass 20g --width 2cm --height 9cm --shaking-time 0 --rule speed",
         "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/", "clast bench P1 --repeats 1",
         "clast bench --json", "clast shape data/standin63/*.ply --statistics forms/",
         "clast mesh repair data/scarlet/stl/t_rex.stl -o closed.stl", "clast mesh hull data/scarlet/stl/t_rex.stl -o hull.ply",
@@ -78,6 +79,19 @@ class Help(Case):
                 self.assertEqual(lines[-1], f"more: clast {command} --help-all; man clast")
                 self.assertTrue(set(named(page.out)) <= set(completed(command)))
                 self.assertEqual(output(*command.split(), "--help"), page.out)
+
+    def test_first_page_shortens_no_text_until_it_misleads(self):
+        # "left out at both ends (h_pd", "true shapes {exact|spheres}": texts were cut inside of brackets, choices left out
+        for command in COMMANDS:
+            page = output(*command.split(), "--help-all")
+            full = {name: " ".join(text.split()) for name, text in re.findall(r"^  (--\S+) ((?:.*\n)(?: {10,}.*\n)*)", page, re.M)}
+            for line in re.findall(r"^  --.*", output(*command.split(), "--help"), re.M):
+                with self.subTest(command, line=line):
+                    for pair in ("()", "[]", "{}"):
+                        self.assertEqual(line.count(pair[0]), line.count(pair[1]), line)
+                    choices = re.search(r"\{[\w|-]+\|[\w|-]+\}", full[line.split()[0]])
+                    if choices:
+                        self.assertIn(choices[0], line)
 
     def test_what_a_command_does_not_take_is_refused(self):
         # -o wrote nothing, --json printed roff: options that were read and left
