@@ -33,7 +33,7 @@ int cli_box_fields(clast_field *fields, int n, size_t offset)
                                 .unit = "-",
                                 .text = "",
                                 .help = "table of --initial table: columns size (monomers) and "
-                                        "number (1/m^3)"};
+                                        "number (1/m^3; shares, where --concentration is given)"};
     return n;
 }
 
@@ -55,24 +55,6 @@ static int side_of(const char *name)
         return 0;
     }
     return -1;
-}
-
-/// Refuses options that a box of this kind does not look at.
-static clast_status check_idle(const clast_field *fields, const void *config, const cli_box *box)
-{
-    const clast_spectrum_config *c = &box->spectrum;
-    const clast_idle rules[] = {
-        {c->solver == CLAST_SOLVER_SECTIONAL, "particles|collisions|leap|block|seed",
-         "with this --solver"},
-        {c->solver == CLAST_SOLVER_MONTE_CARLO, "tolerance", "with this --solver"},
-        {c->breakage_rate == 0.0, "breakage_exponent|fragments|fragment_exponent",
-         "without --breakage-rate"},
-        {c->fragments == CLAST_FRAGMENTS_HALVES, "fragment_exponent", "with --fragments halves"},
-        {c->source == 0.0, "source_size", "without --source"},
-        {c->initial == CLAST_INITIAL_TABLE, "initial_mean|initial_sd", "with --initial table"},
-        {c->initial != CLAST_INITIAL_LOGNORMAL, "initial_sd", "without --initial lognormal"},
-        {0}};
-    return cli_idle_check(fields, config, rules);
 }
 
 /// The run of which options are checked.
@@ -111,6 +93,7 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
                            const cli_box *box, const clast_agglomerate_config *agglomerate)
 {
     options o = {box, *agglomerate};
+    clast_idle rules[CLAST_N_IDLE];
     if (!box->box_model && common->n_argument == 0) {
         return cli_fail(CLAST_E_USAGE,
                         "missing POINTS... (or --box-model: a box without positions)");
@@ -134,7 +117,7 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
         CLI_GUARD(check_used(&o, option, f->name));
     }
     if (box->box_model) {
-        CLI_GUARD(check_idle(fields, config, box));
+        CLI_GUARD(cli_idle_check(fields, config, clast_spectrum_idle(&box->spectrum, rules)));
     }
     if (box->box_model &&
         (box->spectrum.initial == CLAST_INITIAL_TABLE) != (box->initial_file[0] != '\0')) {

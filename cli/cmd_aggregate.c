@@ -3,11 +3,9 @@
 
 #include "aggregate_fit.h"
 #include "aggregate_report.h"
-#include "idle.h"
 #include "json.h"
 #include "resume.h"
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 static clast_status print_printable(const cli_common *common, const char *folder,
@@ -96,29 +94,11 @@ static void print_surfaces(const cli_common *common, const char *folder, bool is
                                           : "; for printing, --printable adds one closed body");
 }
 
-/// Refuses what is for the folder of a run where there is none.
-static clast_status check_folder(const cli_common *common, const clast_aggregate_config *config)
-{
-    bool has_composites = config->params.contact != CLAST_CONTACT_EXACT;
-    for (int32_t i = 0; i < config->params.envelope.n; ++i) {
-        has_composites = has_composites || strstr(config->params.envelope.item[i], "sphere_");
-    }
-    const clast_idle rules[] = {
-        {common->output == NULL, "fall_speed|printable|neck|spacing", "without -o"},
-        {common->output == NULL && !has_composites, "core_spheres|coat_spheres",
-         "without -o, contact spheres or march, or an envelope of spheres"},
-        {0}};
-    return cli_idle_check(clast_aggregate_fields, config, rules);
-}
-
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_aggregate_config *config = context;
     clast_aggregate_report report = {0};
     const clast_monitor monitor = cli_monitor(common);
-    if (config->resume[0] == '\0') {
-        CLI_GUARD(check_folder(common, config));
-    }
     if (config->fit && common->comm->n_rank > 1) {
         return cli_fail(CLAST_E_USAGE, "--fit runs on one rank, not %d; start it without mpirun",
                         common->comm->n_rank);

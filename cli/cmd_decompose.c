@@ -174,23 +174,23 @@ done:
     return status;
 }
 
+/// Refuses ranks that read other options, or another surface, than rank 0; the points' file is
+/// compared where it is read.
+static clast_status check_ranks(const cli_common *common, const config *c)
+{
+    const char *const file = cli_domain_file(c->decompose.domain);
+    return clast_run_inputs_agree(common->comm, fields, c, file != NULL ? 1 : 0, &file);
+}
+
 /// What needs a folder has one, and what was asked for is not idle.
-static clast_status check(const cli_common *common, const config *c)
+static clast_status check(const cli_common *common, config *c)
 {
     clast_status status = CLAST_OK;
-    const bool is_test = c->test_only || c->decompose.variant == CLAST_VARIANT_TEST;
-    const clast_idle rules[] = {{is_test,
-                                 "mesh|events|crossfit|beta_dt|pairs|pairs_radius|estimator|sizes|"
-                                 "lower|strict|max_pass|tree_level|tree_root_level|tree_least|tree_"
-                                 "refine|extrapolate|ghost_samples|variable_column",
-                                 c->test_only ? "with --test-only" : "with --variant test"},
-                                {c->n_size == 0, "regular", "without --sizes"},
-                                {0}};
     CLI_CHECK(!c->test_only || c->decompose.variant == CLAST_VARIANT_FULL ||
                   c->decompose.variant == CLAST_VARIANT_TEST,
               CLAST_E_USAGE, "--test-only is --variant test: leave --variant out");
-    CLI_TRY(cli_idle_check(fields, c, rules));
-    CLI_TRY(cli_idle_cells(common, fields, c, &c->points, &c->decompose));
+    c->decompose.variant = c->test_only ? CLAST_VARIANT_TEST : c->decompose.variant;
+    CLI_TRY(cli_idle_cells(common, fields, c, &c->points, &c->decompose, c->n_size));
     CLI_CHECK(c->n_size == 0 || common->output != NULL, CLAST_E_USAGE,
               "--sizes writes a table and a chart: name a folder with -o");
 done:
@@ -246,9 +246,7 @@ static clast_status run(const cli_common *common, void *values)
     cli_decompose_found f = {.typed = c->decompose.domain, .begun = cli_clock()};
     clast_status status = CLAST_OK;
     CLI_TRY(check(common, c));
-    if (c->test_only) {
-        c->decompose.variant = CLAST_VARIANT_TEST;
-    }
+    CLI_TRY(check_ranks(common, c));
     if (common->comm->rank == 0) {
         status = cli_results_begin(common, common->output, &c->force, &folder);
     }
@@ -317,7 +315,7 @@ const cli_command cli_decompose = {
         "volume, beta_dt, seed.\n"
         "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
         "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
-        "-o without points.vtp and charts of points.",
+        "-o without points.vtp and the chart points.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

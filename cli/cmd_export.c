@@ -41,38 +41,17 @@ static const clast_field fields[] = {
 };
 #undef FIELD
 
-/// Options that no file of this name, or no table, looks at.
-static clast_status check_idle(const cli_common *common, const export_config *c)
+/// Options that no file of this name, no table and, once they are known, no such grains look at.
+static clast_status check_idle(const cli_common *common, const export_config *c, bool is_run,
+                               const clast_assembly *assembly)
 {
-    const clast_export_format format = clast_export_format_of_path(common->output);
-    const bool is_ply = format == CLAST_EXPORT_PLY;
-    const bool has_surfaces = is_ply || format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
-                              format == CLAST_EXPORT_3MF || format == CLAST_EXPORT_VTU;
-    const bool is_bare = format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
-                         format == CLAST_EXPORT_PLY || format == CLAST_EXPORT_3MF ||
-                         format == CLAST_EXPORT_TXT || format == CLAST_EXPORT_VORO ||
-                         format == CLAST_EXPORT_XYZD;
-    const clast_idle rules[] = {
-        {c->table[0] != '\0', "level|points|colour|unit|density|columns|diameter", "with --table"},
-        {is_bare, "density",
-         "in a file without densities: .data, .dump, .conf, .csv, .json and .vtu have them"},
-        {!has_surfaces, "level",
-         "in a file without surfaces: .stl, .obj, .ply, .3mf and .vtu have them"},
-        {c->points, "level", "with --points: they have no surfaces"},
-        {!is_ply, "colour", "but in a .ply"},
-        {0}};
-    return cli_idle_check(fields, c, rules);
-}
-
-/// Whether the fineness shows: surfaces of files are as they are.
-static clast_status check_level(const export_config *c, const clast_assembly *assembly)
-{
-    bool is_made = false;
-    for (int32_t i = 0; i < assembly->n_shape; ++i) {
-        is_made = is_made || assembly->shape[i].mesh.n_tri == 0;
-    }
-    const clast_idle rules[] = {{!is_made, "level", "without spheres and ellipsoids"}, {0}};
-    return cli_idle_check(fields, c, rules);
+    const clast_export_given given = {.format = clast_export_format_of_path(common->output),
+                                      .has_table = c->table[0] != '\0',
+                                      .is_run = is_run,
+                                      .points = c->points,
+                                      .assembly = assembly};
+    clast_idle rules[CLAST_N_IDLE];
+    return cli_idle_check(fields, c, clast_export_given_idle(&given, rules));
 }
 
 static clast_status report_table(const cli_common *common, const clast_table *table)
@@ -190,9 +169,7 @@ static clast_status read_grains(const cli_common *common, const char *path,
     const size_t n = strlen(path);
     const bool is_state = n >= 3 && strcmp(path + n - 3, ".h5") == 0;
     if (is_state) {
-        const clast_idle rules[] = {
-            {true, "columns|diameter", "with a run, which knows its grains"}, {0}};
-        CLI_GUARD(cli_idle_check(fields, config, rules));
+        CLI_GUARD(check_idle(common, config, true, NULL));
         CLI_GUARD(clast_state_read_assembly(path, &b->assembly));
         CLI_GUARD(clast_state_read_frame(path, &b->read.frame));
     } else {
@@ -214,7 +191,7 @@ static clast_status export_assembly(const cli_common *common, const char *state,
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
     clast_status status = CLAST_OK;
     CLI_TRY(read_grains(common, state, config, &b));
-    CLI_TRY(check_level(config, &b.assembly));
+    CLI_TRY(check_idle(common, config, false, &b.assembly));
     options.unit = unit_of(config, clast_export_format_of_path(common->output), &b.assembly);
     options.frame = &b.read.frame;
     CLI_TRY(clast_assembly_write(&b.assembly, common->output, &options, &report));
@@ -238,7 +215,7 @@ static clast_status run(const cli_common *common, void *context)
                         ".json, .dump, .data, .txt, .voro, .xyzd or .conf",
                         common->output);
     }
-    CLI_GUARD(check_idle(common, config));
+    CLI_GUARD(check_idle(common, config, false, NULL));
     CLI_GUARD(clast_run_folder_state(common->argument[0], state));
     return config->table[0] != '\0' ? export_table(common, state, config->table)
                                     : export_assembly(common, state, config);

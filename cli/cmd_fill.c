@@ -123,23 +123,11 @@ static clast_status show(const cli_common *common, const char *name,
     return CLAST_OK;
 }
 
-/// Of the strategies each has options of its own.
-static clast_status check_used(const clast_fill_config *c)
-{
-    const bool is_largest = c->strategy == CLAST_FILL_LARGEST;
-    const clast_idle rules[] = {
-        {c->overlap, "tolerance", "with --overlap"},
-        {is_largest, "candidates|first_at_centre|max_tries|seed", "with --strategy largest"},
-        {!is_largest, "tolerance|min_share", "without --strategy largest"},
-        {!c->outer, "shrink", "without --outer"},
-        {0}};
-    return cli_idle_check(clast_fill_fields, c, rules);
-}
-
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_fill_config *config = context;
-    CLI_GUARD(check_used(config));
+    clast_idle rules[CLAST_N_IDLE];
+    CLI_GUARD(cli_idle_check(clast_fill_fields, config, clast_fill_idle(config, rules)));
     const clast_monitor monitor = cli_monitor(common);
     clast_mesh mesh = {0};
     clast_spheres spheres = {0};

@@ -28,7 +28,8 @@ static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {
     {"features", .offset = offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
-     "form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: "
+     "features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: "
+     "the table's own; auto: "
      "mixture with --grains, else form where the table has forms, else columns",
      "auto|form|mixture|columns", .common = true, .group = "features and grains"},
     {"grains", .offset = offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
@@ -71,18 +72,11 @@ static bool has_forms(const config *c, const clast_table *beds)
     return has;
 }
 
-static clast_status check_idle(const config *c)
-{
-    const clast_idle rules[] = {
-        {c->fit.use[0] != '\0', "n_term|score", "with --use: features are named, none is selected"},
-        {c->grains[0] == '\0', "group", "without --grains"},
-        {0}};
-    return cli_idle_check(fields, c, rules);
-}
-
 static clast_status gather(const config *c, const char *path, job *j)
 {
-    CLI_GUARD(check_idle(c));
+    clast_idle rules[CLAST_N_IDLE];
+    CLI_GUARD(
+        cli_idle_check(fields, c, clast_porosity_fit_idle(&c->fit, c->grains[0] != '\0', rules)));
     CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
     int32_t what = c->features;
     if (what == AUTO) {

@@ -268,15 +268,21 @@ static void answer_words(const answer *a)
     }
 }
 
+static clast_status check_spread(const grading_config *config, const clast_curve *curve)
+{
+    clast_idle rules[CLAST_N_IDLE];
+    return cli_idle_check(grading_fields, config,
+                          clast_grading_idle(curve, (clast_grading_spread)config->spread, rules));
+}
+
 static clast_status check_options(const cli_common *common, const grading_config *config)
 {
     const bool compares = config->compare[0] != '\0';
-    const clast_idle rules[] = {
-        {config->mass == 0.0, "density|grain_volume", "without --mass"},
-        {config->sample == 0, "seed", "without --sample"},
-        {config->spread == CLAST_SPREAD_MEANS, "count", "with --spread means"},
-        {0}};
-    CLI_GUARD(cli_idle_check(grading_fields, config, rules));
+    const clast_idle own[] = {{config->mass == 0.0, "density|grain_volume", "without --mass"},
+                              {config->sample == 0, "seed", "without --sample"},
+                              {0}};
+    CLI_GUARD(cli_idle_check(grading_fields, config, own));
+    CLI_GUARD(check_spread(config, NULL));
     CLI_GUARD(cli_table_check(common->output));
     if (common->output != NULL && config->sample == 0) {
         return cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
@@ -291,14 +297,6 @@ static clast_status check_options(const cli_common *common, const grading_config
     return CLAST_OK;
 }
 
-/// Laws and lists have no classes to spread sizes in.
-static clast_status check_curve(const answer *a)
-{
-    const clast_idle rules[] = {
-        {a->curve.n_class == 0, "spread|count", "with sizes that are no sieve curve"}, {0}};
-    return cli_idle_check(grading_fields, a->config, rules);
-}
-
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const grading_config *config = config_bytes;
@@ -307,7 +305,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(check_options(common, config));
     CLI_TRY(clast_grading_load(a.text, (clast_grading_spread)config->spread,
                                (clast_grading_count)config->count, &a.curve, &a.grading));
-    CLI_TRY(check_curve(&a));
+    CLI_TRY(check_spread(config, &a.curve));
     CLI_TRY(take_sizes(&a));
     CLI_CHECK(config->compare[0] == '\0' || a.curve.n_class != 0, CLAST_E_USAGE,
               "'%s' is no sieve curve to compare with", a.text);

@@ -114,13 +114,13 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const config *c = config_bytes;
-    const clast_idle rules[] = {
-        {c->weld != CLAST_WELD_WITHIN, "weld_tolerance", "without --weld within"}, {0}};
+    const clast_mesh_repair_config welding = {.weld = c->weld};
+    clast_idle rules[CLAST_N_IDLE];
     clast_mesh mesh = {0};
     clast_mesh_check_result result = {0};
     clast_mesh_repair_report weld = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(cli_idle_check(fields, c, rules));
+    CLI_TRY(cli_idle_check(fields, c, clast_mesh_repair_idle(&welding, rules)));
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(check(c, &mesh, &result, &weld));
     CLI_TRY(tell(common, c, &mesh, &result, &weld));

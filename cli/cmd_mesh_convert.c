@@ -78,10 +78,8 @@ static clast_status check_job(const cli_common *common, const convert_config *co
                         "%s: no surface format by that name; write .stl, .obj, .ply, .off or .3mf",
                         j->output);
     }
-    const clast_idle rules[] = {{j->out_format == CLAST_MESH_PLY || j->out_format == CLAST_MESH_OFF,
-                                 "name", "with .ply and .off: STL, OBJ and 3MF name their part"},
-                                {0}};
-    return cli_idle_check(fields, config, rules);
+    clast_idle rules[CLAST_N_IDLE];
+    return cli_idle_check(fields, config, clast_mesh_write_idle(j->out_format, rules));
 }
 
 static clast_status check_surface(const job *j)

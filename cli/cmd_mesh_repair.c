@@ -107,17 +107,13 @@ static clast_status tell(const cli_common *common, const clast_mesh_repair_confi
 static clast_status run(const cli_common *common, void *config)
 {
     const clast_mesh_repair_config *c = config;
-    const clast_idle rules[] = {
-        {c->weld != CLAST_WELD_WITHIN, "weld_tolerance", "without --weld within"},
-        {!c->split, "split_tolerance", "with --no-split"},
-        {!c->fill, "fill_size", "with --no-fill"},
-        {0}};
+    clast_idle rules[CLAST_N_IDLE];
     clast_mesh mesh = {0};
     clast_mesh repaired = {0};
     clast_mesh_repair_report report = {0};
     clast_mesh_check_result check = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(cli_idle_check(clast_mesh_repair_fields, c, rules));
+    CLI_TRY(cli_idle_check(clast_mesh_repair_fields, c, clast_mesh_repair_idle(c, rules)));
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(clast_mesh_repair(&mesh, config, &repaired, &report));

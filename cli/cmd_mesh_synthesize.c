@@ -172,13 +172,9 @@ static clast_status begin_output(const cli_common *common, synthesize_config *c,
         return cli_fail(CLAST_E_USAGE,
                         "-o OUT is needed: a surface file, or a folder with --count");
     }
-    const bool is_amplitude = c->synthesize.measure == CLAST_ROUGH_AMPLITUDE;
-    const clast_idle rules[] = {
-        {is_amplitude, "tolerance", "with --measure amplitude, which is met as it is"},
-        {is_amplitude && c->synthesize.rough == 0.0, "decay", "with --rough 0"},
-        {0}};
+    clast_idle rules[CLAST_N_IDLE];
     const bool is_set = c->count > 1;
-    CLI_GUARD(cli_idle_check(fields, c, rules));
+    CLI_GUARD(cli_idle_check(fields, c, clast_synthesize_idle(&c->synthesize, rules)));
     CLI_GUARD(is_set ? CLAST_OK : cli_mesh_output(common));
     return cli_results_begin(common, is_set ? common->output : NULL, &c->force, folder);
 }

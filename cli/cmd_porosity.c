@@ -43,7 +43,7 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, floor), 0, 0, 0, "-", "height of the bottom, with --bed (as 5mm)",
      "0"},
     {FIELD(CLAST_FIELD_CHOICE, method), CLAST_POROSITY_EXACT, 0, 1, "-",
-     "true shapes, or each grain as the sphere of its volume (published)", "exact|spheres",
+     "what a grain fills: its true shape, or the sphere of its volume (published)", "exact|spheres",
      .group = "bulk porosity", .common = true},
     {FIELD(CLAST_FIELD_TEXT, layer), 0, 0, 0, "-",
      "height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run "

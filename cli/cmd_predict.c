@@ -10,7 +10,6 @@
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct {
     char *model;
@@ -26,8 +25,8 @@ typedef struct {
 
 static const clast_field fields[] = {
     {"model", .offset = offsetof(config, model), CLAST_FIELD_TEXT, 0, 0, 0, "-",
-     "auto (mixture where the forms vary, else single), single, mixture, or a model file of clast "
-     "fit",
+     "auto, single, mixture, or a model file of clast fit; auto: mixture where the forms vary, "
+     "else single",
      "auto"},
     {"grading", .offset = offsetof(config, grading), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "published size distribution that the bed's resembles, up to scale", "U1|U7|B50"},
@@ -56,12 +55,17 @@ static void free_job(cli_prediction *j)
     clast_form_set_free(&j->set);
 }
 
+static clast_status check_used(const config *c, bool has_table, bool takes_columns)
+{
+    const clast_predict_given given = {c->model, has_table, c->each, takes_columns};
+    clast_idle rules[CLAST_N_IDLE];
+    return cli_idle_check(fields, c, clast_porosity_predict_idle(&given, rules));
+}
+
 /// A fitted model of table columns: every row is a bed.
 static clast_status predict_columns(const config *c, cli_prediction *j)
 {
-    const clast_idle rules[] = {
-        {true, "columns|resamples|seed", "with a model of a table's own columns"}, {0}};
-    CLI_GUARD(cli_idle_check(fields, c, rules));
+    CLI_GUARD(check_used(c, true, true));
     CLI_GUARD(clast_porosity_predict_columns(&j->model, &j->table, &j->beds));
     if (j->beds.n_row < j->table.n_row) {
         (void)fprintf(
@@ -144,13 +148,6 @@ done:
     return status;
 }
 
-/// Whether the model is one by grading, not one of its own.
-static bool is_by_grading(const config *c)
-{
-    return strcmp(c->model, "auto") == 0 || strcmp(c->model, "single") == 0 ||
-           strcmp(c->model, "mixture") == 0;
-}
-
 static clast_status answer(const config *c, const cli_common *common, cli_prediction *j)
 {
     const bool has_moments = c->flatness[0] != '\0' || c->elongation[0] != '\0';
@@ -159,13 +156,7 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
         return cli_fail(CLAST_E_USAGE, "give a table of grains, or --flatness and --elongation%s",
                         has_moments ? ", not both" : "");
     }
-    const clast_idle rules[] = {
-        {!j->has_table, "each|columns|resamples|seed", "without a table"},
-        {j->has_table, "grains", "with a table, whose rows are counted"},
-        {c->each, "resamples|seed", "with --each: a form has no sampling error"},
-        {!is_by_grading(c), "grading", "with this --model, which has its own"},
-        {0}};
-    CLI_GUARD(cli_idle_check(fields, c, rules));
+    CLI_GUARD(check_used(c, j->has_table, false));
     if (!j->has_table) {
         return predict_moments(c, j);
     }
@@ -176,9 +167,10 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
 static clast_status keep_results(const cli_common *common, const config *c, const cli_prediction *j,
                                  clast_run_folder *folder)
 {
-    const cli_input inputs[] = {{"table", j->has_table ? common->argument[0] : NULL},
-                                {"model", is_by_grading(c) ? NULL : c->model},
-                                {NULL, NULL}};
+    const cli_input inputs[] = {
+        {"table", j->has_table ? common->argument[0] : NULL},
+        {"model", clast_porosity_model_by_grading(c->model) ? NULL : c->model},
+        {NULL, NULL}};
     json_t *summary = cli_prediction_json(j);
     clast_status status = cli_results_open(folder, fields, c, &c->seed, inputs);
     status = status == CLAST_OK ? write_folder(j, clast_run_folder_path(folder)) : status;
@@ -214,7 +206,7 @@ const cli_command cli_predict = {
     .arguments = "[TABLE]",
     .summary = "porosity of a bed from the flatness and elongation of its grains",
     .example = {"clast predict --flatness 0.65+-0.17 --elongation 0.68+-0.14",
-                "clast predict grains.csv --grading B50",
+                "clast predict grains.csv --grading U7",
                 "clast predict beds.csv --model model/model.json --each"},
     .details =
         "From a table of grains (columns flatness and elongation, or L, I, S) or from means and\n"

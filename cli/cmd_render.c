@@ -181,18 +181,10 @@ static clast_status report(const cli_common *common, const clast_assembly *assem
     return cli_print_json(o);
 }
 
-static clast_status check_used(const clast_render_config *c)
-{
-    const clast_idle rules[] = {{c->projection == CLAST_RENDER_ORTHOGRAPHIC, "field_of_view",
-                                 "without --projection perspective"},
-                                {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"},
-                                {0}};
-    return cli_idle_check(clast_render_fields, c, rules);
-}
-
 static clast_status run(const cli_common *common, void *config)
 {
-    CLI_GUARD(check_used(config));
+    clast_idle rules[CLAST_N_IDLE];
+    CLI_GUARD(cli_idle_check(clast_render_fields, config, clast_render_idle(config, rules)));
     clast_assembly assembly = {0};
     clast_image image = {0};
     const double start = cli_clock();

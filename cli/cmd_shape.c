@@ -47,8 +47,8 @@ static const clast_field fields[] = {
          "units",
          .common = true),
     {"kind", .offset = offsetof(config, kind), CLAST_FIELD_CHOICE, CLAST_GRAINS_AUTO, 0, 0, "-",
-     "what the files hold; auto: by name and content",
-     "auto|surface|series|voxels|points|table|clump", .common = true, .group = "input"},
+     "what files hold; auto: by name and content", "auto|surface|series|voxels|points|table|clump",
+     .common = true, .group = "input"},
     {"degree", .offset = offsetof(config, degree), CLAST_FIELD_I32, -1, -1,
      CLAST_HARMONICS_MAX_DEGREE, "-", "series: terms up to this degree; -1: all", NULL,
      .group = "series and points"},
@@ -265,40 +265,32 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
     return worst;
 }
 
-/// Kinds of files have options of their own. `may_be`: of which kinds there are files, as bits.
-static clast_status check_kinds(const config *c, unsigned may_be, const char *why)
+/// Kinds of files have options of their own, bare values too.
+static clast_status check_kinds(const config *c, uint32_t kinds)
 {
-    const clast_idle rules[] = {{(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
-                                {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
-                                {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0,
-                                 "voxels|voxel_edge|dataset|threshold|least_voxels", why},
-                                {(may_be & 1U << CLAST_GRAINS_TABLE) == 0, "columns", why},
-                                {may_be == 1U << CLAST_GRAINS_TABLE, "axes|hull|surfaces", why},
-                                {0}};
-    return cli_idle_check(fields, c, rules);
+    const clast_grains_options files = {.kind = (clast_grains_kind)c->kind,
+                                        .volume.n[0] = c->voxels[0] != '\0'};
+    clast_idle rules[CLAST_N_IDLE];
+    return cli_idle_check(fields, c, clast_grains_idle(&files, kinds, rules));
 }
 
 /// So have statistics; what the files are is known before they are read where --kind says it.
 static clast_status check_used(const config *c)
 {
-    const clast_idle rules[] = {
-        {c->statistics[0] == '\0', "resamples|seed", "without --statistics"},
-        {c->voxels[0] == '\0', "voxel_type|big_endian|skip",
-         "without --voxels: other volumes have a header"},
-        {0}};
-    CLI_GUARD(cli_idle_check(fields, c, rules));
-    return c->kind == CLAST_GRAINS_AUTO ? CLAST_OK
-                                        : check_kinds(c, 1U << c->kind, "with this --kind");
+    const clast_idle own[] = {{c->statistics[0] == '\0', "resamples|seed", "without --statistics"},
+                              {0}};
+    CLI_GUARD(cli_idle_check(fields, c, own));
+    return check_kinds(c, 0);
 }
 
 /// Else once they have been: a file at fault may be of any kind.
 static clast_status check_read(const config *c, const clast_grains *grains)
 {
-    unsigned found = 0;
+    uint32_t found = 0;
     for (int64_t i = 0; i < grains->n; ++i) {
         found |= 1U << grains->record[i].kind;
     }
-    return grains->n_fault > 0 ? CLAST_OK : check_kinds(c, found, "with files of these kinds");
+    return grains->n_fault > 0 ? CLAST_OK : check_kinds(c, found);
 }
 
 static clast_status run(const cli_common *common, void *config_bytes)

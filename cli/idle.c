@@ -28,23 +28,12 @@ clast_status cli_idle_check(const clast_field *fields, const void *config, const
 }
 
 clast_status cli_idle_cells(const cli_common *common, const clast_field *fields, const void *config,
-                            const cli_points *points, const clast_decompose_config *c)
+                            const cli_points *points, const clast_decompose_config *c,
+                            int32_t n_size)
 {
-    const bool is_full = c->variant == CLAST_VARIANT_FULL;
-    const bool is_tree = clast_decompose_takes_tree(c);
-    const bool may_pair = c->pairs || c->estimator == CLAST_ESTIMATOR_PAIRS ||
-                          (c->estimator == CLAST_ESTIMATOR_AUTO && is_tree && c->extrapolate &&
-                           !c->paper && c->events == CLAST_EVENTS_PAIRS);
-    const clast_idle rules[] = {{common->output == NULL, "charts", "without -o"},
-                                {points->columns.variable_column[0] == '\0', "variable_tolerance",
-                                 "without --variable-column"},
-                                {is_tree, "lower|strict|max_pass|ghost_samples",
-                                 "with cells of the tree: --mesh boxes joins bins"},
-                                {!is_tree,
-                                 "tree_level|tree_root_level|tree_least|tree_refine|extrapolate",
-                                 "with cells of bins: --mesh tree splits by a test"},
-                                {!is_full, "max_pass", "with this --variant: it makes one pass"},
-                                {!may_pair, "pairs_radius", "without --pairs"},
-                                {0}};
-    return cli_idle_check(fields, config, rules);
+    const clast_idle charts[] = {{common->output == NULL, "charts", "without -o"}, {0}};
+    const bool has_variable = points->columns.variable_column[0] != '\0';
+    clast_idle rules[CLAST_N_IDLE];
+    CLI_GUARD(cli_idle_check(fields, config, charts));
+    return cli_idle_check(fields, config, clast_decompose_idle(c, has_variable, n_size, rules));
 }

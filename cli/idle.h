@@ -11,6 +11,7 @@ void cli_option_name(const clast_field *field, char name[CLI_NAME_SIZE]);
 /// does nothing with --variant test".
 clast_status cli_idle_check(const clast_field *fields, const void *config, const clast_idle *rules);
 
-/// The same of charts, columns and the options of cells (clast_decompose_fields) among the fields.
+/// The same of charts and the options of cells (clast_decompose_idle) among the fields.
 clast_status cli_idle_cells(const cli_common *common, const clast_field *fields, const void *config,
-                            const cli_points *points, const clast_decompose_config *decompose);
+                            const cli_points *points, const clast_decompose_config *decompose,
+                            int32_t n_size);

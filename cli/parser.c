@@ -42,11 +42,19 @@ static clast_status set_field(cli_parser *p, const char *name, const char *value
     if (f == NULL) {
         const char *near =
             p->command->fields != NULL ? clast_fields_nearest(p->command->fields, name) : NULL;
-        return near != NULL ? usage_error(p, "unknown option --%s (did you mean --%s?)", name, near)
-                            : usage_error(p, "unknown option --%s", name);
+        char option[CLI_NAME_SIZE] = "";
+        (void)snprintf(option, sizeof option, "%s", near != NULL ? near : "");
+        for (char *c = option; *c != '\0'; ++c) { // as it is typed and as --help has it
+            *c = *c == '_' ? '-' : *c;
+        }
+        return near != NULL
+                   ? usage_error(p, "unknown option --%s (did you mean --%s?)", name, option)
+                   : usage_error(p, "unknown option --%s", name);
     }
     if (value[0] == '\0') {
-        return usage_error(p, "--%s has an empty value; leave it out for its default", name);
+        const bool has_default = f->text == NULL || f->text[0] != '\0';
+        return usage_error(p, "--%s has an empty value%s", name,
+                           has_default ? "; leave it out for its default" : "; give one");
     }
     const bool append = is_list(f) && touch(p, f);
     return clast_field_set(f, p->config, value, append);
@@ -102,7 +110,7 @@ static bool common_option(cli_parser *p, const char *name, const char *value, bo
         if (value == NULL) {
             *status = usage_error(p, "--%s needs a value", name);
         } else if (value[0] == '\0') {
-            *status = usage_error(p, "--%s has an empty value; leave it out for its default", name);
+            *status = usage_error(p, "--%s has an empty value", name);
         } else if (name[0] == 'o') {
             p->common.output = value;
         } else if (name[0] == 'm') {

@@ -173,7 +173,8 @@ typedef struct clast_aggregate_fit {
     double p_value;    ///< of chi2 with n_freedom degrees of freedom; NAN where none is left
     clast_fit_verdict verdict;
     int32_t
-        packing_edge; ///< the best packing is -1: the loosest tried, 1: the tightest, 0: neither
+        packing_edge; ///< the best packing is -1: the loosest tried, 1: the tightest, 0: neither;
+                      ///< of one tried alone the side on which density or velocity is missed
     int32_t replicate_edge; ///< the best N_A is -1: 1, 1: config->fit_replicate_max, 0: neither
     int32_t n_level;        ///< packings tried
     bool cut_short;         ///< tighter packings were left out: chi2 had risen by 50 twice

@@ -183,6 +183,15 @@ extern CLAST_API const clast_field clast_decompose_fields[];
 /// NULL.
 CLAST_API bool clast_decompose_takes_tree(const clast_decompose_config *config);
 
+/// The fields, and the options `sizes`, `regular` and `variable_column` of `clast decompose`, that
+/// a decomposition by the others does not look at (clast_fields_idle). NULL of a NULL.
+///
+/// @param has_variable  whether the points carry one
+/// @param n_size        of clast_decompose_sizes, 0: no such table
+CLAST_API const clast_idle *clast_decompose_idle(const clast_decompose_config *config,
+                                                 bool has_variable, int32_t n_size,
+                                                 clast_idle rules[CLAST_N_IDLE]);
+
 enum { CLAST_N_TEST = 5, CLAST_MAX_PASS = 64 };
 
 /// One of the five tests.

@@ -97,12 +97,16 @@ CLAST_API int32_t clast_field_count(const clast_field *field, const void *config
 /// Whether the field has its default.
 CLAST_API bool clast_field_is_default(const clast_field *field, const void *config);
 
-/// Fields that a run would not look at; a list of these ends with {0}.
-typedef struct clast_idle {
+/// Fields that a run would not look at; a list of these ends with {0}. A function of each
+/// configuration writes its own (clast_fill_idle): bindings and programs ask it what a person gave
+/// for nothing.
+struct clast_idle {
     bool is_idle;
     const char *names; ///< "size_mean|size_low"
-    const char *why;   ///< "without size_law"
-} clast_idle;
+    const char *why;   ///< "without size_law", or with options as they are typed, "with --overlap"
+};
+
+enum { CLAST_N_IDLE = 16 }; ///< rows of such a list with its {0}
 
 /// The first field that is idle by a rule and has another value than its default: a
 /// parameter without effect is a mistake of the person who gives it.

@@ -47,6 +47,10 @@ typedef struct clast_fill_config {
 /// Fields of clast_fill_config: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_fill_fields[];
 
+/// The fields that a filling by the others does not look at (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_fill_idle(const clast_fill_config *config,
+                                            clast_idle rules[CLAST_N_IDLE]);
+
 /// What a sphere set is worth, all errors against the solid bounded by the mesh.
 typedef struct clast_fill_report {
     int32_t n_sphere;

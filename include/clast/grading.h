@@ -14,7 +14,7 @@ typedef struct clast_sizes {
     double *density;    ///< [n] > 0 [kg/m3], or NULL: none is given
 } clast_sizes;
 
-/// Room for n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY.
+/// Room for n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
 CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
 /// Frees the arrays; may be called twice.
 CLAST_API void clast_sizes_free(clast_sizes *sizes);
@@ -59,7 +59,8 @@ CLAST_API clast_status clast_curve_named(const char *name, clast_curve *curve);
 CLAST_API double clast_curve_passing(const clast_curve *curve, double size);
 
 /// Size that this share of the mass passes, 0 .. 1: D50 for 0.5; exact on the straight lines of the
-/// curve, the smallest such size where the curve is level; NaN for a curve without mass. [m]
+/// curve, the smallest such size where the curve is level; NaN for a curve without mass or a share
+/// outside of 0 to 1. [m]
 CLAST_API double clast_curve_size(const clast_curve *curve, double share);
 
 /// Geometric mean size of a class, sqrt(s_i s_i+1) [m].                                   [eq. 8]
@@ -200,6 +201,13 @@ CLAST_API clast_status clast_curve_parse(const char *name, const void *bytes, si
 CLAST_API clast_status clast_grading_load(const char *text, clast_grading_spread spread,
                                           clast_grading_count count, clast_curve *curve,
                                           clast_grading **grading);
+
+/// Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle). NULL of
+/// NULL rules.
+///
+/// @param curve  of clast_grading_load; NULL: not known yet
+CLAST_API const clast_idle *clast_grading_idle(const clast_curve *curve,
+                                               clast_grading_spread spread, clast_idle *rules);
 
 /// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
 /// blanks; '#' starts a comment; a first line that is no number names the columns).

@@ -173,6 +173,13 @@ CLAST_API clast_status clast_grains_read(int32_t n_file, const char *const *path
                                          const clast_monitor *monitor, clast_grains *grains);
 CLAST_API void clast_grains_free(clast_grains *grains);
 
+/// The options of `clast shape` (degree, level, spacing, voxels, voxel_type, ...) that files of
+/// these kinds do not look at (clast_fields_idle). NULL of a NULL.
+///
+/// @param kinds  bit 1 << k: there is a grain of the kind k; 0: not known yet
+CLAST_API const clast_idle *clast_grains_idle(const clast_grains_options *options, uint32_t kinds,
+                                              clast_idle *rules);
+
 /// "surface", "series", "voxels", "points", "table", "clump".
 CLAST_API const char *clast_grains_kind_name(clast_grains_kind kind);
 

@@ -93,6 +93,10 @@ typedef struct clast_synthesize_config {
 /// The table behind options and defaults.
 extern CLAST_API const clast_field clast_synthesize_fields[];
 
+/// The fields that a grain by the others does not look at (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_synthesize_idle(const clast_synthesize_config *config,
+                                                  clast_idle rules[CLAST_N_IDLE]);
+
 /// What came out, measured on the mesh.
 typedef struct clast_synthesize_report {
     double flatness, elongation; ///< wanted of this grain, met to 1e-12

@@ -23,7 +23,8 @@ typedef struct clast_mass {
 /// Frees the arrays; the mesh is then empty. May be called twice.
 CLAST_API void clast_mesh_free(clast_mesh *mesh);
 
-/// Room for n_vert vertices and n_tri triangles, zeroed. `mesh` must be empty.
+/// Room for n_vert vertices and n_tri triangles, zeroed. `mesh` must be empty. CLAST_E_MEMORY;
+/// CLAST_E_ARGUMENT for numbers below 0.
 CLAST_API clast_status clast_mesh_alloc(int32_t n_vert, int32_t n_tri, clast_mesh *mesh);
 
 /// Deep copy into an empty mesh.
@@ -43,7 +44,8 @@ CLAST_API double clast_mesh_area(const clast_mesh *mesh);
 /// Sums signed tetrahedra (p, q, r, o) with o a vertex of the mesh, not the file's origin, so a
 /// scan far from zero keeps its digits.                     [docs/theory/mass.md; Mirtich1996]
 ///
-/// @return CLAST_E_GEOMETRY if fewer than 4 triangles or volume <= 0; mass is then untouched
+/// @return CLAST_E_GEOMETRY if fewer than 4 triangles, volume <= 0 or a vertex that is not finite,
+/// by its number; mass is then untouched
 /// @note O(n_tri), no allocation, thread-safe. Closedness is clast_mesh_check's business.
 CLAST_API clast_status clast_mesh_mass(const clast_mesh *mesh, clast_mass *mass);
 
@@ -208,5 +210,9 @@ typedef struct clast_mesh_write_options {
 ///         coordinates that are not finite or do not fit the format; CLAST_E_DISK (nothing is left)
 CLAST_API clast_status clast_mesh_write(const clast_mesh *mesh, const char *path,
                                         const clast_mesh_write_options *options);
+
+/// The option `name` where a file of this format names no part (clast_fields_idle). NULL of NULL
+/// rules.
+CLAST_API const clast_idle *clast_mesh_write_idle(clast_mesh_format format, clast_idle *rules);
 
 CLAST_END

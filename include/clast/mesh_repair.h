@@ -127,6 +127,10 @@ typedef struct clast_mesh_repair_config {
 /// Defaults, ranges and help; start from clast_fields_default.
 extern CLAST_API const clast_field clast_mesh_repair_fields[];
 
+/// The fields that a repair by the others does not look at (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_mesh_repair_idle(const clast_mesh_repair_config *config,
+                                                   clast_idle rules[CLAST_N_IDLE]);
+
 /// What clast_mesh_repair changed. Volumes are about the mean of the vertices (meaningless for an
 /// open surface).
 typedef struct clast_mesh_repair_report {

@@ -111,6 +111,10 @@ CLAST_API clast_status clast_porosity_model_published(int32_t number, clast_poro
 /// Number of the published model of this name, or -1.
 CLAST_API int32_t clast_porosity_model_find(const char *name);
 
+/// Whether a grading chooses the model, "auto", "single" or "mixture": a name, a file or a model at
+/// hand (NULL) has its own.
+CLAST_API bool clast_porosity_model_by_grading(const char *model);
+
 typedef struct clast_prediction {
     double porosity;
     double
@@ -147,6 +151,20 @@ CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *m
 /// columns as above. Rows with a cell that is not finite are left out.
 CLAST_API clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
                                                       const clast_table *table, clast_table *beds);
+
+/// What a prediction is asked for with, of which some options look at none.
+typedef struct clast_predict_given {
+    const char *model;  ///< as it is typed: "auto", "single", "mixture", a name or a file; NULL: a
+                        ///< model at hand
+    bool has_table;     ///< of grains or beds, else means and deviations
+    bool each;          ///< every row is a bed
+    bool takes_columns; ///< a model of kind CLAST_MODEL_COLUMNS
+} clast_predict_given;
+
+/// The options of `clast predict` (grading, grains, columns, each, resamples, seed) that such a
+/// prediction does not look at (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_porosity_predict_idle(const clast_predict_given *given,
+                                                        clast_idle rules[CLAST_N_IDLE]);
 
 /// One row: porosity, the errors, in_range and the inputs' means and deviations.
 CLAST_API clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
@@ -204,6 +222,13 @@ typedef struct clast_porosity_fit_config {
 
 /// Fields of the configuration of fits: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_porosity_fit_fields[];
+
+/// The fields that a fit by the others does not look at (clast_fields_idle). NULL of a NULL.
+///
+/// @param has_grains  whether there is a second table, of the beds' grains
+CLAST_API const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_config *config,
+                                                    bool has_grains,
+                                                    clast_idle rules[CLAST_N_IDLE]);
 
 /// Beds with their candidate features.
 typedef struct clast_fit_data {

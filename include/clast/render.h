@@ -85,6 +85,10 @@ typedef struct clast_render_config {
 /// Table of the fields, ends with {0}.
 CLAST_API extern const clast_field clast_render_fields[];
 
+/// The fields that a picture by the others does not look at (clast_fields_idle). NULL of a NULL.
+CLAST_API const clast_idle *clast_render_idle(const clast_render_config *config,
+                                              clast_idle rules[CLAST_N_IDLE]);
+
 /// Draws the assembly into `image` (which must be empty).
 ///
 /// Spheres, ellipsoids and clumps are analytic; meshes go through one hierarchy per shape,

@@ -179,6 +179,21 @@ CLAST_API clast_status clast_assembly_write(const clast_assembly *assembly, cons
                                             const clast_export_options *options,
                                             clast_export_report *report);
 
+/// What an export is asked for with, of which some options look at none.
+typedef struct clast_export_given {
+    clast_export_format format;
+    bool has_table;                 ///< a table of the run is written, no grains
+    bool is_run;                    ///< which knows its grains, not a file of another program
+    bool points;                    ///< for each grain, as in the options
+    const clast_assembly *assembly; ///< NULL: not known yet
+} clast_export_given;
+
+/// The options of `clast export` (level, points, colour, unit, density, columns, diameter) that
+/// such an export does not look at (clast_fields_idle). NULL of a NULL, and of an assembly that
+/// does not hold together.
+CLAST_API const clast_idle *clast_export_given_idle(const clast_export_given *given,
+                                                    clast_idle *rules);
+
 /// One row a grain, in the order of placing: id, shape, position, quaternion, scale, maximum
 /// length, volume, density (if known), mass (unless in model units), n_contact (if contacts are
 /// known).

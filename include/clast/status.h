@@ -44,6 +44,7 @@ typedef struct clast_bootstrap clast_bootstrap;
 typedef struct clast_cloud clast_cloud;
 typedef struct clast_comm clast_comm;
 typedef struct clast_domain clast_domain;
+typedef struct clast_idle clast_idle;
 typedef struct clast_mesh clast_mesh;
 typedef struct clast_shape clast_shape;
 typedef struct clast_spheres clast_spheres;

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import (Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, quantity, refuse,
-                    settled, single, view, warn)
+                    refuse_idle, settled, single, view, warn)
 from ._html import file_html
 from ._mesh import Mesh, warn_of_doubles
 from ._runs import Assembly
@@ -32,6 +32,11 @@ class Spheres:
     centroid_error: float
     inertia_error: float
     max_protrusion: float
+    n_protruding: int
+    max_overlap: float
+    deviation_mean: float  #: of the surface from the spheres
+    deviation_max: float
+    bound: float  #: strategy largest: no greater sphere fits any more; else 0
     _owner: Owner = field(repr=False)
     _mesh: Mesh = field(repr=False)
 
@@ -50,7 +55,8 @@ class Spheres:
         return html_members(self, int, float)
 
 
-_TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume_error", "centroid_error", "inertia_error", "max_protrusion")
+_TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume_error", "centroid_error", "inertia_error", "max_protrusion",
+         "n_protruding", "max_overlap", "deviation_mean", "deviation_max", "bound")
 
 
 def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Spheres:
@@ -58,6 +64,7 @@ def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Sphere
     surface = copy.copy(mesh) if isinstance(mesh, Mesh) else Mesh.read(mesh)  # of the same memory; the callback may close its own
     spheres, report, monitor = c.clast_spheres(), c.clast_fill_report(), Monitor(progress)
     with Config(c.clast_fill_config(), "clast_fill_fields", keys) as config:
+        refuse_idle(config.changed(), "clast_fill_idle", ctypes.byref(config.struct))
         check(monitor.run(lambda m: call("clast_fill")(surface._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
                                                        ctypes.byref(report))))
     owner, found = Owner(spheres, "clast_spheres_free"), surface.check()

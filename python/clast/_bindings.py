@@ -28,6 +28,10 @@ class clast_spectrum_start(Structure):
     """A start by a table; borrowed."""
 
 
+class clast_agglomerate_given(Structure):
+    """What particles come with, for clast_agglomerate_idle; {0} of a box."""
+
+
 class clast_agglomerate_input(Structure):
     """What the particles bring."""
 
@@ -520,6 +524,10 @@ class clast_prediction(Structure):
     """clast_prediction."""
 
 
+class clast_predict_given(Structure):
+    """What a prediction is asked for with, of which some options look at none."""
+
+
 class clast_porosity_fit_config(Structure):
     """clast_porosity_fit_config."""
 
@@ -598,6 +606,10 @@ class clast_export_options(Structure):
 
 class clast_export_report(Structure):
     """What was written."""
+
+
+class clast_export_given(Structure):
+    """What an export is asked for with, of which some options look at none."""
 
 
 class clast_bootstrap(Structure):
@@ -810,6 +822,14 @@ clast_spectrum_start._fields_ = [
     ('n', c_int64),
     ('size', POINTER(c_double)),
     ('number', POINTER(c_double)),
+]
+clast_agglomerate_given._fields_ = [
+    ('n_snapshot', c_int32),
+    ('weight', c_bool),
+    ('radius', c_bool),
+    ('temperature', c_bool),
+    ('shear', c_bool),
+    ('dissipation', c_bool),
 ]
 clast_agglomerate_input._fields_ = [
     ('snapshot', POINTER(clast_cloud)),
@@ -2092,6 +2112,12 @@ clast_prediction._fields_ = [
     ('n_outside', c_int32),
     ('outside', (c_int32 * 16)),
 ]
+clast_predict_given._fields_ = [
+    ('model', c_char_p),
+    ('has_table', c_bool),
+    ('each', c_bool),
+    ('takes_columns', c_bool),
+]
 clast_porosity_fit_config._fields_ = [
     ('target', c_char_p),
     ('columns', c_char_p),
@@ -2250,6 +2276,13 @@ clast_export_report._fields_ = [
     ('unit', c_char_p),
     ('facet_ratio', c_double),
     ('ellipsoid_ratio', c_double),
+]
+clast_export_given._fields_ = [
+    ('format', c_int),
+    ('has_table', c_bool),
+    ('is_run', c_bool),
+    ('points', c_bool),
+    ('assembly', POINTER(clast_assembly)),
 ]
 clast_bootstrap._fields_ = [
     ('n_resample', c_int32),
@@ -2480,6 +2513,7 @@ clast_agglomerate_config._fields_ = [
 clast_agglomeration._fields_ = [
     ('history', clast_table),
     ('particles', clast_table),
+    ('members', clast_table),
     ('spectrum', clast_table),
     ('n_rebuilt', c_int32),
     ('n_unresolved', c_int32),
@@ -2716,6 +2750,7 @@ clast_evolve_result._fields_ = [
     ('bed_width', c_double),
     ('bed_height', c_double),
     ('bed_mass', c_double),
+    ('bed_least', c_double),
     ('folder', c_char_p),
 ]
 clast_grains_options._fields_ = [
@@ -2858,6 +2893,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_collide_cells': (48, {'n': (0, 4), 'of_particle': (8, 8), 'volume': (16, 8), 'medium': (24, 8), 'events': (32, 8), 'range': (40, 8)}),
     'clast_spectrum_config': (144, {'solver': (0, 4), 'initial': (4, 4), 'concentration': (8, 8), 'initial_mean': (16, 8), 'initial_sd': (24, 8), 'particles': (32, 4), 'size_min': (40, 8), 'size_max': (48, 8), 'per_octave': (56, 4), 'breakage_rate': (64, 8), 'breakage_exponent': (72, 8), 'fragments': (80, 4), 'fragment_exponent': (88, 8), 'source': (96, 8), 'source_size': (104, 8), 'settling_depth': (112, 8), 'tolerance': (120, 8), 'duration': (128, 8), 'n_step': (136, 4), 'repeats': (140, 4)}),
     'clast_spectrum_start': (24, {'n': (0, 8), 'size': (8, 8), 'number': (16, 8)}),
+    'clast_agglomerate_given': (12, {'n_snapshot': (0, 4), 'weight': (4, 1), 'radius': (5, 1), 'temperature': (6, 1), 'shear': (7, 1), 'dissipation': (8, 1)}),
     'clast_agglomerate_input': (80, {'snapshot': (0, 8), 'n_snapshot': (8, 8), 'monomers': (16, 8), 'speed_rms': (24, 8), 'temperature': (32, 8), 'shear': (40, 8), 'dissipation': (48, 8), 'fixed_cell': (56, 8), 'fixed_volume': (64, 8), 'domain': (72, 8)}),
     'clast_aggregate_input': (32, {'core': (0, 8), 'n_coat': (8, 4), 'coat': (16, 8), 'sizes': (24, 8)}),
     'clast_aggregate_saved': (32, {'repeat': (0, 4), 'placed': (8, 8), 'history': (16, 8), 'members': (24, 8)}),
@@ -2981,6 +3017,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_model_range': (24, {'feature': (0, 8), 'low': (8, 8), 'high': (16, 8)}),
     'clast_porosity_model': (128, {'name': (0, 8), 'source': (8, 8), 'kind': (16, 4), 'intercept': (24, 8), 'n_term': (32, 4), 'term': (40, 8), 'n_range': (48, 4), 'range': (56, 8), 'covariance': (64, 8), 'rounding': (72, 8), 'deviation': (80, 8), 'n_bed': (88, 8), 'r2': (96, 8), 'cv_mean_error': (104, 8), 'cv_median_error': (112, 8), 'leverage_limit': (120, 8)}),
     'clast_prediction': (128, {'porosity': (0, 8), 'standard_error': (8, 8), 'model_error': (16, 8), 'coefficient_error': (24, 8), 'sampling_error': (32, 8), 'in_range': (40, 1), 'leverage': (48, 8), 'n_outside': (56, 4), 'outside': (60, 64)}),
+    'clast_predict_given': (16, {'model': (0, 8), 'has_table': (8, 1), 'each': (9, 1), 'takes_columns': (10, 1)}),
     'clast_porosity_fit_config': (80, {'target': (0, 8), 'columns': (8, 8), 'group': (16, 8), 'n_term': (24, 4), 'use': (32, 8), 'correlation_limit': (40, 8), 'n_fold': (48, 4), 'n_repeat': (52, 4), 'score': (56, 4), 'validation': (60, 4), 'n_permutation': (64, 4), 'seed': (72, 8)}),
     'clast_image': (24, {'width': (0, 4), 'height': (4, 4), 'rgba': (8, 8), 'pixel_size': (16, 8)}),
     'clast_render_config': (160, {'width': (0, 4), 'height': (4, 4), 'samples': (8, 4), 'ambient_rays': (12, 4), 'projection': (16, 4), 'up': (20, 4), 'azimuth': (24, 8), 'elevation': (32, 8), 'field_of_view': (40, 8), 'zoom': (48, 8), 'colour': (56, 4), 'tint': (64, 8), 'scale': (72, 4), 'shading': (76, 4), 'background': (80, 4), 'ground': (84, 1), 'cut': (88, 4), 'cut_position': (96, 8), 'colour_bar': (104, 1), 'scale_bar': (105, 1), 'unit': (112, 8), 'sun_azimuth': (120, 8), 'sun_elevation': (128, 8), 'sun_radius': (136, 8), 'ambient': (144, 8), 'seed': (152, 8)}),
@@ -3001,6 +3038,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_packing_report': (104, {'snapshot': (0, 8), 'n_snapshot': (8, 8), 'frame': (16, 88)}),
     'clast_export_options': (40, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8), 'values': (24, 8), 'frame': (32, 8)}),
     'clast_export_report': (48, {'format': (0, 4), 'n_vertex': (8, 8), 'n_triangle': (16, 8), 'unit': (24, 8), 'facet_ratio': (32, 8), 'ellipsoid_ratio': (40, 8)}),
+    'clast_export_given': (16, {'format': (0, 4), 'has_table': (4, 1), 'is_run': (5, 1), 'points': (6, 1), 'assembly': (8, 8)}),
     'clast_bootstrap': (24, {'n_resample': (0, 4), 'level': (8, 8), 'seed': (16, 8)}),
     'clast_sample_summary': (184, {'n': (0, 8), 'n_left_out': (8, 8), 'mean': (16, 8), 'deviation': (24, 8), 'deviation_ml': (32, 8), 'skewness': (40, 8), 'kurtosis': (48, 8), 'low': (56, 8), 'high': (64, 8), 'quantile': (72, 56), 'mean_low': (128, 8), 'mean_high': (136, 8), 'deviation_low': (144, 8), 'deviation_high': (152, 8), 'shapiro_w': (160, 8), 'shapiro_p': (168, 8), 'is_constant': (176, 1)}),
     'clast_statistics': (80, {'n': (0, 4), 'name': (8, 8), 'summary': (16, 8), 'r': (24, 8), 'r_p': (32, 8), 'n_pca': (40, 4), 'pca_column': (48, 8), 'variance': (56, 8), 'explained': (64, 8), 'loading': (72, 8)}),
@@ -3026,7 +3064,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
     'clast_spectrum': (224, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'volume_fraction': (96, 8), 'law_M1': (104, 8), 'law_M2': (112, 8), 'mass_error': (120, 8), 'n_evaluation': (128, 8), 'range': (136, 88)}),
     'clast_agglomerate_config': (488, {'decompose': (0, 144), 'collide': (144, 288), 'kernel': (432, 8), 'duration': (440, 8), 'n_step': (448, 4), 'repeats': (452, 4), 'rebuild': (456, 4), 'change_level': (464, 8), 'fixed': (472, 4), 'depth': (480, 8)}),
-    'clast_agglomeration': (224, {'history': (0, 32), 'particles': (32, 32), 'spectrum': (64, 32), 'n_rebuilt': (96, 4), 'n_unresolved': (100, 4), 'n_cell': (104, 4), 'volume_fraction': (112, 8), 'has_exact': (120, 1), 'has_fixed': (121, 1), 'is_gelation': (122, 1), 'n_gelled': (124, 4), 'gel_time': (128, 8), 'range': (136, 88)}),
+    'clast_agglomeration': (256, {'history': (0, 32), 'particles': (32, 32), 'members': (64, 32), 'spectrum': (96, 32), 'n_rebuilt': (128, 4), 'n_unresolved': (132, 4), 'n_cell': (136, 4), 'volume_fraction': (144, 8), 'has_exact': (152, 1), 'has_fixed': (153, 1), 'is_gelation': (154, 1), 'n_gelled': (156, 4), 'gel_time': (160, 8), 'range': (168, 88)}),
     'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'fall_speed': (289, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
     'clast_aggregate_result': (528, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'n_grain_all': (16, 4), 'contact': (20, 4), 'mass': (24, 8), 'solid_sum': (32, 8), 'solid_union': (40, 8), 'solid_union_error': (48, 8), 'n_envelope': (56, 4), 'envelope': (64, 280), 'porosity': (344, 56), 'd_agg': (400, 8), 'density': (408, 8), 'radius_of_gyration': (416, 8), 'settling_velocity': (424, 8), 'settling_velocity_permeable': (432, 8), 'permeable': (440, 4), 'coat_porosity': (448, 8), 'coat_grain': (456, 8), 'permeability': (464, 8), 'drag_permeable': (472, 8), 'max_overlap': (480, 8), 'max_overlap_relative': (488, 8), 'n_lost': (496, 4), 'stop': (500, 4), 'contact_s': (504, 8), 'envelope_s': (512, 8), 'wall_s': (520, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
@@ -3034,7 +3072,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (544, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'columns': (320, 16), 'diameter_column': (336, 8), 'domain': (344, 8), 'floor': (352, 4), 'sides': (356, 4), 'open_top': (360, 1), 'wind': (368, 8), 'field': (376, 8), 'field_columns': (384, 8), 'wind_shear': (392, 8), 'eddy_diffusivity': (400, 8), 'brownian': (408, 1), 'fall': (412, 4), 'structure': (416, 1), 'collision_radius': (420, 4), 'meeting': (424, 4), 'walk_step': (432, 8), 'max_tries': (440, 4), 'even': (444, 4), 'change_level': (448, 8), 'duration': (456, 8), 'rows': (464, 4), 'step_error': (472, 8), 'time_step': (480, 8), 'seed': (488, 8), 'keep': (496, 4), 'bed_width': (504, 8), 'frames': (512, 4), 'checkpoint_time': (520, 8), 'resume': (528, 8), 'force': (536, 1)}),
-    'clast_evolve_result': (304, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'n_unresolved': (120, 8), 'grains_most': (128, 8), 'deposit_diameter': (136, 8), 'deposit_porosity': (144, 8), 'deposit_speed': (152, 8), 'deposit_grains': (160, 8), 'volume_fraction': (168, 8), 'fall_reynolds': (176, 8), 'fall_reynolds_limit': (184, 8), 'fractal_dimension': (192, 8), 'fractal_error': (200, 8), 'range': (208, 40), 'hash': (248, 8), 'wall_s': (256, 8), 'n_frame': (264, 4), 'n_written': (268, 4), 'bed_width': (272, 8), 'bed_height': (280, 8), 'bed_mass': (288, 8), 'folder': (296, 8)}),
+    'clast_evolve_result': (312, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'n_unresolved': (120, 8), 'grains_most': (128, 8), 'deposit_diameter': (136, 8), 'deposit_porosity': (144, 8), 'deposit_speed': (152, 8), 'deposit_grains': (160, 8), 'volume_fraction': (168, 8), 'fall_reynolds': (176, 8), 'fall_reynolds_limit': (184, 8), 'fractal_dimension': (192, 8), 'fractal_error': (200, 8), 'range': (208, 40), 'hash': (248, 8), 'wall_s': (256, 8), 'n_frame': (264, 4), 'n_written': (268, 4), 'bed_width': (272, 8), 'bed_height': (280, 8), 'bed_mass': (288, 8), 'bed_least': (296, 8), 'folder': (304, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
     'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
@@ -3230,7 +3268,7 @@ VALUES: dict[str, int] = {
     'CLAST_EVOLVE_DEPOSIT': 3,
     'CLAST_EVOLVE_PARTICLES': 4,
     'CLAST_N_EVOLVE_TABLE': 5,
-    'CLAST_N_EVOLVE_SAVED': 6,
+    'CLAST_N_EVOLVE_SAVED': 7,
     'CLAST_FIELD_F64': 0,
     'CLAST_FIELD_I32': 1,
     'CLAST_FIELD_I64': 2,
@@ -3240,6 +3278,7 @@ VALUES: dict[str, int] = {
     'CLAST_FIELD_TEXT': 6,
     'CLAST_FIELD_TEXT_LIST': 7,
     'CLAST_FIELD_F64_LIST': 8,
+    'CLAST_N_IDLE': 16,
     'CLAST_FILL_LARGEST': 0,
     'CLAST_FILL_RANDOM': 1,
     'CLAST_FILL_PUBLISHED': 2,
@@ -3328,7 +3367,7 @@ VALUES: dict[str, int] = {
     'CLAST_KERNEL_BALLISTIC': 10,
     'CLAST_KERNEL_CLOUD_TURBULENCE': 11,
     'CLAST_N_KERNEL': 12,
-    'CLAST_N_KERNEL_RANGE': 23,
+    'CLAST_N_KERNEL_RANGE': 26,
     'CLAST_STICKING_CONSTANT': 0,
     'CLAST_STICKING_VISCOUS': 1,
     'CLAST_STICKING_LIQUID': 2,
@@ -3367,6 +3406,7 @@ VALUES: dict[str, int] = {
     'CLAST_PACK_NO_BED': 1,
     'CLAST_PACK_ABOVE_CUT': 2,
     'CLAST_PACK_TRIMMED': 3,
+    'CLAST_PACK_FALLING': 4,
     'CLAST_MAX_SHELL': 64,
     'CLAST_ESTIMATOR_CELLS': 0,
     'CLAST_ESTIMATOR_PAIRS': 1,
@@ -3474,9 +3514,11 @@ VALUES: dict[str, int] = {
 PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
     'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
+    'clast_spectrum_idle': (POINTER(clast_idle), [POINTER(clast_spectrum_config), POINTER(clast_idle)], 'The fields, and `leap`, `block` and `seed`, that a box by the others does not look at (clast_fields_idle).'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
     'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_start), POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_monitor), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
+    'clast_agglomerate_idle': (POINTER(clast_idle), [POINTER(clast_agglomerate_config), POINTER(clast_agglomerate_given), POINTER(clast_idle)], 'The fields that collisions by the others and of such particles do not look at (clast_fields_idle); those of the cells: clast_decompose_idle, of kernels, sticking and radii: clast_collide_idle.'),
     'clast_agglomerate': (c_int, [POINTER(clast_agglomerate_input), POINTER(clast_agglomerate_config), POINTER(clast_monitor), POINTER(clast_agglomeration)], 'Evolves the cloud; see docs/theory/agglomeration.md.'),
     'clast_agglomeration_free': (None, [POINTER(clast_agglomeration)], '.'),
     'clast_agglomeration_change_test': (c_int, [POINTER(c_double), POINTER(c_double), c_int64, c_int32, POINTER(c_double)], 'Whether two samples of n points of the unit cube have the same density: chi-square of their counts on a regular grid that is chosen without looking at them (10 points a block or more).'),
@@ -3525,8 +3567,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_union_options_default': (clast_union_options, [], 'tolerance 1e-4, 2^24 points, seed 1, with depths.'),
     'clast_assembly_union': (c_int, [POINTER(clast_assembly), POINTER(clast_union_options), POINTER(clast_union)], "Volume of the union of all grains' true solids."),
     'clast_assembly_find_contacts': (c_int, [POINTER(clast_assembly), c_double], 'Fills assembly->contact with all pairs of grains that come within `gap` of each other, in rising order; the contact point lies halfway between the closest points.'),
-    'clast_assembly_find_contacts_periodic': (c_int, [POINTER(clast_assembly), c_double, POINTER(clast_period)], "The same across the borders of a periodic box too, in which every grain's centroid lies; of each contact across a border the point is on the side of the grain of lower number."),
-    'clast_assembly_overlaps': (c_int, [POINTER(clast_assembly), POINTER(clast_period), POINTER(clast_overlaps)], "@param period NULL: none; else every grain's centroid lies in the box @note the same bytes for any thread count."),
+    'clast_assembly_find_contacts_periodic': (c_int, [POINTER(clast_assembly), c_double, POINTER(clast_period)], 'The same across the borders of a periodic box too, wherever grains lie: each is taken by its image in the box.'),
+    'clast_assembly_overlaps': (c_int, [POINTER(clast_assembly), POINTER(clast_period), POINTER(clast_overlaps)], '@param period NULL: none; else each grain is taken by its image in the box @note the same bytes for any thread count.'),
     'clast_assembly_printable_plan': (c_int, [POINTER(clast_assembly), POINTER(clast_printable_config), POINTER(clast_printable_report)], 'What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and n_triangle_expected (50 bytes each in an STL) of the report, at no cost.'),
     'clast_assembly_printable': (c_int, [POINTER(clast_assembly), POINTER(clast_printable_config), POINTER(clast_monitor), POINTER(clast_mesh), POINTER(clast_printable_report)], 'One closed, oriented surface in one piece around all grains and the necks at their contacts.'),
     'clast_envelope_options_default': (clast_envelope_options, [], 'tolerance 1e-3, 10000 rays, seed 1, no length, 128 cells.'),
@@ -3540,7 +3582,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fractal_correlation': (c_int, [POINTER(clast_assembly), POINTER(clast_fractal)], "From the pair correlation: solid volume within r of a grain's centre, mean over the grains by volume, in units of the mean grain, between two mean diameters and the solid's radius of gyration."),
     'clast_assembly_radial_profile': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(clast_table)], 'Solid volume in n_bin shells of equal thickness about a centre (NULL: centre of mass), out to the farthest grain.'),
     'clast_assembly_coordination': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'Grains by number of contacts: columns coordination, n_grain, share.'),
-    'clast_assembly_projected_area': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(c_double), POINTER(c_double)], "Area of the shadow along a direction, by n_line scan lines on which the shadow's length is exact; the error is the difference between its even and its odd lines."),
+    'clast_assembly_projected_area': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(c_double), POINTER(c_double)], "Area of the shadow along a direction, by n_line scan lines on which the shadow's length is exact; the error is the difference to half as many lines, or between even and odd ones where that is more."),
     'clast_assembly_mean_projection': (c_int, [POINTER(clast_assembly), c_int32, c_int32, POINTER(c_double), POINTER(c_double)], 'Mean shadow over n_direction directions spread evenly over the half sphere; error: standard deviation over the root of their number (an upper bound for even directions).'),
     'clast_assembly_extent': (c_int, [POINTER(clast_assembly), POINTER(clast_extent)], 'Exact for polyhedra, to 1e-9 for smooth grains.'),
     'clast_structure_options_default': (clast_structure_options, [], 'Options of the parts, air, 512 lines, 24 directions.'),
@@ -3597,6 +3639,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
     'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
     'clast_decompose_takes_tree': (c_bool, [POINTER(clast_decompose_config)], 'Whether cells are those of the uniformity tree, which needs no vote, not joined bins; no of NULL.'),
+    'clast_decompose_idle': (POINTER(clast_idle), [POINTER(clast_decompose_config), c_bool, c_int32, POINTER(clast_idle)], 'The fields, and the options `sizes`, `regular` and `variable_column` of `clast decompose`, that a decomposition by the others does not look at (clast_fields_idle).'),
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
     'clast_uniformity_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_uniformity_config), POINTER(clast_uniformity)], '@param u [n][d] in the unit cube @param side [3] for the score.'),
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
@@ -3609,7 +3652,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),
     'clast_cells_write_vtu': (c_int, [POINTER(clast_decomposition), POINTER(clast_domain), c_char_p], 'Cells as an unstructured grid (VTU): lines, quadrilaterals or hexahedra with cell, count, volume, density and events (pair_integral without beta dt), label and pass where cells have them; unit, domain, volume, beta_dt and seed (of what was drawn) as field data.'),
     'clast_decomposition_write_points': (c_int, [POINTER(clast_decomposition), POINTER(clast_cloud), POINTER(clast_domain), c_char_p], 'Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass, weight and velocity where the cloud has them; -1 and 0 for points left out.'),
-    'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the domain make no sense.'),
+    'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG for a field out of its range (clast_dem_fields), or when the time step does not resolve the stiffest contact.'),
     'clast_dem_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_dem_add_container': (c_int, [c_void_p, POINTER(clast_mesh)], 'Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any obstacle.'),
     'clast_dem_add_wall': (c_int, [c_void_p, POINTER(clast_mesh), POINTER(c_int32)], 'A surface as one more wall, closed or open, which may be moved, watched and opened; before the first grain.'),
@@ -3683,6 +3726,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_unit_for': (c_char_p, [c_double, c_char_p, POINTER(c_double)], 'The unit in which a person would write `value` of this SI unit: "um" of 3.75e-6 m.'),
     'clast_fields_read': (c_int, [c_char_p, POINTER(clast_field), c_void_p], 'Reads a YAML mapping of keys to scalars or lists of scalars over `config` (already defaulted).'),
     'clast_fields_parse': (c_int, [c_char_p, c_char_p, POINTER(clast_field), c_void_p], 'The same from a text, YAML or JSON (what clast_fields_json writes: every bare number is SI); `name` stands for the path.'),
+    'clast_fill_idle': (POINTER(clast_idle), [POINTER(clast_fill_config), POINTER(clast_idle)], 'The fields that a filling by the others does not look at (clast_fields_idle).'),
     'clast_fill': (c_int, [POINTER(clast_mesh), POINTER(clast_fill_config), POINTER(clast_monitor), POINTER(clast_spheres), POINTER(clast_fill_report)], 'Fills the solid bounded by a mesh with spheres.'),
     'clast_fill_measure': (c_int, [POINTER(clast_mesh), POINTER(clast_spheres), POINTER(clast_fill_report)], 'Measures any sphere set against the solid bounded by a mesh: all of the report but end, bound and n_tested.'),
     'clast_fill_history': (c_int, [POINTER(clast_mesh), POINTER(clast_spheres), POINTER(clast_table)], 'How the errors fall with the number of spheres: a row for each of the first 1, 2, .'),
@@ -3737,6 +3781,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_curve_read': (c_int, [c_char_p, POINTER(clast_curve)], 'Sieve curve from delimited text with a header, one row a sieve in any order.'),
     'clast_curve_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_curve)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grading_load': (c_int, [c_char_p, c_int, c_int, POINTER(clast_curve), POINTER(c_void_p)], 'Sizes by one text, as in the option `curve`: a published case (U1 .'),
+    'clast_grading_idle': (POINTER(clast_idle), [POINTER(clast_curve), c_int, POINTER(clast_idle)], 'Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle).'),
     'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or blanks; '#' starts a comment; a first line that is no number names the columns)."),
     'clast_sizes_parse': (c_int, [c_char_p, c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grain_measure': (c_int, [POINTER(clast_mesh), POINTER(clast_grain)], 'Measures the solid bounded by a closed outward surface.'),
@@ -3748,6 +3793,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_grain_scale': (None, [POINTER(clast_grain), c_double], 'Multiplies all lengths by a factor > 0: a grain measured in mm becomes one in metres with 1e-3.'),
     'clast_grains_read': (c_int, [c_int32, POINTER(c_char_p), POINTER(clast_grains_options), POINTER(clast_monitor), POINTER(clast_grains)], 'Measures every grain of n files, in parallel, whatever becomes of the others.'),
     'clast_grains_free': (None, [POINTER(clast_grains)], '.'),
+    'clast_grains_idle': (POINTER(clast_idle), [POINTER(clast_grains_options), c_uint32, POINTER(clast_idle)], 'The options of `clast shape` (degree, level, spacing, voxels, voxel_type, ...) that files of these kinds do not look at (clast_fields_idle).'),
     'clast_grains_kind_name': (c_char_p, [c_int], '"surface", "series", "voxels", "points", "table", "clump" .'),
     'clast_grains_to_metres': (None, [POINTER(clast_grains), c_double], "Multiplies the lengths of all grains: by the file's own unit where it has one, else by `unit_m`."),
     'clast_grains_table': (c_int, [POINTER(clast_grains), c_int, c_bool, POINTER(clast_table)], 'Everything as a table: a row a grain; L, I, S, D and the form factors by one definition, then L, I, S by each.'),
@@ -3759,6 +3805,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_harmonics_measure': (c_int, [POINTER(clast_harmonics), c_int32, c_int, POINTER(clast_grain)], 'Measures the grain: volume, area, centroid, inertia and what follows from them (moments, ellipsoid, sphericity) from the series; calipers, boxes, shadows, convexity, roundness and angularity from its surface of this level.'),
     'clast_harmonics_read': (c_int, [c_char_p, POINTER(clast_harmonics)], "Reads a coefficient file: rows `n m Re(a) Im(a)` of a series sum a_nm Y_nm over -n <= m <= n, in any order; text after '#' is skipped."),
     'clast_harmonics_parse': (c_int, [c_void_p, c_size_t, POINTER(clast_harmonics)], 'The same from memory: a pure function of the bytes.'),
+    'clast_synthesize_idle': (POINTER(clast_idle), [POINTER(clast_synthesize_config), POINTER(clast_idle)], 'The fields that a grain by the others does not look at (clast_fields_idle).'),
     'clast_synthesize_grain': (c_int, [POINTER(clast_synthesize_config), c_uint64, POINTER(clast_mesh), POINTER(clast_synthesize_report)], 'Grain `index`: a convex mesh in its principal frame (L along x, S along z), a function of (config, index) alone.'),
     'clast_kernel_table': (POINTER(clast_kernel_info), [], 'The table, [CLAST_N_KERNEL]; bit k of a kernel mask stands for row k.'),
     'clast_kernel_parse': (c_int, [c_char_p, POINTER(c_uint32)], 'Mask of "brownian" or a sum, "brownian+settling" .'),
@@ -3805,10 +3852,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_read': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_read_report)], 'Reads a surface: STL, OBJ, PLY or OFF, by content first, then by extension.'),
     'clast_mesh_parse': (c_int, [c_void_p, c_size_t, c_int, POINTER(clast_mesh), POINTER(clast_mesh_read_report)], 'As clast_mesh_read from memory: a pure function of the bytes.'),
     'clast_mesh_write': (c_int, [POINTER(clast_mesh), c_char_p, POINTER(clast_mesh_write_options)], 'Writes a surface.'),
+    'clast_mesh_write_idle': (POINTER(clast_idle), [c_int, POINTER(clast_idle)], 'The option `name` where a file of this format names no part (clast_fields_idle).'),
     'clast_mesh_check': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_check_result)], 'What is this surface, and can it be trusted? The counts are exact for the mesh as it is: vertices are the same only when their numbers are.'),
     'clast_mesh_check_free': (None, [POINTER(clast_mesh_check_result)], 'Frees what clast_mesh_check found; may be called twice.'),
     'clast_mesh_check_passed': (c_bool, [POINTER(clast_mesh_check_result)], 'Closed, oriented and manifold, and not flat: no blocking fault.'),
     'clast_mesh_weld': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_mesh), POINTER(c_int32)], 'Merges vertices nearer than `tolerance` times the extent (the diagonal of the box), drops triangles that collapse and vertices that nothing uses.'),
+    'clast_mesh_repair_idle': (POINTER(clast_idle), [POINTER(clast_mesh_repair_config), POINTER(clast_idle)], 'The fields that a repair by the others does not look at (clast_fields_idle).'),
     'clast_mesh_repair': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_repair_config), POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Makes a surface closed, oriented and manifold where it can, step by step, and tells every change.'),
     'clast_mesh_weld_auto': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'The one weld that every command applies to a surface that it reads: vertices of open edges that rounding has parted become one (CLAST_WELD_AUTO).'),
     'clast_mesh_distance': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh), POINTER(clast_mesh_deviation)], '@return CLAST_E_GEOMETRY if one has no triangles @note O((n + m) log), any thread count alike.'),
@@ -3841,7 +3890,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_result_json': (c_int, [POINTER(clast_pack_result), c_bool, POINTER(c_char_p)], 'The result as one JSON object, names of DESIGN section 7.'),
     'clast_pairs_count': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_pairs_config), POINTER(clast_pairs)], 'Counts the pairs of a cloud by their distance in shells of equal ratio, compares them with those of a uniform cloud in the same domain, and estimates the integral of the squared density.'),
     'clast_pairs_free': (None, [POINTER(clast_pairs)], '.'),
-    'clast_pairs_uniform': (c_int, [POINTER(clast_domain), c_int32, POINTER(c_double), POINTER(c_double), POINTER(c_double)], 'Probability that two points, uniform in the domain, are closer than each radius.'),
+    'clast_pairs_uniform': (c_int, [POINTER(clast_domain), c_int32, POINTER(c_double), POINTER(c_double), POINTER(c_double)], 'Probability that two points, uniform in the domain, are closer than each radius: rises from 0 to 1, which it is from the diameter on.'),
     'clast_estimate_choose': (clast_estimate, [POINTER(clast_estimate), POINTER(clast_estimate), c_int, POINTER(c_bool)], 'One of two estimates of the same integral; NAN where one is NULL.'),
     'clast_bed_close': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], 'The closed, outward surface of a container that may have holes: each is covered.'),
     'clast_bed_of_surface': (clast_bed, [POINTER(clast_mesh)], 'The inside of such a surface as a bed; its floor is the lowest point.'),
@@ -3881,14 +3930,17 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_model_free': (None, [POINTER(clast_porosity_model)], 'Frees all that a model owns; may be called twice.'),
     'clast_porosity_model_published': (c_int, [c_int32, POINTER(clast_porosity_model)], 'The published model of this number (0 .'),
     'clast_porosity_model_find': (c_int32, [c_char_p], 'Number of the published model of this name, or -1.'),
+    'clast_porosity_model_by_grading': (c_bool, [c_char_p], 'Whether a grading chooses the model, "auto", "single" or "mixture": a name, a file or a model at hand (NULL) has its own.'),
     'clast_porosity_predict_set': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_set), POINTER(clast_bootstrap), POINTER(clast_form_inputs), POINTER(clast_prediction)], 'Porosity of a bed of these grains; with `bootstrap` the sampling error is the deviation of the porosity over resamples of the grains.'),
     'clast_porosity_predict_moments': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_inputs), POINTER(clast_prediction)], 'Porosity from means and deviations; inputs->n_grain > 1 gives the sampling error by the first derivatives, with variances s^2 / n of a mean and s^2 / (2 (n - 1)) of a deviation.'),
     'clast_porosity_predict_each': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_set), POINTER(clast_table)], "One row a grain: the single form of that grain as the only one of a bed; columns row (from 1, in the set's table), porosity, standard_error, in_range (1 or 0)."),
     'clast_porosity_predict_columns': (c_int, [POINTER(clast_porosity_model), POINTER(clast_table), POINTER(clast_table)], 'One row a bed of a table with the columns that a model of kind CLAST_MODEL_COLUMNS names; columns as above.'),
+    'clast_porosity_predict_idle': (POINTER(clast_idle), [POINTER(clast_predict_given), POINTER(clast_idle)], 'The options of `clast predict` (grading, grains, columns, each, resamples, seed) that such a prediction does not look at (clast_fields_idle).'),
     'clast_porosity_prediction_table': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_inputs), POINTER(clast_prediction), POINTER(clast_table)], "One row: porosity, the errors, in_range and the inputs' means and deviations."),
     'clast_porosity_model_read': (c_int, [c_char_p, POINTER(clast_porosity_model)], 'Reads a model file, JSON as clast_porosity_model_write makes it.'),
     'clast_porosity_model_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_porosity_model)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_porosity_model_write': (c_int, [POINTER(clast_porosity_model), POINTER(c_char_p), c_int32, c_char_p], 'Writes the model as JSON that reads back as the same doubles; the file appears whole or not at all.'),
+    'clast_porosity_fit_idle': (POINTER(clast_idle), [POINTER(clast_porosity_fit_config), c_bool, POINTER(clast_idle)], 'The fields that a fit by the others does not look at (clast_fields_idle).'),
     'clast_fit_data_single': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of one form each: 26 features from each row's flatness and elongation or L, I, S."),
     'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
     'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code but the seed, that is what was varied, and those that `use` names.'),
@@ -3898,6 +3950,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_image_alloc': (c_int, [c_int32, c_int32, POINTER(clast_image)], 'Room for the pixels, zeroed; `image` must be empty.'),
     'clast_image_free': (None, [POINTER(clast_image)], 'Frees the pixels; may be called twice.'),
     'clast_image_write_png': (c_int, [POINTER(clast_image), c_char_p], 'Writes a PNG file, whole or not at all.'),
+    'clast_render_idle': (POINTER(clast_idle), [POINTER(clast_render_config), POINTER(clast_idle)], 'The fields that a picture by the others does not look at (clast_fields_idle).'),
     'clast_render_assembly': (c_int, [POINTER(clast_assembly), POINTER(clast_render_config), POINTER(clast_monitor), POINTER(clast_image)], 'Draws the assembly into `image` (which must be empty).'),
     'clast_report_write': (c_int, [POINTER(c_char_p), c_int32, c_char_p, POINTER(clast_report_config)], 'Writes the page, whole or not at all.'),
     'clast_report_write_run': (c_int, [c_char_p, c_char_p], 'FOLDER/report.html of one run, as a command does at its end.'),
@@ -3912,6 +3965,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fields_json': (c_int, [POINTER(clast_field), c_void_p, POINTER(c_char_p)], 'A configuration as one JSON object of SI values in table order; free it with clast_text_free.'),
     'clast_text_free': (None, [c_char_p], 'Frees a text that the library made; NULL is allowed.'),
     'clast_sha256_file': (c_int, [c_char_p, c_char_p, POINTER(c_int64)], 'SHA-256 of a file in 64 lower-case hexadecimal digits.'),
+    'clast_run_inputs_agree': (c_int, [POINTER(clast_comm), POINTER(clast_field), c_void_p, c_int32, POINTER(c_char_p)], 'Refuses ranks that read different things, as from copies on their own disks: options, or files by their SHA-256.'),
     'clast_run_folder_begin': (c_int, [c_char_p, c_bool, c_char_p, POINTER(clast_monitor), POINTER(c_void_p)], 'Takes a folder for a run and starts its clocks; nothing is written yet.'),
     'clast_run_folder_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_run_folder_manifest': (c_void_p, [c_void_p], "The run's manifest, borrowed: give it configuration and seed before open."),
@@ -3939,7 +3993,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_spheres_copy': (c_int, [POINTER(clast_spheres), POINTER(clast_spheres)], 'Copy that owns all it has; `copy` must be empty.'),
     'clast_shape_free': (None, [POINTER(clast_shape)], 'Frees all that a shape owns; may be called twice.'),
     'clast_shape_copy': (c_int, [POINTER(clast_shape), POINTER(clast_shape)], 'Copy that owns all it has; `copy` must be empty.'),
-    'clast_shape_sphere': (c_int, [c_char_p, c_double, POINTER(clast_shape)], 'Sphere of this radius.'),
+    'clast_shape_sphere': (c_int, [c_char_p, c_double, POINTER(clast_shape)], 'Sphere of this radius; CLAST_E_GEOMETRY where its volume and moments are no numbers above 0.'),
     'clast_shape_ellipsoid': (c_int, [c_char_p, POINTER(c_double), POINTER(clast_shape)], 'Ellipsoid of these semi-axes (any order; sorted a >= b >= c).'),
     'clast_shape_mesh': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_shape)], 'Solid bounded by a closed outward mesh (copied, moved so that its centroid is the origin).'),
     'clast_shape_clump': (c_int, [c_char_p, POINTER(clast_spheres), POINTER(clast_shape)], "Union of spheres (copied, moved so that the union's centroid is the origin)."),
@@ -3960,6 +4014,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_export_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("vtu").'),
     'clast_export_format_of_path': (c_int, [c_char_p], "Format by a path's extension (any case), or CLAST_EXPORT_ANY when it is none of ours."),
     'clast_assembly_write': (c_int, [POINTER(clast_assembly), c_char_p, POINTER(clast_export_options), POINTER(clast_export_report)], 'Writes an assembly.'),
+    'clast_export_given_idle': (POINTER(clast_idle), [POINTER(clast_export_given), POINTER(clast_idle)], 'The options of `clast export` (level, points, colour, unit, density, columns, diameter) that such an export does not look at (clast_fields_idle).'),
     'clast_assembly_table': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'One row a grain, in the order of placing: id, shape, position, quaternion, scale, maximum length, volume, density (if known), mass (unless in model units), n_contact (if contacts are known).'),
     'clast_pvd_write': (c_int, [c_char_p, c_int64, POINTER(c_double), POINTER(c_char_p)], 'ParaView collection: n VTU files (paths relative to the collection) and their times.'),
     'clast_shapiro_wilk': (c_int, [POINTER(c_double), c_int64, POINTER(c_double), POINTER(c_double)], "Shapiro and Wilk's W of a sample and the probability of a smaller W under a normal law."),
@@ -4080,7 +4135,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'form_low': ('number', 0.1, '-', 0.001, 1.0, None, 'least flatness and elongation'),
         'form_high': ('number', 1.0, '-', 0.001, 1.0, None, 'greatest'),
         'size': ('number', 1.0, '-', 1e-12, 1000000000000.0, None, 'sieve size D = sqrt((S^2+I^2)/2), in the unit of the file'),
-        'measure': ('choice', 'angularity', '-', None, None, 'amplitude|normal_roundness|angularity', "what `rough` is: amplitude of ln r, or the finished grain's measured normal roundness or angularity"),
+        'measure': ('choice', 'angularity', '-', None, None, 'amplitude|normal_roundness|angularity', "what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or angularity"),
         'rough': ('number', 0.075, '-', 0.0, 1.0, None, 'wanted roughness'),
         'tolerance': ('number', 0.001, '-', 1e-06, 1.0, None, 'of the measured one'),
         'decay': ('number', 3.0, '-', 0.0, 10.0, None, 'coefficients of degree n fall as n^-decay: larger is smoother'),
@@ -4092,7 +4147,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'axes': ('choice', 'ellipsoid', '-', None, None, 'ellipsoid|box|fitted|feret|principal', 'definition of L, I and S behind D and the form factors'),
         'hull': ('flag', False, '-', None, None, None, 'measure the convex hull (as packings use it), not the surface'),
         'unit': ('text', '', '-', None, None, None, "unit of the files' coordinates (mm, um, ...): results are then SI; none: model units"),
-        'kind': ('choice', 'auto', '-', None, None, 'auto|surface|series|voxels|points|table|clump', 'what the files hold; auto: by name and content'),
+        'kind': ('choice', 'auto', '-', None, None, 'auto|surface|series|voxels|points|table|clump', 'what files hold; auto: by name and content'),
         'degree': ('integer', -1.0, '-', -1.0, 256.0, None, 'series: terms up to this degree; -1: all'),
         'level': ('integer', 5.0, '-', 0.0, 8.0, None, 'series: surface of 20 x 4^level triangles for calipers and boxes'),
         'spacing': ('number', 0.0, '-', 0.0, 1e+300, None, 'points: grid they were sampled on, in their unit, for a surface; 0: their convex hull'),
@@ -4185,9 +4240,9 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'target': ('choice', 'core', '-', None, None, 'core|mass', "the kept trial ends nearest to the core's centre, or to the centre of mass"),
         'start': ('number', 0.0, '-', 0.0, 1000000.0, None, "start, in particle sizes beyond the ray's last hit; 0: from outside of everything"),
         'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'new axes tried when every ray misses the aggregate (ballistic: 1000 lines for each)'),
-        'approach': ('choice', 'central', '-', None, None, 'central|ballistic|diffusive', 'along rays to the origin (published), on lines over the cross-section, by random walk'),
+        'approach': ('choice', 'central', '-', None, None, 'central|ballistic|diffusive', 'how particles come: along rays to the origin (published), on lines over the cross-section, by random walk'),
         'walk_step': ('number', 0.1, '-', 0.0001, 1.0, None, 'diffusive: least step of the walk, in radii of the smallest thrown grain'),
-        'contact': ('choice', 'exact', '-', None, None, 'exact|spheres|march', 'first touch of true surfaces, of sphere composites, or the published march'),
+        'contact': ('choice', 'exact', '-', None, None, 'exact|spheres|march', 'first touch of: true surfaces, sphere composites, or the published march'),
         'flavour': ('choice', 'release', '-', None, None, 'release|figures', 'the published engine that march repeats'),
         'march_coarse': ('number', 0.0, '-', 0.0, 10.0, None, 'coarse step constant; 0: release 0.05, figures 0.01'),
         'march_fine': ('number', 0.0005, '-', 1e-09, 10.0, None, 'fine step constant'),
@@ -4307,7 +4362,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'height_change': ('number', 1e-05, 'm', 0.0, 1000000.0, None, 'of the mean height in check_time; for grains below 1 mm a hundredth of their size'),
         'check_time': ('number', 0.01, 's', 1e-12, 1000000.0, None, 'between two looks at it'),
         'still_speed': ('number', 0.001, 'm/s', 0.0, 1000000.0, None, 'of the fastest grain; for grains below 1 mm their size a second or less'),
-        'max_steps': ('integer', 0.0, '-', 0.0, 9000000000000000.0, None, 'stop after so many time steps as it is; 0: never'),
+        'max_steps': ('integer', 0.0, '-', 0.0, 9000000000000000.0, None, 'stop after so many time steps, finished or not; 0: never'),
         'max_damping_time': ('number', 20.0, 's', 0.0, 1000000000.0, None, 'give up when the bed is not still by then'),
         'wall': ('texts', '', '-', None, None, None, 'walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2'),
         'outlet': ('texts', '', '-', None, None, None, 'half-spaces whose grains leave and are counted: z<-10mm'),
@@ -4330,7 +4385,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
     'porosity': {
         'bed': ('text', '', '-', None, None, None, "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's"),
         'floor': ('text', '0', '-', None, None, None, 'height of the bottom, with --bed (as 5mm)'),
-        'method': ('choice', 'exact', '-', None, None, 'exact|spheres', 'true shapes, or each grain as the sphere of its volume (published)'),
+        'method': ('choice', 'exact', '-', None, None, 'exact|spheres', 'what a grain fills: its true shape, or the sphere of its volume (published)'),
         'layer': ('text', '0', '-', None, None, None, 'height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too'),
         'cut': ('number', 0.5, '-', 0.0, 1.0, None, 'the bed ends where the porosity rises through this (n_cut)'),
         'trim': ('text', '0', '-', None, None, None, 'left out at both ends (h_pd; published for periodic beds: 31.5mm)'),
@@ -4359,13 +4414,13 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'validation': ('choice', 'nested', '-', None, None, 'nested|published', 'features for a held-out bed: selected anew without it (nested), or with it, as in the paper (published), which makes the errors too small'),
         'n_permutation': ('integer', 199.0, '-', 0.0, 1000000.0, None, 'permutations of the porosities among the beds for p-values (0: none)'),
         'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'random numbers of folds and permutations'),
-        'features': ('choice', 'auto', '-', None, None, 'auto|form|mixture|columns', "form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns"),
+        'features': ('choice', 'auto', '-', None, None, 'auto|form|mixture|columns', "features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns"),
         'grains': ('text', '', '-', None, None, None, "study folder, or table of all beds' grains, with a column that names the bed (--group)"),
         'name': ('text', 'fitted', '-', None, None, None, 'name of the model'),
         'force': ('flag', False, '-', None, None, None, "replace an earlier run in the results' folder, once the new one has succeeded"),
     },
     'predict': {
-        'model': ('text', 'auto', '-', None, None, None, 'auto (mixture where the forms vary, else single), single, mixture, or a model file of clast fit'),
+        'model': ('text', 'auto', '-', None, None, None, 'auto, single, mixture, or a model file of clast fit; auto: mixture where the forms vary, else single'),
         'grading': ('choice', 'U1', '-', None, None, 'U1|U7|B50', "published size distribution that the bed's resembles, up to scale"),
         'flatness': ('text', '', '-', None, None, None, 'mean S/I, or mean and standard deviation as in 0.65+-0.17'),
         'elongation': ('text', '', '-', None, None, None, 'mean I/L, or mean and standard deviation'),
@@ -4418,7 +4473,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'pairs': ('flag', False, '-', None, None, None, 'count pairs by distance: g(r), and events by pairs beside those by cells'),
         'pairs_radius': ('number', 0.0, 'm', 0.0, 1e+300, None, 'greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D'),
         'estimator': ('choice', 'auto', '-', None, None, 'cells|pairs|auto', 'what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of the ghost points'),
+        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of every draw (ghost points, samples, collisions)'),
     },
     'agglomerate': {
         'columns': ('texts', 'x,y,z', '-', None, None, None, 'columns of the coordinates, as many as dimensions; x,y,z are found as x_m, x_mm, ... too; without a header they are column_1, column_2, ...'),
@@ -4487,11 +4542,11 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'box_model': ('flag', False, '-', None, None, None, 'a well-mixed box without POINTS: --concentration and a law of sizes'),
         'solver': ('choice', 'monte-carlo', '-', None, None, 'monte-carlo|sectional', 'of a box: draws, or a sectional population balance (needs SUNDIALS)'),
         'initial': ('choice', 'mono', '-', None, None, 'mono|exponential|lognormal|table', 'sizes at the start of a box'),
-        'concentration': ('number', 0.0, '1/m^3', 0.0, 1e+300, None, 'particles a volume at the start of a box'),
+        'concentration': ('number', 0.0, '1/m^3', 0.0, 1e+300, None, 'particles a volume at the start of a box; of a table, whose numbers are then shares, or 0: their sum'),
         'initial_mean': ('number', 1.0, '-', 1e-100, 1e+100, None, 'mean size at the start [monomers]'),
         'initial_sd': ('number', 1.5, '-', 1.001, 100.0, None, 'geometric standard deviation of a lognormal start'),
         'particles': ('integer', 10000.0, '-', 2.0, 10000000.0, None, 'particles of a Monte Carlo box'),
-        'size_min': ('number', 0.0, '-', 0.0, 1e+100, None, 'smallest size, which does not break [monomers]; 0: that of the start'),
+        'size_min': ('number', 0.0, '-', 0.0, 1e+100, None, 'smallest size, which does not break [monomers]; 0: that of the start (which must then have others, or be single monomers, where particles break)'),
         'size_max': ('number', 0.0, '-', 0.0, 1e+100, None, 'largest size of the grid [monomers]; 0: 1e5 mean sizes of the start'),
         'per_octave': ('integer', 16.0, '-', 1.0, 1000.0, None, 'sections of the grid that double the size'),
         'breakage_rate': ('number', 0.0, '1/s', 0.0, 1e+300, None, 'S1: a particle of x monomers breaks at S1 x^p'),
@@ -4502,7 +4557,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'source_size': ('number', 1.0, '-', 1e-100, 1e+100, None, 'their size [monomers]'),
         'settling_depth': ('number', 0.0, 'm', 0.0, 1e+300, None, 'particles leave at settling speed / this depth; 0: they stay'),
         'tolerance': ('number', 1e-07, '-', 1e-12, 0.01, None, 'relative error of a step of the sectional solver'),
-        'initial_file': ('text', '', '-', None, None, None, 'table of --initial table: columns size (monomers) and number (1/m^3)'),
+        'initial_file': ('text', '', '-', None, None, None, 'table of --initial table: columns size (monomers) and number (1/m^3; shares, where --concentration is given)'),
         'domain': ('text', '', '-', None, None, None, 'known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm]'),
         'outside': ('choice', 'error', '-', None, None, 'error|drop', 'points outside the domain: refuse the file, or leave them out'),
         'variant': ('choice', 'full', '-', None, None, 'full|first|fast|test', 'how far to go: tests and passes, first test and one pass, one pass, tests alone'),
@@ -4523,17 +4578,17 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'tree_refine': ('flag', True, '-', None, None, None, 'give each cell of a tree that was split as the blocks its last test looked at'),
         'extrapolate': ('flag', True, '-', None, None, None, 'add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of cells'),
         'estimator': ('choice', 'auto', '-', None, None, 'cells|pairs|auto', 'what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of the ghost points'),
+        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of every draw (ghost points, samples, collisions)'),
     },
     'evolve': {
         'shapes': ('texts', 'sphere', '-', None, None, None, 'shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate (state.h5)'),
         'shape_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each shape; none: all equal'),
         'density': ('numbers', '2500', 'kg/m^3', 1e-06, 1000000.0, None, 'of the solid: one for all shapes, or one each'),
         'unit': ('text', '', '-', None, None, None, 'length unit of surface files; may be left out: sizes come from the curve'),
-        'curve': ('text', '10um', '-', None, None, None, "volume-equivalent diameters: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case"),
+        'curve': ('text', '10um', '-', None, None, None, "diameters of equal volume: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case"),
         'particles': ('integer', 0.0, '-', 0.0, 10000000.0, None, 'particles at the start; 0: the rows of points'),
-        'weight': ('number', 1.0, '-', 1.0, 1000000000000000.0, None, 'real particles that each stands for, a whole number: the number density is particles x weight / volume'),
-        'release': ('text', '', '-', None, None, None, 'domain in which they start evenly (as domain); none: all of it'),
+        'weight': ('number', 1.0, '-', 1.0, 1000000000000000.0, None, 'real particles W that each stands for, a whole number: the number density is particles x W / volume; rows in time and the summary have masses of all of them, tables of bodies and events the mass of one'),
+        'release': ('text', '', '-', None, None, None, 'domain in which they start evenly (as domain), as far as it lies in that; a box in a box lies in it all; none: all of the domain'),
         'points': ('text', '', '-', None, None, None, 'file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)'),
         'columns': ('texts', 'x,y,z', '-', None, None, None, 'its columns of coordinates, three; units in their names count (x_mm), else they are in m; x,y,z are found as x_m, y_m, z_m too'),
         'diameter_column': ('text', '', '-', None, None, None, 'its column of volume-equivalent diameters; none: the curve'),
@@ -4582,7 +4637,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths or contacts tried before a pair is given up, in thousands; central lines: one by one'),
         'duration': ('number', 0.0, 's', 0.0, 1e+300, None, 'time that passes at most'),
         'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
-        'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step"),
+        'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height passed up or down (and of the width, where sides are deposit), that a step may hold; and the most collisions of a pair's kind in a sub-step"),
         'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
         'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
         'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
@@ -4598,7 +4653,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'argument': ('texts', '', '-', None, None, None, 'argument that all runs share, such as an input file'),
         'fix': ('texts', '', '-', None, None, None, 'key=value that all runs share'),
         'vary': ('texts', '', '-', None, None, None, 'key=a|b|c: values that the runs take'),
-        'design': ('choice', 'grid', '-', None, None, 'grid|zip', 'several vary: all combinations, or first with first, second with second'),
+        'design': ('choice', 'grid', '-', None, None, 'grid|zip', 'values of several vary: all combinations, or first with first, second with second'),
         'table': ('text', '', '-', None, None, None, 'CSV with a run a row, a key a column'),
         'seeds': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'realisations of each'),
         'seed': ('integer', 1.0, '-', 0.0, 9007199254740992.0, None, 'seed of the first realisation, then one more each'),
@@ -4622,7 +4677,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'shading': ('choice', 'smooth', '-', None, None, 'smooth|flat', 'smooth rounds facets that meet below 50 degrees'),
         'background': ('choice', 'white', '-', None, None, 'white|transparent|black', 'behind the grains'),
         'ground': ('flag', False, '-', None, None, None, 'shadow on a plane under the grains'),
-        'cut': ('choice', 'none', '-', None, None, 'none|x|y|z|view', 'cut away the half nearer to the viewer by a plane across this axis'),
+        'cut': ('choice', 'none', '-', None, None, 'none|x|y|z|view', 'cut away the half nearer to the viewer: by a plane across this axis'),
         'cut_position': ('number', 0.5, '-', 0.0, 1.0, None, 'place of the cut in the extent along its axis'),
         'colour_bar': ('flag', True, '-', None, None, None, 'legend of the colours'),
         'scale_bar': ('flag', True, '-', None, None, None, 'bar of a round length'),

@@ -9,12 +9,10 @@ from typing import Any, Iterable
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Owner, Progress, call, check, html_last, nearest, numbers, refuse, single, warn
+from ._core import Config, Error, Monitor, Owner, Progress, call, check, html_last, nearest, numbers, refuse, refuse_idle, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
-_IDLE = {"monte-carlo": ("tolerance", "breakage_exponent", "fragments", "fragment_exponent", "source_size"),
-         "sectional": ("particles", "collisions", "leap", "block")}
 
 
 def check_used(config: Any, names: Iterable[str], settles: bool = False) -> None:
@@ -25,7 +23,7 @@ def check_used(config: Any, names: Iterable[str], settles: bool = False) -> None
         collide.kernel = mask.value | (1 << c.VALUES["CLAST_KERNEL_SETTLING"] if settles and name != "efficiency" else 0)
         by = call("clast_collide_idle")(ctypes.byref(collide), name.encode())
         if by is not None:
-            raise Error("CLAST_E_CONFIG", f"{name}: does nothing with this {by.decode()}")
+            raise Error("CLAST_E_CONFIG", f"{name} does nothing with this {by.decode()}")
     collide.kernel = mask.value
 
 
@@ -73,15 +71,13 @@ def box_model(*, sizes: Any = None, seed: int | None = None, progress: Progress 
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". Ctrl-C ends it between steps.
+    number (1/m3; shares, where concentration is given): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    Ctrl-C ends it between steps.
     """
-    solver = "monte-carlo" if keys.get("solver") is None else str(single("solver", keys["solver"]))
     own = set(_FIELDS["clast_spectrum_fields"])
     for name in keys:
         if name in _OF_CLOUDS:
             raise Error("CLAST_E_CONFIG", f"{name}: is a key of clouds; a box has no positions")
-        if name in _IDLE.get(solver, ()):
-            raise Error("CLAST_E_CONFIG", f"{name}: does nothing with solver '{solver}'")
         if name not in own and name not in _FIELDS["clast_agglomerate_fields"]:
             raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, own | set(_FIELDS['clast_agglomerate_fields']))}")
     if sizes is not None and keys.setdefault("initial", "table") != "table" or sizes is None and keys.get("initial") == "table":
@@ -99,6 +95,9 @@ def box_model(*, sizes: Any = None, seed: int | None = None, progress: Progress 
             Config(c.clast_agglomerate_config(), ("clast_agglomerate_fields", "clast_decompose_fields"), {**parts[1], "seed": seed}) as rest:
         a, s = rest.struct, box.struct
         check_used(a, parts[1], s.settling_depth > 0)
+        names = [*box.changed(), *rest.changed()]
+        refuse_idle(names, "clast_spectrum_idle", ctypes.byref(s))
+        refuse_idle(names, "clast_agglomerate_idle", ctypes.byref(a), ctypes.byref(c.clast_agglomerate_given()))
         a.collide.seed = a.decompose.seed
         s.duration, s.n_step, s.repeats = a.duration, a.n_step, a.repeats
         check(monitor.run(lambda m: call("clast_spectrum_evolve")(ctypes.byref(start) if held is not None else None, ctypes.byref(s),

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._boxes import check_used, warn_of_dense, warn_of_range
-from ._core import (Config, Fixed, Floats, Monitor, Owner, Progress, call, check, choice, encoded, fixed, html_last, html_members, html_table, items, numbers,
-                    people_write, refuse, settled, view, warn, whole)
+from ._core import (Config, Fixed, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, fixed, html_last, html_members, html_table,
+                    items, numbers, people_write, refuse, refuse_idle, settled, single, view, warn, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -43,6 +43,10 @@ class Decomposition:
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
     n_repeated: int  #: points that lie where another lies
+    cells_bias: float  #: relative bias of the pairs in these cells against those of all sizes of cells
+    bias_estimate: float  #: of n^2 against n (n - 1), with events="paper"
+    smoothing_bias: float  #: what extrapolation took off the events
+    points_per_bin: float  #: with cells of bins; below 10 they keep the noise of their counts
     sizes: Table | None  #: events of random parts of the points, with sizes=K
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
@@ -99,7 +103,7 @@ _COLUMNS = ("radius", "mass", "weight", "velocity", "variable")
 class Cloud(Fixed):
     """Positions (n, 1 to 3) [m] with what they carry; float64 arrays in C order are read where they lie, others converted once.
 
-    The arrays can be written into, not replaced.
+    The arrays can be written into, not replaced. Messages count points from 1, as rows of a file.
 
     radius [m], mass [kg], weight (real particles that one stands for), variable (temperature or the like): (n,); velocity [m/s]: as
     positions. `domain` ("box:0,0,0,1,1,1", "sphere:5mm") is that of decompose and agglomerate, unless they name another.
@@ -231,10 +235,13 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
     """
     own = settled("decompose", dict(test_only=test_only, sizes=sizes, regular=regular))
     if own["test_only"]:
+        if keys.get("variant") is not None and single("variant", keys["variant"]) not in ("full", "test"):
+            raise refuse("test_only is variant test: leave variant out")
         keys["variant"] = "test"
     cloud = Cloud._named("positions", positions, radius=radius, mass=mass, weight=weight, velocity=velocity, variable=variable)
     result = c.clast_decomposition()
     with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": _domain(cloud, domain), **keys}) as config:
+        _refuse_idle([*config.changed(), *changed("decompose", own)], config.struct, [cloud], own["sizes"])
         check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
         owner = Owner(result, "clast_decomposition_free")
         parts = _parts_of(cloud, own["sizes"], own["regular"], config.struct) if own["sizes"] else None
@@ -242,9 +249,17 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
         is_test = config.struct.variant == c.VALUES["CLAST_VARIANT_TEST"]
         if not is_test and result.pairs.n > 0:
             _warn_of_pairs(result)
+        if not is_test and math.isnan(result.events_low):
+            _warn_of_no_number(result, cloud)
     if result.n_pass > 0 and result.points_per_bin < 10:
         warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
     return _decomposition(owner, cloud, parts, is_test)
+
+
+def _refuse_idle(names: list[str], config: Any, clouds: list[Cloud], n_size: int = 0) -> None:
+    """Refuses keywords that cells of these clouds do not look at."""
+    has_variable = any("variable" in cloud._columns for cloud in clouds)
+    refuse_idle(names, "clast_decompose_idle", ctypes.byref(config), has_variable, n_size)
 
 
 def _warn_of_units(config: Any, cloud: Cloud) -> None:
@@ -255,6 +270,13 @@ def _warn_of_units(config: Any, cloud: Cloud) -> None:
     widest = float(np.ptp(cloud.positions, axis=0).max())
     if 0 < widest < 1e-3 * width:
         warn(f"all points lie within {people_write(widest, 'm')}, the domain is {people_write(width, 'm')} wide; are both in the same unit?")
+
+
+def _warn_of_no_number(found: Any, cloud: Cloud) -> None:
+    """Says why the events are nan, as the command does."""
+    why = ("so many points repeat the place of another, and there is no density at such a place; leave copies out" if cloud.n_repeated > 0 else
+           "points lie closer together than cells of this domain can tell")
+    warn(f"no {'number of events' if found.beta_dt > 0 else 'pair integral'}: {why}")
 
 
 def _warn_of_pairs(found: Any) -> None:
@@ -277,10 +299,11 @@ def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
 
 @dataclass(frozen=True, eq=False)
 class Agglomeration:
-    """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, spectrum.csv)."""
+    """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, members.csv, spectrum.csv)."""
 
     history: Table
-    particles: Table
+    particles: Table  #: those that are left
+    members: Table  #: which of them each particle of the start is part of
     spectrum: Table
     n_rebuilt: int
     n_cell: int
@@ -318,16 +341,25 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     owner, monitor = Owner(c.clast_agglomeration(), "clast_agglomeration_free"), Monitor(progress)
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check_used(config.struct, [*keys, *given_columns])
+        brought = {name: name in given_columns or name in made[0]._columns for name in ("weight", "radius", "temperature", "shear", "dissipation")}
+        refuse_idle(config.changed(), "clast_agglomerate_idle", ctypes.byref(config.struct),
+                    ctypes.byref(c.clast_agglomerate_given(n_snapshot=len(made), **brought)))
+        _refuse_idle(config.changed(), config.struct.decompose, made)
         check(monitor.run(lambda m: call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), m, ctypes.byref(owner.struct))))
         _warn_of_units(config.struct.decompose, made[0])
     r = owner.struct
     warn_of_range(r.range)
     warn_of_dense(r.volume_fraction)
+    n_repeated = max(cloud.n_repeated for cloud in made)
     if r.n_unresolved > 0:
         where = f"in {r.n_unresolved} of {len(made)} snapshot{'s' if len(made) > 1 else ''}"
-        warn(f"{where} the particles did not show their own structure (decompose tells more): collisions there are a best guess, rather too few than "
-             "too many")
-    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
+        warn(f"{where} the particles did not show their own structure (decompose tells more): collisions there are a best guess"
+             f"{'' if n_repeated > 0 else ', rather too few than too many'}")
+    if n_repeated > 0:
+        warn(f"{n_repeated} particle{'s' if n_repeated > 1 else ''}{' of a snapshot' if len(made) > 1 else ''} repeat{'' if n_repeated > 1 else 's'} "
+             "the place of an earlier one; each such pair counts as two particles that meet")
+    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.members), table_of(owner, r.spectrum), r.n_rebuilt,
+                         r.n_cell)
 
 
 def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None, is_test: bool) -> Decomposition:
@@ -347,5 +379,7 @@ def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None, is_test: boo
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
                          pair_integral_low=pairs[1], pair_integral_high=pairs[2], events_cross=cross[0], pair_integral_cross=cross[1],
+                         cells_bias=nan if is_test else r.cells_bias, bias_estimate=nan if is_test else r.bias_estimate,
+                         smoothing_bias=r.smoothing_bias if is_bound else nan, points_per_bin=r.points_per_bin if r.points_per_bin > 0 else nan,
                          n_repeated=cloud.n_repeated, resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,
                          points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

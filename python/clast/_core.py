@@ -42,6 +42,22 @@ class Missing(Error, AttributeError):
     """A member that is not there: hasattr, getattr with a default and inspect take it for absent."""
 
 
+class Equal:
+    """Equal where all members are, NaN to NaN: a number that is not known is no difference."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and _plain(vars(self)) == _plain(vars(other))
+
+    def __hash__(self) -> int:
+        return hash(_plain(vars(self)))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return tuple((name, _plain(one)) for name, one in value.items())
+    return None if value != value else value
+
+
 class Fixed:
     """Whose members named in _FIXED cannot be replaced: the library would not see it, or read beyond what is there."""
 
@@ -340,6 +356,16 @@ def spelt(function: Callable[P, R]) -> Callable[P, R]:
     return checked
 
 
+def refuse_idle(names: Iterable[str], rules: str, *facts: Any) -> None:
+    """Refuses the first of these keywords that the call would not look at, by the command's rules: those that "clast_fill_idle" makes of facts."""
+    made = (c.clast_idle * c.VALUES["CLAST_N_IDLE"])()
+    call(rules)(*facts, made)
+    for name in names:
+        for rule in made:
+            if rule.is_idle and name in rule.names.decode().split("|"):
+                raise Error("CLAST_E_CONFIG", in_python(f"{name} does nothing {rule.why.decode()}").replace("_column", ""))
+
+
 SIZES = ("curve",)  #: keys that take a text, or one size
 
 
@@ -352,6 +378,7 @@ class Config:
                                    for name in names]
         self.struct = struct
         self._bytes = ctypes.cast(ctypes.byref(struct), ctypes.c_void_p)
+        self._given: dict[str, Any] = {}
         for table in self._tables:
             check(call("clast_fields_default")(table, self._bytes))
         try:
@@ -367,6 +394,7 @@ class Config:
         if not found:
             near = next((n for n in (call("clast_fields_nearest")(table, name.encode()) for table in self._tables) if n), None)
             raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
+        self._given[name] = found[0]
         kind = found[0].contents.type
         takes_list = kind in (c.VALUES["CLAST_FIELD_TEXT_LIST"], c.VALUES["CLAST_FIELD_F64_LIST"])
         values = items(name, value) if takes_list else [single(name, value)]
@@ -378,6 +406,10 @@ class Config:
             if kind == c.VALUES["CLAST_FIELD_U64"] and isinstance(one, float) and one.is_integer():
                 one = int(one)  # as 3.0 is where fewer bits are kept
             check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, encoded(name, written(name, one)), k > 0))
+
+    def changed(self) -> list[str]:
+        """The keywords with another value than their default."""
+        return [name for name, row in self._given.items() if not call("clast_field_is_default")(row, self._bytes)]
 
     def close(self) -> None:
         for table in self._tables:
@@ -503,6 +535,11 @@ def settled(command: str, given: dict[str, Any]) -> dict[str, Any]:
         if name not in rows:
             raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, rows)}")
     return {name: _value(name, key, given.get(name)) for name, key in rows.items()}
+
+
+def changed(command: str, given: dict[str, Any]) -> list[str]:
+    """The keys of settled values with another value than their default."""
+    return [name for name, value in given.items() if value != c.KEYS[command][name][1]]
 
 
 def _value(name: str, key: Key, value: Any) -> Any:

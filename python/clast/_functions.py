@@ -153,9 +153,9 @@ def aggregate(
         target: the kept trial ends nearest to the core's centre, or to the centre of mass (core, mass; default core)
         start: start, in particle sizes beyond the ray's last hit; 0: from outside of everything (0 to 1e+06; default 0.0)
         max_tries: new axes tried when every ray misses the aggregate (ballistic: 1000 lines for each) (1 to 1e+06; default 100)
-        approach: along rays to the origin (published), on lines over the cross-section, by random walk (central, ballistic, diffusive; default central)
+        approach: how particles come: along rays to the origin (published), on lines over the cross-section, by random walk (central, ballistic, diffusive; default central)
         walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
-        contact: first touch of true surfaces, of sphere composites, or the published march (exact, spheres, march; default exact)
+        contact: first touch of: true surfaces, sphere composites, or the published march (exact, spheres, march; default exact)
         flavour: the published engine that march repeats (release, figures; default release)
         march_coarse: coarse step constant; 0: release 0.05, figures 0.01 (0 to 10; default 0.0)
         march_fine: fine step constant (1e-09 to 10; default 0.0005)
@@ -352,7 +352,7 @@ def agglomerate(
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
         pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
-        seed: seed of the ghost points (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (default 1)
     """
     return _clouds.agglomerate(*snapshots, **given(locals(), 'snapshots'))
 
@@ -422,17 +422,18 @@ def box_model(
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table". Ctrl-C ends it between steps.
+    number (1/m3; shares, where concentration is given): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    Ctrl-C ends it between steps.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        seed: seed of the ghost points (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (default 1)
         solver: of a box: draws, or a sectional population balance (needs SUNDIALS) (monte-carlo, sectional; default monte-carlo)
         initial: sizes at the start of a box (mono, exponential, lognormal, table; default mono)
-        concentration: particles a volume at the start of a box (1/m^3; at least 0; default 0.0)
+        concentration: particles a volume at the start of a box; of a table, whose numbers are then shares, or 0: their sum (1/m^3; at least 0; default 0.0)
         initial_mean: mean size at the start [monomers] (at least 1e-100; default 1.0)
         initial_sd: geometric standard deviation of a lognormal start (1.001 to 100; default 1.5)
         particles: particles of a Monte Carlo box (2 to 1e+07; default 10000)
-        size_min: smallest size, which does not break [monomers]; 0: that of the start (at least 0; default 0.0)
+        size_min: smallest size, which does not break [monomers]; 0: that of the start (which must then have others, or be single monomers, where particles break) (at least 0; default 0.0)
         size_max: largest size of the grid [monomers]; 0: 1e5 mean sizes of the start (at least 0; default 0.0)
         per_octave: sections of the grid that double the size (1 to 1000; default 16)
         breakage_rate: S1: a particle of x monomers breaks at S1 x^p (1/s; at least 0; default 0.0)
@@ -560,7 +561,7 @@ def decompose(
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
         pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
-        seed: seed of the ghost points (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (default 1)
     """
     return _clouds.decompose(**given(locals()))
 
@@ -645,10 +646,10 @@ def evolve(
         shape_weight: chance of each shape; none: all equal (at least 0; no default)
         density: of the solid: one for all shapes, or one each (kg/m^3; 1e-06 to 1e+06; default 2500)
         unit: length unit of surface files; may be left out: sizes come from the curve (no default)
-        curve: volume-equivalent diameters: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case (default 10um)
+        curve: diameters of equal volume: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case (default 10um)
         particles: particles at the start; 0: the rows of points (0 to 1e+07; default 0)
-        weight: real particles that each stands for, a whole number: the number density is particles x weight / volume (at least 1; default 1.0)
-        release: domain in which they start evenly (as domain); none: all of it (no default)
+        weight: real particles W that each stands for, a whole number: the number density is particles x W / volume; rows in time and the summary have masses of all of them, tables of bodies and events the mass of one (at least 1; default 1.0)
+        release: domain in which they start evenly (as domain), as far as it lies in that; a box in a box lies in it all; none: all of the domain (no default)
         points: file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5) (no default)
         columns: its columns of coordinates, three; units in their names count (x_mm), else they are in m; x,y,z are found as x_m, y_m, z_m too (default x,y,z)
         diameter_column: its column of volume-equivalent diameters; none: the curve (no default)
@@ -697,7 +698,7 @@ def evolve(
         max_tries: paths or contacts tried before a pair is given up, in thousands; central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
-        step_error: share of a meeting, and of the height fallen, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
+        step_error: share of a meeting, and of the height passed up or down (and of the width, where sides are deposit), that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
@@ -820,7 +821,7 @@ def fit(
     A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        features: form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns (auto, form, mixture, columns; default auto)
+        features: features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns (auto, form, mixture, columns; default auto)
         grains: study folder, or table of all beds' grains, with a column that names the bed (--group) (no default)
         name: name of the model (default fitted)
         target: column with the measured porosity (default porosity)
@@ -842,8 +843,15 @@ def fit(
 @spelt
 def mesh_check(
         path: Path,
+        *,
+        weld: str = 'auto',
+        weld_tolerance: float = 1e-06,
 ) -> MeshCheck:
-    """What is this file's surface, and can it be trusted? Welded as the command does.
+    """What is this file's surface, and can it be trusted?
+
+    Keywords (None: the default; a number is SI, a text has its unit):
+        weld: merge near vertices first: those of open edges, as every command does that reads a surface; not at all; or all within weld_tolerance (auto, off, within; default auto)
+        weld_tolerance: for weld within: times the extent (0 to 0.1; default 1e-06)
     """
     return _mesh.mesh_check(**given(locals()))
 
@@ -985,7 +993,7 @@ def mesh_synthesize(
         form_low: least flatness and elongation (0.001 to 1; default 0.1)
         form_high: greatest (0.001 to 1; default 1.0)
         size: sieve size D = sqrt((S^2+I^2)/2), in the unit of the file (1e-12 to 1e+12; default 1.0)
-        measure: what `rough` is: amplitude of ln r, or the finished grain's measured normal roundness or angularity (amplitude, normal_roundness, angularity; default angularity)
+        measure: what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or angularity (amplitude, normal_roundness, angularity; default angularity)
         rough: wanted roughness (0 to 1; default 0.075)
         tolerance: of the measured one (1e-06 to 1; default 0.001)
         decay: coefficients of degree n fall as n^-decay: larger is smoother (0 to 10; default 3.0)
@@ -1184,7 +1192,7 @@ def pack(
         height_change: of the mean height in check_time; for grains below 1 mm a hundredth of their size (m; 0 to 1e+06; default 1e-05)
         check_time: between two looks at it (s; 1e-12 to 1e+06; default 0.01)
         still_speed: of the fastest grain; for grains below 1 mm their size a second or less (m/s; 0 to 1e+06; default 0.001)
-        max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
+        max_steps: stop after so many time steps, finished or not; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
         wall: walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2 (no default)
         outlet: half-spaces whose grains leave and are counted: z<-10mm (no default)
@@ -1235,7 +1243,7 @@ def porosity(
     Keywords (None: the default; a number is SI, a text has its unit):
         bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's (no default)
         floor: height of the bottom, with --bed (as 5mm) (default 0)
-        method: true shapes, or each grain as the sphere of its volume (published) (exact, spheres; default exact)
+        method: what a grain fills: its true shape, or the sphere of its volume (published) (exact, spheres; default exact)
         layer: height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too (default 0)
         cut: the bed ends where the porosity rises through this (n_cut) (0 to 1; default 0.5)
         trim: left out at both ends (h_pd; published for periodic beds: 31.5mm) (default 0)
@@ -1275,7 +1283,7 @@ def predict(
     Keywords (None: the default; a number is SI, a text has its unit):
         flatness: mean S/I, or mean and standard deviation as in 0.65+-0.17 (no default)
         elongation: mean I/L, or mean and standard deviation (no default)
-        model: auto (mixture where the forms vary, else single), single, mixture, or a model file of clast fit (default auto)
+        model: auto, single, mixture, or a model file of clast fit; auto: mixture where the forms vary, else single (default auto)
         grading: published size distribution that the bed's resembles, up to scale (U1, U7, B50; default U1)
         grains: number of grains behind the means (0: unknown, no sampling error) (0 to 1e+12; default 0)
         columns: columns of the table: flatness,elongation or L,I,S (else known by their names) (no default)
@@ -1298,7 +1306,7 @@ def predict_beds(
     Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        model: auto (mixture where the forms vary, else single), single, mixture, or a model file of clast fit (default auto)
+        model: auto, single, mixture, or a model file of clast fit; auto: mixture where the forms vary, else single (default auto)
         grading: published size distribution that the bed's resembles, up to scale (U1, U7, B50; default U1)
         columns: columns of the table: flatness,elongation or L,I,S (else known by their names) (no default)
     """
@@ -1356,7 +1364,7 @@ def render(
         shading: smooth rounds facets that meet below 50 degrees (smooth, flat; default smooth)
         background: behind the grains (white, transparent, black; default white)
         ground: shadow on a plane under the grains (default False)
-        cut: cut away the half nearer to the viewer by a plane across this axis (none, x, y, z, view; default none)
+        cut: cut away the half nearer to the viewer: by a plane across this axis (none, x, y, z, view; default none)
         cut_position: place of the cut in the extent along its axis (0 to 1; default 0.5)
         colour_bar: legend of the colours (default True)
         scale_bar: bar of a round length (default True)
@@ -1457,7 +1465,7 @@ def shapes(
         axes: definition of L, I and S behind D and the form factors (ellipsoid, box, fitted, feret, principal; default ellipsoid)
         hull: measure the convex hull (as packings use it), not the surface (default False)
         unit: unit of the files' coordinates (mm, um, ...): results are then SI; none: model units (no default)
-        kind: what the files hold; auto: by name and content (auto, surface, series, voxels, points, table, clump; default auto)
+        kind: what files hold; auto: by name and content (auto, surface, series, voxels, points, table, clump; default auto)
         degree: series: terms up to this degree; -1: all (-1 to 256; default -1)
         level: series: surface of 20 x 4^level triangles for calipers and boxes (0 to 8; default 5)
         spacing: points: grid they were sampled on, in their unit, for a surface; 0: their convex hull (at least 0; default 0.0)
@@ -1505,7 +1513,7 @@ def study(
         fix: key=value that all runs share (no default)
         config: YAML configuration that all runs share (no default)
         argument: argument that all runs share, such as an input file (no default)
-        design: several vary: all combinations, or first with first, second with second (grid, zip; default grid)
+        design: values of several vary: all combinations, or first with first, second with second (grid, zip; default grid)
         table: CSV with a run a row, a key a column (no default)
         seeds: realisations of each (1 to 1e+06; default 1)
         seed: seed of the first realisation, then one more each (at least 0; default 1)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import (Error, Floats, Monitor, Owner, Progress, call, check, choice, encoded, html_table, items, note, quantity, refuse, settled,
-                    status_name, view, warn)
+from ._core import (Error, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, html_table, items, note, quantity, refuse, refuse_idle,
+                    settled, status_name, view, warn)
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
@@ -131,18 +131,23 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
     if voxel_edge is not None:
         edges = _numbers("voxel_edge", voxel_edge, (1, 3))
         volume.edge[:] = edges * 3 if len(edges) == 1 else edges
+    others = dict(voxels=voxels, voxel_edge=voxel_edge, dataset=dataset, threshold=threshold, columns=columns, surfaces=surfaces)
+    names = [*changed("shape", given), *(name for name, value in others.items() if value is not None and not (isinstance(value, str) and value == ""))]
+    refuse_idle(names, "clast_grains_idle", ctypes.byref(options), 0)
     metres = ctypes.c_double()
     if given["unit"]:
         check(call("clast_unit_factor")(encoded("unit", given["unit"]), b"m", ctypes.byref(metres)))
-    return _measure(files, options, metres.value, Monitor(progress), choice("axes", given["axes"], words["axes"][5] or ""))
+    return _measure(files, options, names, metres.value, Monitor(progress), choice("axes", given["axes"], words["axes"][5] or ""))
 
 
-def _measure(files: tuple[Path, ...], options: Any, metres: float, monitor: Monitor, axes: int) -> Grains:
+def _measure(files: tuple[Path, ...], options: Any, keywords: list[str], metres: float, monitor: Monitor, axes: int) -> Grains:
     owner, table = Owner(c.clast_grains(), "clast_grains_free"), Owner(c.clast_table(), "clast_table_free")
     names = (ctypes.c_char_p * len(files))(*(encoded("files", file) for file in files))
     check(monitor.run(lambda m: call("clast_grains_read")(len(files), names, ctypes.byref(options), m, ctypes.byref(owner.struct))))
     g = owner.struct
     records = [g.record[k] for k in range(g.n)]
+    if not g.n_fault:  # which may be of any kind
+        refuse_idle(keywords, "clast_grains_idle", ctypes.byref(options), sum({1 << one.kind for one in records}))
     in_metres = metres > 0 or (g.n > 0 and records[0].unit_m > 0)
     if in_metres and all(metres > 0 or one.unit_m > 0 or not one.has_size for one in records):
         call("clast_grains_to_metres")(ctypes.byref(g), metres)

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import (Error, Floats, Owner, call, check, choice, encoded, fixed, flag, html_table, note, numbers, pinned, refuse, settled, view, warn,
-                    whole)
+from ._core import (Equal, Error, Floats, Owner, call, changed, check, choice, encoded, fixed, flag, html_table, note, numbers, pinned, refuse, refuse_idle,
+                    settled, view, warn, whole)
 from ._tables import Path
 
 
-@dataclass(frozen=True)
-class MeshCheck:
+@dataclass(frozen=True, eq=False)
+class MeshCheck(Equal):
     """What `clast mesh check` counts; lengths are in the mesh's own unit."""
 
     closed: bool
@@ -58,8 +58,8 @@ class MeshCheck:
         return ""
 
 
-@dataclass(frozen=True)
-class Shape:
+@dataclass(frozen=True, eq=False)
+class Shape(Equal):
     """Size and form of one grain, lengths in the mesh's own unit; L >= I >= S by the named definition of axes."""
 
     volume: float
@@ -119,12 +119,13 @@ def _halved(points: Floats, quads: NDArray[Any]) -> NDArray[Any]:
 class Mesh:
     """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or, of vertices, the array given.
 
-    Points alone have triangles of shape (0, 3).
+    Points alone have triangles of shape (0, 3), or []. Vertices count from 0, in messages too.
     """
 
     def __init__(self, vertices: Any, triangles: Any) -> None:
         """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
-        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32, least=0)
+        none = isinstance(triangles, (list, tuple)) and len(triangles) == 0  # which has neither type nor columns
+        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", np.zeros((0, 3), np.int32) if none else triangles, [3], np.int32, least=0)
         if not np.isfinite(vert).all():
             raise refuse(f"vertices: vertex {int(np.argmin(np.isfinite(vert).all(axis=1)))} of {len(vert)} is not finite")
         tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
@@ -295,9 +296,17 @@ def warn_of_doubles(found: MeshCheck, name: str, effect: str = "") -> None:
         warn(f"{name} {found.doubles}{effect}")
 
 
-def mesh_check(path: Path) -> MeshCheck:
-    """What is this file's surface, and can it be trusted? Welded as the command does."""
-    return Mesh.read(path).check()
+def mesh_check(path: Path, *, weld: str = "auto", weld_tolerance: float = 1e-6) -> MeshCheck:
+    """What is this file's surface, and can it be trusted?"""
+    given = settled("mesh check", dict(weld=weld, weld_tolerance=weld_tolerance))
+    mode = choice("weld", given["weld"], c.KEYS["mesh check"]["weld"][5] or "")
+    refuse_idle(changed("mesh check", given), "clast_mesh_repair_idle", ctypes.byref(c.clast_mesh_repair_config(weld=mode)))
+    mesh = Mesh.read(path, weld=given["weld"] == "auto")
+    if given["weld"] == "within":
+        welded = c.clast_mesh()
+        check(call("clast_mesh_weld")(mesh._struct(), given["weld_tolerance"], ctypes.byref(welded), None))
+        mesh = Mesh._own(welded)
+    return mesh.check()
 
 
 def shape(path: Path, *, axes: str = "ellipsoid", hull: bool = False) -> Shape:

@@ -6,13 +6,15 @@ import os
 import re
 import reprlib
 from dataclasses import dataclass, field
-from typing import Any, Sequence
+from types import MappingProxyType
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Error, Fixed, Owner, call, check, choice, encoded, html_members, html_table, items, keys, note, refuse, settled, warn
+from ._core import (Config, Equal, Error, Fixed, Owner, call, changed, check, choice, encoded, html_members, html_table, items, note, refuse, refuse_idle, settled,
+                    warn)
 from ._grains import warn_of_rows
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
@@ -28,8 +30,8 @@ class Model(Fixed):
     source: str
     kind: str
     intercept: float
-    coefficients: dict[str, float]
-    ranges: dict[str, tuple[float, float]]
+    coefficients: Mapping[str, float]
+    ranges: Mapping[str, tuple[float, float]]
 
     def __init__(self, name: Path) -> None:
         struct = c.clast_porosity_model()
@@ -47,8 +49,9 @@ class Model(Fixed):
     def _keep(self, owner: Owner, struct: Any) -> None:
         self._owner, self._model = owner, struct
         vars(self).update(name=struct.name.decode(), source=struct.source.decode(), kind=call("clast_model_kind_name")(struct.kind).decode(),
-                          intercept=struct.intercept, coefficients={t.feature.decode(): t.coefficient for t in struct.term[:struct.n_term]},
-                          ranges={r.feature.decode(): (r.low, r.high) for r in struct.range[:struct.n_range]})
+                          intercept=struct.intercept,
+                          coefficients=MappingProxyType({t.feature.decode(): t.coefficient for t in struct.term[:struct.n_term]}),
+                          ranges=MappingProxyType({r.feature.decode(): (r.low, r.high) for r in struct.range[:struct.n_range]}))
 
     def write(self, path: Path) -> None:
         """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
@@ -62,8 +65,8 @@ class Model(Fixed):
         return html_table([(self.name, ""), ("intercept", self.intercept), *self.coefficients.items()], ("term", "coefficient"), self.source)
 
 
-@dataclass(frozen=True)
-class Prediction:
+@dataclass(frozen=True, eq=False)
+class Prediction(Equal):
     """Porosity of a bed by a linear model; errors are one standard error."""
 
     model: str
@@ -77,7 +80,7 @@ class Prediction:
     leverage: float = float("nan")
     kind: str = "single_form"
     source: str = ""
-    inputs: dict[str, Any] = field(default_factory=dict, hash=False)
+    inputs: dict[str, Any] = field(default_factory=dict)
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items() if not isinstance(v, (dict, tuple))})
@@ -101,14 +104,22 @@ def _choose(model: Model | Fit | Path, grading: str, has_spread: bool) -> Model:
     if isinstance(model, (Model, Fit)):
         return model if isinstance(model, Model) else model.model
     word = os.fsdecode(encoded("model", model))
-    choice("grading", grading, keys("predict")["grading"].choices or "")
-    if word not in ("auto", "single", "mixture"):
+    if not call("clast_porosity_model_by_grading")(word.encode("utf-8", "surrogateescape")):
         return Model(model)
     is_mixture = word == "mixture" or (word == "auto" and has_spread)
     name = f"{'form_mixture' if is_mixture else 'single_form'}_{grading}"
     if call("clast_porosity_model_find")(encoded("name", name)) < 0:
         raise refuse(f"grading: no form-mixture model was published for {grading}; take model='single', or U1 or U7")
     return Model(name)
+
+
+def _settled(model: Model | Fit | Path, has_table: bool, **given: Any) -> dict[str, Any]:
+    """The keywords of a prediction; refused where such a one does not look at them."""
+    values, word = settled("predict", given), None if isinstance(model, (Model, Fit)) else encoded("model", model)
+    takes_columns = has_table and _choose(model, values["grading"], False).kind == "columns"
+    asked = c.clast_predict_given(model=word, has_table=has_table, each=values["each"], takes_columns=takes_columns)
+    refuse_idle(changed("predict", values), "clast_porosity_predict_idle", ctypes.byref(asked))
+    return values
 
 
 def _prediction(model: Model, found: Any, inputs: Any, source: str) -> Prediction:
@@ -140,17 +151,17 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
         raise refuse("flatness: a table of grains; give it by its name, predict(table=...)")
     if (table is None) == (flatness is None and elongation is None):
         raise refuse("predict: give a table of grains, or flatness and elongation" + ("" if table is None else ", not both"))
+    given = _settled(model, table is not None, grading=grading, grains=grains, columns=columns, resamples=resamples, seed=seed)
     if table is None:
-        return _predict_moments(flatness, elongation, model, grading, grains)
+        return _predict_moments(flatness, elongation, model, given["grading"], given["grains"])
     owner, rows = Owner(c.clast_form_set(), "clast_form_set_free"), given_table("table", table)
-    if _choose(model, grading, False).kind == "columns":
+    if _choose(model, given["grading"], False).kind == "columns":
         raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
-    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", given["columns"]), ctypes.byref(owner.struct)))
     warn_of_rows(owner.struct)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     check(call("clast_form_inputs_of")(ctypes.byref(owner.struct), None, 0, ctypes.byref(inputs)))
-    chosen = _choose(model, grading, inputs.has_deviation)
-    given = settled("predict", dict(resamples=resamples, seed=seed))
+    chosen = _choose(model, given["grading"], inputs.has_deviation)
     bootstrap = c.clast_bootstrap(n_resample=given["resamples"], level=0.95, seed=given["seed"])
     check(call("clast_porosity_predict_set")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(bootstrap),
                                              ctypes.byref(inputs), ctypes.byref(found)))
@@ -166,8 +177,7 @@ def _predict_moments(flatness: Moments | None, elongation: Moments | None, model
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     mean = (ctypes.c_double * 2)(*(m for m, _ in pairs))
     deviation = (ctypes.c_double * 2)(*(d or 0.0 for _, d in pairs)) if pairs[0][1] is not None else None
-    count = settled("predict", dict(grains=grains))["grains"]
-    check(call("clast_form_inputs_from_moments")(mean, deviation, count, ctypes.byref(inputs)))
+    check(call("clast_form_inputs_from_moments")(mean, deviation, grains, ctypes.byref(inputs)))
     chosen = _choose(model, grading, inputs.has_deviation)
     check(call("clast_porosity_predict_moments")(ctypes.byref(chosen._model), ctypes.byref(inputs), ctypes.byref(found)))
     return _prediction(chosen, found, inputs, "moments")
@@ -179,14 +189,15 @@ def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str
     Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
     """
     rows, beds = given_table("table", table), Owner(c.clast_table(), "clast_table_free")
-    chosen = _choose(model, grading, False)
+    given = _settled(model, True, grading=grading, columns=columns, each=True)
+    chosen = _choose(model, given["grading"], False)
     if chosen.kind == "columns":
         check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
         if beds.struct.n_row < rows.struct.n_row:
             warn(f"{rows.struct.n_row - beds.struct.n_row} of {rows.struct.n_row} rows left out: missing or infinite")
         return table_of(beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
-    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", given["columns"]), ctypes.byref(owner.struct)))
     warn_of_rows(owner.struct)
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
     return table_of(beds)
@@ -238,6 +249,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     data, made = Owner(c.clast_fit_data(), "clast_fit_data_free"), Owner(c.clast_porosity_fit(), "clast_porosity_fit_free")
     choice("features", features, c.KEYS["fit"]["features"][5] or "")
     with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
+        refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), grains is not None)
         what = features if features != "auto" else "mixture" if grains is not None else \
             "form" if _has_forms(beds, config.struct.columns) else "columns"
         if (what == "mixture") != (grains is not None):

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, check, choice, encoded, fixed, html_table, quantity, refuse, settled, single, view,
-                    warn)
+from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, changed, check, choice, encoded, fixed, html_table, quantity, refuse,
+                    refuse_idle, settled, single, view, warn)
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
@@ -76,7 +76,7 @@ class Assembly(Fixed):
     unit: str
     positions: Floats
     orientations: Floats  #: quaternions w, x, y, z
-    scales: Floats
+    scales: Floats  #: factors on the shapes as they are kept: a radius of spheres that another program placed, a diameter of a run's; see lengths
     densities: Floats
     shape_ids: NDArray[np.int32]  #: which cannot be written either
 
@@ -124,6 +124,13 @@ class Assembly(Fixed):
         return len(self.positions)
 
     @property
+    def lengths(self) -> Floats:
+        """The greatest length of each grain, of a sphere its diameter, in `unit`."""
+        a = self._owner.struct
+        own = np.array([a.shape[k].length for k in range(a.n_shape)])
+        return np.asarray(self.scales * own[self.shape_ids] if len(own) else np.zeros(0), np.float64)
+
+    @property
     def volume(self) -> float:
         """Sum of the grains' own volumes."""
         return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
@@ -162,10 +169,7 @@ class Assembly(Fixed):
 
 def _placed(run: Path | Assembly, columns: str, diameter: Quantity, density: float) -> Assembly:
     """The grains of a run, a file of another program, or an assembly; those that came without densities get `density`."""
-    is_other = not isinstance(run, Assembly) and os.path.isfile(run) and not os.fsdecode(run).endswith(".h5")
-    if (columns or diameter) and not is_other:
-        raise refuse("columns, diameter: a run or an assembly knows its grains")
-    grains = run if isinstance(run, Assembly) else Assembly.read_spheres(run, columns=columns, diameter=diameter) if is_other else Assembly.read(run)
+    grains = run if isinstance(run, Assembly) else Assembly.read_spheres(run, columns=columns, diameter=diameter) if _is_other(run) else Assembly.read(run)
     if not density:
         return grains
     if not grains._owner.struct.no_density:
@@ -176,6 +180,11 @@ def _placed(run: Path | Assembly, columns: str, diameter: Quantity, density: flo
     return made
 
 
+def _is_other(run: Path | Assembly) -> bool:
+    """Whether another program wrote this file."""
+    return not isinstance(run, Assembly) and os.path.isfile(run) and not os.fsdecode(run).endswith(".h5")
+
+
 def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool = False, colour: str = "grain", table: str = "",
            unit: str = "", density: Quantity = 0.0, columns: str = "", diameter: Quantity = 0.0) -> dict[str, Any]:
     """Writes the grains of a run or of another program's file by the name's end, or one `table` of the run.
@@ -184,12 +193,18 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
     """
     given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit, density=density, columns=columns))
+    names = [*changed("export", given), *(["diameter"] if diameter else [])]
+    asked = c.clast_export_given(format=call("clast_export_format_of_path")(encoded("output", output)), has_table=bool(table),
+                                 is_run=not _is_other(run), points=given["points"])
+    refuse_idle(names, "clast_export_given_idle", ctypes.byref(asked))
     if table:
         if isinstance(run, Assembly):
             raise refuse("table: an assembly has none; give the run's folder")
         state_table(run, table).write(output)
         return {"file": os.fspath(output), "table": table}
     grains = _placed(run, given["columns"], single("diameter", diameter), given["density"])
+    asked.assembly = ctypes.pointer(grains._owner.struct)
+    refuse_idle(names, "clast_export_given_idle", ctypes.byref(asked))
     bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
     chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
     options = c.clast_export_options(level=given["level"], points=given["points"], colour=choice("colour", given["colour"], "grain|order|size|shape"),

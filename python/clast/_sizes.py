@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, Quantity, call, check, encoded, html_table, quantity, refuse, settled, size, view, whole
+from ._core import (Error, Floats, Owner, Quantity, call, changed, check, encoded, html_table, quantity, refuse, refuse_idle, settled, size, view,
+                    whole)
 from ._tables import Path, Table
 
 
@@ -34,8 +35,11 @@ class Grading:
         given = settled("grading", dict(spread=spread, count=count))
         kinds = [c.VALUES[f"CLAST_{name}_{given[name]}".upper()] for name in ("spread", "count")]
         curve, handle = Owner(c.clast_curve(), "clast_curve_free"), ctypes.c_void_p()
+        if isinstance(text, float) and not 0 < text < np.inf:
+            raise refuse(f"text: {text} m is no size of grains")
         name = encoded("text", size("text", text))
         check(call("clast_grading_load")(name, kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
+        refuse_idle(changed("grading", given), "clast_grading_idle", ctypes.byref(curve.struct), kinds[0])
         self._handle, self._curve, self._name = _Handle(handle), curve, os.fsdecode(name)
 
     def close(self) -> None:

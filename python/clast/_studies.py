@@ -152,6 +152,8 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
     are tried again.
     """
     for name, value in (("vary", vary), ("fix", fix)):
+        if hasattr(value, "columns"):
+            raise refuse(f"{name}: a table; give a dictionary of values, as {{'spheres': [5, 9]}}, or rows that go together by table='runs.csv'")
         if value is not None:
             keys[name] = _entries(run, name, value) if isinstance(value, dict) else value
     _check_keys(run, keys)

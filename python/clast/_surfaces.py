@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, encoded, refuse, settled, warn, whole
+from ._core import Config, Error, Owner, call, changed, check, encoded, refuse, refuse_idle, settled, warn, whole
 from ._mesh import Mesh, MeshCheck, warn_of_doubles
 from ._runs import Result
 from ._tables import Path
@@ -45,6 +45,7 @@ def mesh_repair(surface: Surface, *, output: Path | None = None, **keys: Any) ->
     """Makes a surface closed, oriented and manifold where it can; tells each change, and in `check` what it is now."""
     made, report, given = c.clast_mesh(), c.clast_mesh_repair_report(), _read(surface, weld=False)
     with Config(c.clast_mesh_repair_config(), "clast_mesh_repair_fields", keys) as config:
+        refuse_idle(config.changed(), "clast_mesh_repair_idle", ctypes.byref(config.struct))
         check(call("clast_mesh_repair")(given._struct(), ctypes.byref(config.struct), ctypes.byref(made),
                                         ctypes.byref(report)))
     mesh = Mesh._own(made)
@@ -151,6 +152,7 @@ def mesh_synthesize(index: int = 0, *, output: Path | None = None, **keys: Any) 
     index = whole("index", index, 0, 2**64 - 1)
     struct, report = c.clast_mesh(), c.clast_synthesize_report()
     with Config(c.clast_synthesize_config(), "clast_synthesize_fields", keys) as config:
+        refuse_idle(config.changed(), "clast_synthesize_idle", ctypes.byref(config.struct))
         check(call("clast_synthesize_grain")(ctypes.byref(config.struct), index, ctypes.byref(struct), ctypes.byref(report)))
     return _keep(Mesh._own(struct), _numbers(report), output)
 
@@ -163,6 +165,7 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):
         raise refuse(f"unit: is missing; {'out_unit needs it' if out_unit else '3MF is in millimetres'}")
+    refuse_idle(changed("mesh convert", wanted), "clast_mesh_write_idle", of_path)
     factor, out_unit = wanted["scale"], out_unit or unit
     if unit and unit != out_unit:
         factor *= _metres(unit) / _metres(out_unit)

@@ -129,6 +129,7 @@ def _columns_of(name: str, value: Any) -> dict[str, NDArray[Any]]:
     if names is None:
         raise refuse(f"{name}: a {type(value).__name__} where a file, a structured array, a DataFrame or a dictionary of columns is wanted")
     found = {str(column): np.asarray(unmasked(f"{name}: column {column}", value[column])) for column in names}
+    found = {column: values.astype(str) if values.dtype.kind in "mM" else values for column, values in found.items()}  # times are texts
     for column, values in found.items():
         if values.ndim != 1 or values.dtype.kind not in "fiubUSO":
             raise refuse(f"{name}: column {column} of shape {values.shape} and type {values.dtype} is neither numbers nor texts")

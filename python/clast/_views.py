@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Fixed, Monitor, Owner, Progress, call, check, encoded, refuse, view
+from ._core import Config, Fixed, Monitor, Owner, Progress, call, check, encoded, refuse, refuse_idle, view
 from ._runs import Assembly
 from ._tables import Path
 
@@ -28,6 +28,8 @@ class Picture(Fixed):
 
     def write(self, path: Path) -> None:
         """Writes a PNG file, whole or not at all."""
+        if not os.fsdecode(encoded("path", path)).lower().endswith(".png"):
+            raise refuse(f"path: {os.fspath(path)}: a picture is written as .png")
         check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), encoded("path", path)))
 
     def __repr__(self) -> str:
@@ -46,6 +48,7 @@ def render(run: Path | Assembly, *, progress: Progress = None, **keys: Any) -> P
     grains = run if isinstance(run, Assembly) else Assembly.read(run)
     owner, monitor = Owner(c.clast_image(), "clast_image_free"), Monitor(progress)
     with Config(c.clast_render_config(), "clast_render_fields", keys) as config:
+        refuse_idle(config.changed(), "clast_render_idle", ctypes.byref(config.struct))
         check(monitor.run(lambda m: call("clast_render_assembly")(ctypes.byref(grains._owner.struct), ctypes.byref(config.struct), m,
                                                                   ctypes.byref(owner.struct))))
     return Picture(owner)

@@ -107,14 +107,14 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(params., max_tries, 100, 1, 1e6,
           "new axes tried when every ray misses the aggregate (ballistic: 1000 lines for each)"),
     CHOICE(params., approach, 0, "central|ballistic|diffusive",
-           "along rays to the origin (published), on lines over the cross-section, by random walk",
+           "how particles come: along rays to the origin (published), on lines over the "
+           "cross-section, by random walk",
            .common = true),
     NUMBER(params., walk_step, 0.1, 1e-4, 1, "-",
            "diffusive: least step of the walk, in radii of the smallest thrown grain"),
 
     CHOICE(params., contact, 0, "exact|spheres|march",
-           "first touch of true surfaces, of sphere composites, "
-           "or the published march",
+           "first touch of: true surfaces, sphere composites, or the published march",
            .common = true, .group = "contact"),
     CHOICE(params., flavour, 0, "release|figures", "the published engine that march repeats"),
     NUMBER(params., march_coarse, 0, 0, 10, "-",

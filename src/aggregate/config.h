@@ -23,7 +23,7 @@ clast_status clx_aggregate_params_check(const clast_aggregate_params *params,
 
 /// Refuses the first option that a run by the others would not look at. Of new runs alone: one that
 /// goes on has the options that it has. What a file brings for a run of another kind is noted.
-CLX_SHARED clast_status clx_aggregate_idle(const clast_aggregate_config *config,
+CLX_SHARED clast_status clx_aggregate_idle(const clast_aggregate_config *config, bool has_folder,
                                            const clast_monitor *monitor);
 
 /// Refuses a printable body that cannot be: of clusters left apart, or of necks that the grid

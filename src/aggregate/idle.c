@@ -118,15 +118,29 @@ static clast_status check_results(const clast_aggregate_config *c)
     return clx_fields_idle(clast_aggregate_fields, c, rules);
 }
 
+static bool has_composites(const clast_aggregate_params *p)
+{
+    return p->contact != CLAST_CONTACT_EXACT || has_envelope(&p->envelope, "sphere_");
+}
+
+/// What is for the folder of a run, where there is none.
+static clast_status check_folder(const clast_aggregate_config *c, bool has_folder)
+{
+    const clast_idle rules[] = {{!has_folder, "fall_speed|printable|neck|spacing", "without -o"},
+                                {!has_folder && !has_composites(&c->params),
+                                 "core_spheres|coat_spheres",
+                                 "without -o, contact spheres or march, or an envelope of spheres"},
+                                {0}};
+    return clx_fields_idle(clast_aggregate_fields, c, rules);
+}
+
 /// What a file for march, composites or many repeats brings to a run of true surfaces or of one
 /// aggregate is told, not refused: one file serves both.
 static void note_idle(const clast_aggregate_config *c, const clast_monitor *monitor)
 {
-    const bool has_composites =
-        c->params.contact != CLAST_CONTACT_EXACT || has_envelope(&c->params.envelope, "sphere_");
     const clast_idle rules[] = {
         {c->params.contact != CLAST_CONTACT_MARCH, "flavour", "without contact march"},
-        {!has_composites, "fill|fill_spheres",
+        {!has_composites(&c->params), "fill|fill_spheres",
          "without contact spheres or march, or an envelope of spheres"},
         {!fills_some(c), "fill|fill_spheres", "where every shape comes with its spheres"},
         {c->repeats == 1, "confidence", "without repeats"},
@@ -143,13 +157,15 @@ static void note_idle(const clast_aggregate_config *c, const clast_monitor *moni
     }
 }
 
-clast_status clx_aggregate_idle(const clast_aggregate_config *config, const clast_monitor *monitor)
+clast_status clx_aggregate_idle(const clast_aggregate_config *config, bool has_folder,
+                                const clast_monitor *monitor)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(check_shapes(config));
     CLX_TRY(check_sizes(config));
     CLX_TRY(check_growth(config));
     CLX_TRY(check_results(config));
+    CLX_TRY(check_folder(config, has_folder));
     note_idle(config, monitor);
 done:
     return status;

@@ -1,9 +1,8 @@
 #pragma once
 // The range check of configurations that callers fill themselves.
-#include <clast/status.h>
+#include "base/status.h"
 
 typedef struct clast_field clast_field;
-typedef struct clast_idle clast_idle;
 
 /// As clast_unit_parse_asked; the spelling it names is the one nearest to a typical value [SI], 0:
 /// none is known.
@@ -23,5 +22,8 @@ clast_status clx_fields_check_part(const clast_field *fields, size_t begin, size
 
 /// Refuses the first idle field (clast_fields_idle): "walk_step does nothing without approach
 /// diffusive".
-clast_status clx_fields_idle(const clast_field *fields, const void *config,
-                             const clast_idle *rules);
+CLX_SHARED clast_status clx_fields_idle(const clast_field *fields, const void *config,
+                                        const clast_idle *rules);
+
+/// The rules [CLAST_N_IDLE], copied to where a caller wants them.
+CLX_SHARED const clast_idle *clx_idle_copy(const clast_idle *made, clast_idle *rules);

@@ -78,3 +78,9 @@ clast_status clx_fields_idle(const clast_field *fields, const void *config, cons
     return idle == NULL ? CLAST_OK
                         : clx_fail(CLAST_E_CONFIG, "%s does nothing %s", idle->name, why);
 }
+
+const clast_idle *clx_idle_copy(const clast_idle *made, clast_idle *rules)
+{
+    memcpy(rules, made, CLAST_N_IDLE * sizeof *made);
+    return rules;
+}

@@ -90,7 +90,8 @@ const clast_field clast_decompose_fields[] = {
      "what events are counted by; auto: tree cells, and pairs by distance where cells do not "
      "resolve the cloud",
      "cells|pairs|auto"},
-    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-",
+     "seed of every draw (ghost points, samples, collisions)", NULL, .common = true,
      .group = "random numbers"},
     {0}};
 #undef FIELD

@@ -339,12 +339,13 @@ static clast_status cell_text(const cell *x, char **text)
 static bool is_unit(const char *name, size_t n, char unit[32])
 {
     static const char *const known[] = {
-        "m",    "cm",     "mm",    "um",     "\xc2\xb5m", "\xce\xbcm", "nm",   "km",   "rad",
-        "deg",  "kg",     "g",     "mg",     "t",         "s",         "ms",   "us",   "min",
-        "h",    "kg/m^3", "kg/m3", "g/cm^3", "g/cm3",     "m/s",       "cm/s", "mm/s", "m/s^2",
-        "m/s2", "Pa",     "kPa",   "MPa",    "GPa",       "Pa*s",      "K",    "J",    "N",
-        "N/m",  "%",      "-",     "phi",    "1/s",       "m^2",       "m2",   "m^3",  "m3",
-        "mm^3", "mm3",    "um^3",  "um3",    "mm2",       "um2"};
+        "m",     "cm",     "mm",    "um",     "\xc2\xb5m", "\xce\xbcm", "nm",   "km",    "rad",
+        "deg",   "kg",     "g",     "mg",     "t",         "s",         "ms",   "us",    "min",
+        "h",     "kg/m^3", "kg/m3", "g/cm^3", "g/cm3",     "m/s",       "cm/s", "mm/s",  "m/s^2",
+        "m/s2",  "Pa",     "kPa",   "MPa",    "GPa",       "Pa*s",      "K",    "J",     "N",
+        "N/m",   "%",      "-",     "phi",    "1/s",       "m^2",       "m2",   "m^3",   "m3",
+        "mm^3",  "mm3",    "um^3",  "um3",    "mm2",       "um2",       "1/m",  "1/m^2", "1/m2",
+        "1/m^3", "1/m3",   "m^5",   "m5"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
         if (strlen(known[i]) == n && memcmp(known[i], name, n) == 0) {
             (void)snprintf(unit, 32, "%s", known[i]);

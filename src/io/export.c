@@ -2,6 +2,7 @@
 #include "io/export.h"
 
 #include "assembly/whole.h"
+#include "base/field.h"
 #include "base/number.h"
 #include "base/path.h"
 #include "base/status.h"
@@ -287,4 +288,39 @@ clast_status clast_pvd_write(const char *path, int64_t n, const double *time,
 done:
     clx_file_abandon(&file);
     return status;
+}
+
+/// Whether some surface is made from a formula, and shows how finely.
+static bool has_round(const clast_assembly *assembly)
+{
+    bool has = assembly == NULL;
+    for (int32_t i = 0; assembly != NULL && i < assembly->n_shape; ++i) {
+        has = has || assembly->shape[i].mesh.n_tri == 0;
+    }
+    return has;
+}
+
+const clast_idle *clast_export_given_idle(const clast_export_given *given, clast_idle *rules)
+{
+    if (given == NULL || rules == NULL ||
+        (given->assembly != NULL && clx_assembly_fault(given->assembly) != NULL)) {
+        return NULL;
+    }
+    const clast_export_format format = given->format;
+    const bool is_ply = format == CLAST_EXPORT_PLY;
+    const bool is_surface = is_ply || format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ ||
+                            format == CLAST_EXPORT_3MF;
+    const bool is_bare = is_surface || format == CLAST_EXPORT_TXT || format == CLAST_EXPORT_VORO ||
+                         format == CLAST_EXPORT_XYZD;
+    const clast_idle made[CLAST_N_IDLE] = {
+        {given->has_table, "level|points|colour|unit|density|columns|diameter", "with --table"},
+        {is_bare, "density",
+         "in a file without densities: .data, .dump, .conf, .csv, .json and .vtu have them"},
+        {!is_surface && format != CLAST_EXPORT_VTU, "level",
+         "in a file without surfaces: .stl, .obj, .ply, .3mf and .vtu have them"},
+        {given->points, "level", "with --points: they have no surfaces"},
+        {!is_ply, "colour", "but in a .ply"},
+        {given->is_run, "columns|diameter", "with a run, which knows its grains"},
+        {!has_round(given->assembly), "level", "without spheres and ellipsoids"}};
+    return clx_idle_copy(made, rules);
 }

@@ -5,6 +5,7 @@
 #include "io/grains_file.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/file.h"
 #include "base/monitor.h"
 #include "base/parallel.h"
@@ -12,6 +13,7 @@
 #include "geom/check.h"
 #include "io/spheres_table.h"
 #include <clast/cloud.h>
+#include <clast/field.h>
 #include <clast/form.h>
 #include <clast/harmonics.h>
 #include <clast/mesh.h>
@@ -570,4 +572,26 @@ done:
     clx_free(task);
     clast_grains_free(&made);
     return status;
+}
+
+/// What the files hold may be known before they are read, where the kind is named.
+const clast_idle *clast_grains_idle(const clast_grains_options *o, uint32_t kinds,
+                                    clast_idle *rules)
+{
+    if (o == NULL || rules == NULL) {
+        return NULL;
+    }
+    const bool is_named = o->kind != CLAST_GRAINS_AUTO;
+    const char *const why = is_named ? "with this --kind" : "with files of these kinds";
+    const uint32_t may_be = is_named ? 1U << o->kind : kinds != 0 ? kinds : UINT32_MAX;
+    const clast_idle made[CLAST_N_IDLE] = {
+        {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
+        {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
+        {(may_be & 1U << CLAST_GRAINS_VOXELS) == 0,
+         "voxels|voxel_edge|dataset|threshold|least_voxels", why},
+        {(may_be & 1U << CLAST_GRAINS_TABLE) == 0, "columns", why},
+        {may_be == 1U << CLAST_GRAINS_TABLE, "axes|hull|surfaces", why},
+        {o->volume.n[0] == 0, "voxel_type|big_endian|skip",
+         "without --voxels: other volumes have a header"}};
+    return clx_idle_copy(made, rules);
 }

@@ -1,8 +1,10 @@
 // Surfaces to OBJ, PLY and OFF: the same doubles come back from each.
+#include "base/field.h"
 #include "base/file.h"
 #include "base/number.h"
 #include "io/bytes.h"
 #include "io/mesh_io.h"
+#include <clast/field.h>
 #include <stdio.h>
 
 static const char *unit_of(const clast_mesh_write_options *options)
@@ -94,4 +96,15 @@ clast_status clx_ply_write(const clast_mesh *mesh, const clast_mesh_write_option
     }
 done:
     return status;
+}
+
+const clast_idle *clast_mesh_write_idle(clast_mesh_format format, clast_idle *rules)
+{
+    if (rules == NULL) {
+        return NULL;
+    }
+    const clast_idle made[CLAST_N_IDLE] = {
+        {format == CLAST_MESH_PLY || format == CLAST_MESH_OFF, "name",
+         "with .ply and .off: STL, OBJ and 3MF name their part"}};
+    return clx_idle_copy(made, rules);
 }

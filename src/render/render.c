@@ -2,6 +2,7 @@
 #include <clast/render.h>
 
 #include "assembly/whole.h"
+#include "base/field.h"
 #include "base/monitor.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
@@ -43,7 +44,7 @@ const clast_field clast_render_fields[] = {
      "white|transparent|black", .common = true, .group = "ground, cut and bars"},
     {FIELD(CLAST_FIELD_BOOL, ground), 0, 0, 1, "-", "shadow on a plane under the grains", NULL},
     {FIELD(CLAST_FIELD_CHOICE, cut), 0, 0, 0, "-",
-     "cut away the half nearer to the viewer by a plane across this axis", "none|x|y|z|view",
+     "cut away the half nearer to the viewer: by a plane across this axis", "none|x|y|z|view",
      .common = true},
     {FIELD(CLAST_FIELD_F64, cut_position), 0.5, 0.0, 1.0, "-",
      "place of the cut in the extent along its axis", NULL},
@@ -60,6 +61,18 @@ const clast_field clast_render_fields[] = {
     {FIELD(CLAST_FIELD_F64, ambient), 0.45, 0.0, 1.0, "-", "share of the light from the sky", NULL},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1e18, "-", "of the samples' shifts", NULL},
     {0}};
+
+const clast_idle *clast_render_idle(const clast_render_config *c, clast_idle rules[CLAST_N_IDLE])
+{
+    if (c == NULL || rules == NULL) {
+        return NULL;
+    }
+    const clast_idle made[CLAST_N_IDLE] = {
+        {c->projection == CLAST_RENDER_ORTHOGRAPHIC, "field_of_view",
+         "without --projection perspective"},
+        {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"}};
+    return clx_idle_copy(made, rules);
+}
 
 typedef struct {
     const clx_shader *shader;

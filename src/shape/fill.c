@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/field.h"
 #include "base/monitor.h"
 #include "base/number.h"
 #include "base/status.h"
@@ -59,6 +60,21 @@ const clast_field clast_fill_fields[] = {
     {FIELD(TEXT, history), 0, 0, 0, CLAST_UNIT_OUTPUT,
      "write the errors after each sphere to this CSV", "", .common = true},
     {0}};
+
+/// Of the strategies each has options of its own.
+const clast_idle *clast_fill_idle(const clast_fill_config *c, clast_idle rules[CLAST_N_IDLE])
+{
+    if (c == NULL || rules == NULL) {
+        return NULL;
+    }
+    const bool is_largest = c->strategy == CLAST_FILL_LARGEST;
+    const clast_idle made[CLAST_N_IDLE] = {
+        {c->overlap, "tolerance", "with --overlap"},
+        {is_largest, "candidates|first_at_centre|max_tries|seed", "with --strategy largest"},
+        {!is_largest, "tolerance|min_share", "without --strategy largest"},
+        {!c->outer, "shrink", "without --outer"}};
+    return clx_idle_copy(made, rules);
+}
 
 enum { DEFAULT_SPHERES = 300, BOUNDED_SPHERES = 100000 };
 

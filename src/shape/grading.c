@@ -7,11 +7,13 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/status.h"
 #include "math/rng.h"
 #include "math/special.h"
 #include "shape/curve.h"
 #include "shape/whole.h"
+#include <clast/field.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -600,4 +602,18 @@ double clast_grading_mass_size(const clast_grading *grading, double share)
     }
     return grading->kind == LAW_PIECES ? pieces_size(grading, true, share)
                                        : law_size(grading, true, share);
+}
+
+/// Laws and lists have no classes to spread sizes in.
+const clast_idle *clast_grading_idle(const clast_curve *curve, clast_grading_spread spread,
+                                     clast_idle *rules)
+{
+    if (rules == NULL) {
+        return NULL;
+    }
+    const clast_idle made[CLAST_N_IDLE] = {
+        {spread == CLAST_SPREAD_MEANS, "count", "with --spread means"},
+        {curve != NULL && curve->n_class == 0, "spread|count",
+         "with sizes that are no sieve curve"}};
+    return clx_idle_copy(made, rules);
 }

@@ -21,6 +21,7 @@ clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres)
     CLX_ARGUMENTS(spheres);
     clast_status status = CLAST_OK;
     clast_spheres made = {.n = n};
+    CLX_CHECK(n >= 0, CLAST_E_ARGUMENT, "a set of %d spheres", n);
     CLX_TRY(clx_alloc(&made.centre, n, sizeof *made.centre));
     CLX_TRY(clx_alloc(&made.radius, n, sizeof *made.radius));
     *spheres = made;

@@ -8,6 +8,7 @@
 #include <clast/harmonics.h>
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "math/vec3.h"
 #include "shape/random_field.h"
 #include <clast/form.h>
@@ -38,7 +39,7 @@ const clast_field clast_synthesize_fields[] = {
      "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", NULL, .common = true,
      .group = "size"},
     {FIELD(measure), CLAST_FIELD_CHOICE, CLAST_ROUGH_ANGULARITY, 0, 2, "-",
-     "what `rough` is: amplitude of ln r, or the finished grain's measured normal roundness or "
+     "what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or "
      "angularity",
      "amplitude|normal_roundness|angularity", .common = true, .group = "roughness"},
     {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", NULL, .common = true},
@@ -54,6 +55,19 @@ const clast_field clast_synthesize_fields[] = {
     {0}};
 #undef FIELD
 #undef FORM
+
+const clast_idle *clast_synthesize_idle(const clast_synthesize_config *c,
+                                        clast_idle rules[CLAST_N_IDLE])
+{
+    if (c == NULL || rules == NULL) {
+        return NULL;
+    }
+    const bool is_amplitude = c->measure == CLAST_ROUGH_AMPLITUDE;
+    const clast_idle made[CLAST_N_IDLE] = {
+        {is_amplitude, "tolerance", "with --measure amplitude, which is met as it is"},
+        {is_amplitude && c->rough == 0.0, "decay", "with --rough 0"}};
+    return clx_idle_copy(made, rules);
+}
 
 /// A grain being made.
 typedef struct {

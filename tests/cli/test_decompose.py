@@ -178,6 +178,16 @@ class Decompose(Case):
             r = clast("decompose", self.folder / "u.csv", "--domain", "box:0,0,0,1,1,1", "--mesh", mesh, "--json").json
             self.assertLess(abs(r["pair_integral"] / expected - 1.0), 0.02)
 
+    def test_all_particles_are_the_cap_at_any_rate(self):
+        # the square of 1e300 is infinite: "no number of events: points lie closer together than cells of this domain can tell"
+        random.seed(1)
+        points = self.folder / "even.csv"
+        write_points(points, [[random.random() for _ in range(3)] for _ in range(800)])
+        for rate in ("1e3", "1e300"):
+            r = clast("decompose", points, "--domain", "box:0,0,0,1,1,1", "--beta-dt", rate, "--json").json
+            self.assertEqual((r["events"], r["events_high"], r["n_capped"]), (400, 400, 1))
+            self.assertAlmostEqual(r["events_low"], 373.22, places=2)
+
     def test_published_estimate_is_biased_in_3d_and_says_so(self):
         random.seed(7)
         points = [[random.random() for _ in range(3)] for _ in range(1000)]
@@ -311,6 +321,7 @@ class Decompose(Case):
     def test_bad_input_is_one_line(self):
         file = DATA / "points_u2_n50.csv"
         self.assert_fails(2, "decompose", file, says=["--domain", "never guessed"])
+        self.assert_fails(2, "decompose", file, "--domain", "", says=["--domain has an empty value; give one"])
         self.assert_fails(2, "decompose", file, "--domain", "box:0,0,1", says=["domain 'box:0,0,1'"])
         self.assert_fails(2, "decompose", file, "--domain", "sphere:1", says=["3 dimensions", "2"])
         self.assert_fails(3, "decompose", file, "--domain", "box:0,0,0.5,0.5", says=["50 points lie outside", "--outside drop"])
@@ -327,8 +338,8 @@ class Decompose(Case):
         self.assert_fails(2, *command, "--dataset", "a", says=["dataset a: arrays are those of an HDF5 file", "points_u2_n50.csv"])
         self.assert_fails(2, *command, "--test-only", "--variant", "fast", says=["--test-only is --variant test"])
         for option in (["--pairs"], ["--mesh", "tree"], ["--beta-dt", "1"], ["--sizes", "2", "-o", self.folder / "o"], ["--crossfit"]):
-            self.assert_fails(2, *command, *option, "--test-only", says=[f"{option[0]} does nothing with --test-only"])
-            self.assert_fails(2, *command, *option, "--variant", "test", says=[f"{option[0]} does nothing with --variant test"])
+            for tests in (["--test-only"], ["--variant", "test"]):
+                self.assert_fails(2, *command, *option, *tests, says=[f"{option[0]} does nothing with --test-only or --variant test"])
         other = ["agglomerate", DATA / "points_u2_n50.csv", "--domain", "box:0,0,1,1", "--kernel", "constant", "--constant", "1e-5",
                  "--duration", "1s"]
         for line in (command, other):

@@ -42,6 +42,7 @@ class Frame(Case):
 
     def test_unknown_option_names_the_nearest(self):
         self.assert_fails(2, "completion", "--shel", "bash", says=["--shel", "did you mean --shell"])
+        self.assert_fails(2, "aggregate", "--core-sise", "270um", says=["did you mean --core-size?"])  # as typed; it was --core_size
 
     def test_wrong_choice_lists_the_choices(self):
         self.assert_fails(2, "completion", "--shell", "fish", says=["bash|zsh"])

@@ -121,7 +121,7 @@ class Writer:
         null = f"null == {k} ? NULL : "
         if not pointer:
             return [f"{a.type} a{k} = {{0}};" if a.type in self.h.structs else f"{a.type} a{k};", self.value(a, f"a{k}", name)], f"a{k}", []
-        if a.type == "clast_idle":  # a list that ends with {0}
+        if a.type == "clast_idle" and a.is_const:  # a list that ends with {0}
             return [], f'{null}(const clast_idle[]){{{{true, "level|domain", "here"}}, {{0}}}}', []
         if a.type == "clast_field":
             return [], f"{null}clast_decompose_fields", []

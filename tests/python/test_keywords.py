@@ -13,11 +13,11 @@ import unittest
 
 import clast
 import loud
+import numpy as np
 from clast import _bindings, _functions
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SKIPPED = {  # keys of the command that the function does not have, and why
-    "mesh check": {"weld", "weld_tolerance"},  # Mesh.read(weld=...), mesh_repair(weld=...)
     "mesh synthesize": {"count", "force"},  # one grain a call: index
     "shape": {"statistics", "resamples", "seed", "force"},  # Grains.statistics
     "fill": {"name", "history"},  # Spheres.write, Spheres.history
@@ -124,6 +124,117 @@ cells: int = clast.decompose([[0.0, 0.0]], domain="box:0,0,1,1", mesh="tree").n_
             words = "import numpy, time; t = time.process_time(); import clast; print(time.process_time() - t)"
             took = [float(subprocess.run([sys.executable, "-c", words], env=env, check=True, stdout=subprocess.PIPE).stdout) for _ in range(4)]
         self.assertLess(min(took[1:]), 0.15)  # s of this process beyond NumPy's
+
+
+BOX = dict(concentration=1e12, kernel="constant", constant=1e-15, duration=1.0)
+CLOUD = dict(domain="box:0,0,0,1,1,1", kernel="constant", constant=1e-5, duration="1s", n_step=1)
+
+
+class Idle(unittest.TestCase):
+    """A keyword that a call would not look at is refused by name, by the rules of the command."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.grain = clast.Mesh.ellipsoid((3, 2, 1), 2)
+        cls.file = os.path.join(cls.folder.name, "grain.stl")
+        cls.grain.write(cls.file)
+        cls.forms = {"flatness": [0.5, 0.6, 0.7, 0.55], "elongation": [0.6, 0.8, 0.7, 0.75]}
+        cls.beds = {"porosity": [0.4, 0.41, 0.43, 0.42, 0.45, 0.44], "a": [1.0, 2, 3, 4, 5, 6], "b": [2.0, 1, 4, 3, 6, 5]}
+        cls.beds = {name: np.tile(column, 3) + 0.01 * np.arange(18) * (name != "b") for name, column in cls.beds.items()}
+        cls.points = np.random.default_rng(1).random((200, 3))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def refused(self, name, why, function, /, *args, **keywords):
+        with self.subTest(function=function.__name__, name=name), self.assertRaisesRegex(clast.Error, f"^{name} does nothing {why}") as caught:
+            function(*args, **keywords)
+        if hasattr(caught, "exception"):
+            self.assertEqual(caught.exception.code, "CLAST_E_CONFIG")
+
+    def test_models(self):
+        of_two = clast.fit(self.beds, use="a,b", features="columns").model
+        for keywords, name, why in ((dict(model="single_form_U1", grading="U7"), "grading", "with this model"),
+                                    (dict(columns="a,b"), "columns", "without a table"), (dict(resamples=9), "resamples", "without a table"),
+                                    (dict(seed=4), "seed", "without a table")):
+            self.refused(name, why, clast.predict, 0.6, 0.7, **keywords)
+        self.refused("grains", "with a table", clast.predict, table=self.forms, grains=55)
+        self.refused("grading", "with this model", clast.predict, table=self.forms, model=clast.Model("single_form_U1"), grading="U7")
+        self.refused("grading", "with this model", clast.predict_beds, self.forms, model="single_form_B50", grading="B50")
+        self.refused("columns", "with a model of a table's own columns", clast.predict_beds, self.beds, model=of_two, columns="a,b")
+        self.refused("n_term", "with use", clast.fit, self.beds, features="columns", use="a,b", n_term=3)
+        self.refused("score", "with use", clast.fit, self.beds, features="columns", use="a,b", score="median")
+        self.refused("group", "without grains", clast.fit, self.beds, features="columns", group="zz")
+        self.assertGreater(clast.predict(0.6, 0.7, grading="U1", seed=1, columns="", grains=0).porosity, 0.3)  # defaults are no mistakes
+
+    def test_surfaces(self):
+        largest, random = "with strategy largest", "without strategy largest"
+        for keywords, name, why in ((dict(seed=4), "seed", largest), (dict(candidates=5), "candidates", largest), (dict(max_tries=3), "max_tries", largest),
+                                    (dict(first_at_centre=False), "first_at_centre", largest), (dict(strategy="random", tolerance=0.1), "tolerance", random),
+                                    (dict(strategy="random", min_share=0.1), "min_share", random), (dict(shrink=0.1), "shrink", "without outer"),
+                                    (dict(overlap=True, tolerance=0.1), "tolerance", "with overlap")):
+            self.refused(name, why, clast.fill, self.grain, spheres=2, **keywords)
+        for keywords, name, why in ((dict(weld_tolerance=0.05), "weld_tolerance", "without weld within"), (dict(fill=False, fill_size=0.1), "fill_size", "with"),
+                                    (dict(split=False, split_tolerance=1e-3), "split_tolerance", "with")):
+            self.refused(name, why, clast.mesh_repair, self.file, **keywords)
+        self.refused("weld_tolerance", "without weld within", clast.mesh_check, self.file, weld_tolerance=1e-3)
+        self.refused("name", "with .ply and .off", clast.mesh_convert, self.grain, os.path.join(self.folder.name, "z.ply"), name="foo")
+        self.refused("tolerance", "with measure amplitude", clast.mesh_synthesize, measure="amplitude", rough=0, tolerance=0.1)
+        self.refused("decay", "with rough 0", clast.mesh_synthesize, measure="amplitude", rough=0, decay=2)
+        for keywords, why in ((dict(voxel_type="u16"), "without voxels"), (dict(big_endian=True), "without voxels"), (dict(skip=12), "without voxels"),
+                              (dict(level=2), "with files of these kinds"), (dict(spacing=2), "with files of these kinds"),
+                              (dict(threshold=2), "with files of these kinds"), (dict(columns="L,I,S"), "with files of these kinds"),
+                              (dict(degree=3, kind="surface"), "with this kind")):
+            self.refused(next(iter(keywords)), why, clast.shapes, self.file, **keywords)
+
+    def test_clouds(self):
+        x, cube = self.points, "box:0,0,0,1,1,1"
+        tests = "with test_only or variant test"
+        for keywords, name, why in (
+                (dict(regular=3), "regular", "without sizes"), (dict(test_only=True, mesh="tree"), "mesh", tests), (dict(test_only=True, beta_dt=1.0), "beta_dt", tests),
+                (dict(variant="test", crossfit=True), "crossfit", tests), (dict(test_only=True, pairs=True), "pairs", tests),
+                (dict(test_only=True, sizes=2), "sizes", tests), (dict(mesh="tree", lower="search"), "lower", "with cells of the tree"),
+                (dict(strict=True), "strict", "with cells of the tree"), (dict(max_pass=3), "max_pass", "with cells of the tree"),
+                (dict(mesh="boxes", tree_level=0.1), "tree_level", "with cells of bins"), (dict(mesh="boxes", tree_least=9), "tree_least", "with cells of bins"),
+                (dict(mesh="boxes", pairs_radius=0.1), "pairs_radius", "without pairs"), (dict(variant="fast", max_pass=3), "max_pass", "with this variant"),
+                (dict(variable_tolerance=1.0), "variable_tolerance", "without variable")):
+            self.refused(name, why, clast.decompose, x, domain=cube, **keywords)
+        with self.assertRaisesRegex(clast.Error, "^test_only is variant test: leave variant out"):
+            clast.decompose(x, domain=cube, test_only=True, variant="fast")
+        self.assertIsNotNone(clast.decompose(x, domain=cube, test_only=True, variant="test").reject)
+        clast.decompose(x, domain=cube, variable=x[:, 0], variable_tolerance=1.0)
+        for keywords, name, why in (
+                (dict(leap=0.5), "leap", "without collisions poisson"), (dict(self_collisions=True), "self_collisions", "without weight"),
+                (dict(change_level=0.3), "change_level", "with one snapshot"), (dict(rebuild="always"), "rebuild", "with one snapshot"),
+                (dict(strict=True), "strict", "with cells of the tree")):
+            self.refused(name, why, clast.agglomerate, x, **CLOUD, **keywords)
+        self.refused("change_level", "with this rebuild", clast.agglomerate, x, x, **CLOUD, rebuild="always", change_level=0.3)
+        for keywords, name, why in (
+                (dict(solver="sectional", seed=4), "seed", "with this solver"), (dict(source_size=3), "source_size", "without source"),
+                (dict(fragment_exponent=0.3), "fragment_exponent", "without breakage_rate"), (dict(leap=0.5), "leap", "without collisions poisson"),
+                (dict(breakage_exponent=0.2), "breakage_exponent", "without breakage_rate"), (dict(tolerance=1e-3), "tolerance", "with this solver"),
+                (dict(initial_sd=2), "initial_sd", "without initial lognormal")):
+            self.refused(name, why, clast.box_model, **BOX, **keywords)
+
+    def test_sizes_pictures_and_runs(self):
+        self.refused("spread", "with sizes that are no sieve curve", clast.Grading, "4mm", spread="linear")
+        self.refused("count", "with spread means", clast.Grading, "U7", spread="means", count="exact")
+        made = clast.aggregate(core="sphere", core_size="20um", coat="sphere", size="5um", replicate=2, output=os.path.join(self.folder.name, "run")).run
+        self.refused("field_of_view", "without projection perspective", clast.render, made, field_of_view=0.5)
+        self.refused("cut_position", "without cut", clast.render, made, cut_position=0.4)
+        few = dict(core="sphere", core_size="20um", coat="sphere", size="5um", replicate=2)
+        for keywords, name in ((dict(printable=True), "printable"), (dict(fall_speed=True), "fall_speed")):
+            self.refused(name, "without output", clast.aggregate, **few, **keywords)
+        self.refused("keep", "without output", clast.evolve, domain="box:0,0,0,1mm,1mm,1mm", particles=5, curve="20um", duration="1ms", keep=3)
+        out = [os.path.join(self.folder.name, name) for name in ("a.ply", "a.xyzd", "a.csv", "b.stl")]
+        self.refused("level", "with points", clast.export, made, out[0], level=2, points=True)
+        self.refused("level", "in a file without surfaces", clast.export, made, out[2], level=2)
+        self.refused("colour", "but in a .ply", clast.export, made, out[3], colour="size")
+        self.refused("density", "in a file without densities", clast.export, made, out[1], density=2000)
+        self.refused("level", "with table", clast.export, made, out[2], table="history", level=2)
+        self.refused("columns", "with a run, which knows its grains", clast.export, made, out[2], columns="x,y,z,d")
 
 
 sys.path.insert(0, str(ROOT / "tools"))

@@ -253,7 +253,7 @@ class Arrays(unittest.TestCase):
             with self.assertRaises((clast.Error, ValueError)) as caught:
                 clast.Cloud(bad)
             self.assertRegex(str(caught.exception), "^positions: |inhomogeneous")
-        for bad in ([[0, 1, 3]], [[0, 1, -1]], [[0, 1, 2**31]], [[0, 1, 2**63 - 1]], np.array([[0, 1, 2**64 - 1]], "u8"), [[0.0, 1.0, 2.0]], [[0, 1]], []):
+        for bad in ([[0, 1, 3]], [[0, 1, -1]], [[0, 1, 2**31]], [[0, 1, 2**63 - 1]], np.array([[0, 1, 2**64 - 1]], "u8"), [[0.0, 1.0, 2.0]], [[0, 1]]):
             with self.assertRaisesRegex(clast.Error, "^triangles: "):
                 clast.Mesh(np.eye(3), bad)
         for name, bad in (("radius", np.ones(399)), ("mass", np.ones((400, 1))), ("weight", ["a"] * 400), ("velocity", np.ones((400, 2)))):
@@ -345,7 +345,7 @@ class Keywords(unittest.TestCase):
                           ("unit_form", lambda flag: clast.mesh_form(GRAIN, unit_form=flag).after["I"]),
                           ("weld", lambda flag: len(clast.Mesh.read(GRAIN, weld=flag).vertices)),
                           ("points", lambda flag: clast.export(RUN, os.path.join(FOLDER.name, "x.vtu"), points=flag)["n_vertex"]),
-                          ("fall_speed", lambda flag: len(clast.aggregate(**SMALL, fall_speed=flag).values))):
+                          ("accept_faults", lambda flag: len(clast.aggregate(**SMALL, accept_faults=flag).values))):
             for flag in (False, True):
                 for word in (*(("yes", "1", 1) if flag else ("no", "off", 0)), np.bool_(flag), np.array(flag)):
                     self.assertEqual(use(word), use(flag), (name, word))
@@ -408,7 +408,9 @@ class Keywords(unittest.TestCase):
 
     def test_texts_are_numbers_where_the_command_takes_them(self):
         self.assertEqual(clast.mesh_form(GRAIN, hull="20").n_triangle, clast.mesh_form(GRAIN, hull=20).n_triangle)
-        self.assertEqual(len(clast.shapes(GRAIN, threshold="128")), 1)
+        grey = np.pad(np.full((4, 4, 4), 200, np.uint8), 2)
+        pathlib.Path(FOLDER.name, "grey.raw").write_bytes(grey.tobytes())
+        self.assertEqual(len(clast.shapes(os.path.join(FOLDER.name, "grey.raw"), voxels="8,8,8", threshold="128")), 1)
         self.assertEqual(clast.Grading("U3").size("0.5"), clast.Grading("U3", spread=None).size(0.5))
         self.assertEqual(len(clast.Assembly.read_spheres(LATTICE, diameter=None)), 294)
 

@@ -64,6 +64,56 @@ class Porosity(Case):
             self.refused("^columns, diameter: ", lambda: clast.porosity(grains, bed="periodic:0mm,0mm,3mm,3mm", **keys))
 
 
+class Values(Case):
+    def test_lengths_are_those_of_the_grains(self):
+        """`scales` was a radius of spheres that were read and a diameter of a run's."""
+        self.assertTrue(np.allclose(clast.Assembly.read_spheres(LATTICE).lengths, 1e-3, rtol=1e-12))
+        made = clast.aggregate(**AGGREGATE, output=os.path.join(FOLDER.name, "lengths")).run.grains
+        self.assertTrue(np.allclose(made.lengths, np.r_[270e-6, np.full(len(made) - 1, 30e-6)], rtol=1e-9))
+
+    def test_what_is_not_known_is_no_difference(self):
+        for make in (lambda: clast.predict(0.6, 0.7), lambda: clast.shape(GRAIN), lambda: clast.Mesh.ellipsoid((1, 1, 1), 1).shape()):
+            self.assertEqual((make(), hash(make())), (make(), hash(make())))
+        self.assertNotEqual(clast.predict(0.6, 0.7), clast.predict(0.6, 0.71))
+
+    def test_a_model_cannot_be_changed(self):
+        model = clast.Model("single_form_U1")
+        for of in (model.coefficients, model.ranges):
+            with self.assertRaises(TypeError):
+                of[next(iter(of))] = 0.0
+
+    def test_pictures_are_png(self):
+        picture = clast.render(clast.Assembly.read_spheres(LATTICE), width=64, height=64, samples=1)
+        self.refused("^path: .*x.jpg: a picture is written as .png", lambda: picture.write(os.path.join(FOLDER.name, "x.jpg")))
+        picture.write(os.path.join(FOLDER.name, "x.PNG"))
+
+    def test_points_are_a_mesh_without_triangles(self):
+        self.assertEqual(clast.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]], []).triangles.shape, (0, 3))
+
+    def test_odd_values_are_named(self):
+        mesh = clast.Mesh.ellipsoid((1, 1, 1), 2)
+        mesh.vertices[5] = np.nan
+        self.refused("^vertex 5 of 162 is not finite", lambda: clast.mesh_simplify(mesh, 20))
+        self.refused("^text: nan m is no size", lambda: clast.Grading(float("nan")))
+        forms = np.rec.fromarrays([np.array(["2024-01-01", "2024-01-02"], "M8[D]"), [0.5, 0.6], [0.7, 0.8]], names="day,flatness,elongation")
+        self.assertEqual(len(clast.predict_beds(forms)), 2)
+
+        class Frame(dict):
+            columns = ["spheres"]
+        self.refused("^vary: a table; give a dictionary", lambda: clast.study(run="fill", argument=str(GRAIN), vary=Frame(), output=os.path.join(FOLDER.name, "s")))
+
+    def test_units_survive_a_file(self):
+        path = os.path.join(FOLDER.name, "units.csv")
+        pathlib.Path(path).write_text("density_1/m,number_1/m3,moment_1_m5\n1,2,3\n")
+        self.assertEqual(list(clast.read_table(path).units.values()), ["1/m", "1/m3", "m5"])
+
+    def test_more_numbers_of_the_command(self):
+        found = clast.fill(clast.Mesh.read(GRAIN), spheres=5)
+        self.assertTrue(found.bound > 0 and 0 < found.deviation_mean < found.deviation_max and found.n_protruding == 0)
+        cells = clast.decompose(X, domain=BOX, mesh="boxes", events="paper")
+        self.assertTrue(cells.bias_estimate > 0 and (cells.points_per_bin > 0) == (len(cells.cells) > 1))
+
+
 class Warnings(Case):
     def test_evolve_beyond_its_drag_law(self):
         keys = dict(domain="box:0,0,0,10mm,10mm,10mm", particles=5, curve="200um", duration="1ms", fall="stokes")
@@ -238,6 +288,38 @@ class Results(Case):
         self.assertEqual(found.n_repeated, 59)
         x[:] = X
         self.assertEqual(found.n_repeated, 59)
+
+    def test_copies_have_no_number_of_events(self):
+        """decompose gave nan and said nothing, agglomerate some hundred times too many events."""
+        x = np.repeat(X[:100], 4, axis=0)
+        line = "so many points repeat the place of another, and there is no density at such a place; leave copies out"
+        with self.assertWarnsRegex(UserWarning, f"^no number of events: {line}"):
+            self.assertTrue(np.isnan(clast.decompose(x, domain=BOX, beta_dt=1e-6).events))
+        with self.assertWarnsRegex(UserWarning, f"^no pair integral: {line}"):
+            clast.decompose(x, domain=BOX)
+        with self.assertRaisesRegex(clast.Error, f"^snapshot 1: no number of events: {line}"):
+            clast.agglomerate(x, domain=BOX, kernel="constant", constant=1e-6)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            clast.agglomerate(np.concatenate([X, X[:1]]), domain=BOX, kernel="constant", constant=1e-6, n_step=1)
+            clast.decompose(x, domain=BOX, test_only=True)
+        heard = [str(one.message) for one in caught]
+        self.assertEqual(heard[-1], "1 particle repeats the place of an earlier one; each such pair counts as two particles that meet")
+        self.assertFalse([line for line in heard if "too few" in line])
+
+    def test_particles_that_are_left_go_on(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            keys = dict(domain=BOX, kernel="constant", constant=0.01, duration=1.0, n_step=2)
+            run = clast.agglomerate(X, **keys)
+            left = run.particles
+            self.assertEqual(len(left), run.history["n_particle"][-1])
+            self.assertEqual(left["monomers"].sum(), 400)
+            numbers, sizes = np.unique(run.members["aggregate"], return_counts=True)
+            self.assertTrue(np.array_equal(numbers, left["particle"]) and np.array_equal(sizes, left["monomers"]))
+            places = np.column_stack([left[name] for name in ("x_m", "y_m", "z_m")])
+            on = clast.agglomerate(places, monomers=left["monomers"], **keys).history
+            self.assertEqual((on["n_particle"][0], on["M2"][0]), (run.history["n_particle"][-1], run.history["M2"][-1]))
 
 
 class Models(Case):
