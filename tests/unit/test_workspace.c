@@ -266,7 +266,6 @@ static void bad_points_are_told_and_leave_no_result(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
-/* Before, cells and events of the tests' own call were given. */
 static void tests_leave_no_decomposition(void **state)
 {
     (void)state;
@@ -275,16 +274,12 @@ static void tests_leave_no_decomposition(void **state)
     const clast_decomposition *made = NULL;
     clast_uniformity tests;
     static int32_t cell[N], again[N];
-    double events = -7.0;
     const clast_points points = {.n = N, .dimension = 3, .x = dense, .stride = 3, .axis_stride = 1};
     fill(5);
-    cell[0] = -7;
     CHECK_OK(clast_workspace_create(&workspace));
     for (int k = 0; k < 2; ++k) {
         CHECK_OK(clast_workspace_test(workspace, &points, &c, &tests));
         CHECK_STATUS(clast_workspace_cells(workspace, 1, k == 0 ? cell : again), CLAST_E_USAGE);
-        CHECK_STATUS(clast_workspace_events(workspace, 1, &events), CLAST_E_USAGE);
-        assert_true(k > 0 || (cell[0] == -7 && events == -7.0));
         CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
         CHECK_OK(clast_workspace_cells(workspace, 1, k == 0 ? cell : again));
     }
