@@ -333,14 +333,15 @@ MATRIX_CSV = pathlib.Path("docs/validation/d2sd_matrix.csv")
 AGAIN_CSV = pathlib.Path("docs/validation/d2sd_again.csv")
 AGAIN, OTHER_SEEDS = 4, 6000000000  # times the clouds of a row; beyond its seeds
 LEVEL = 0.05 + 1e-12  # of a row: one interval in twenty is one that does not cover
-RULE = "7"  # of a row: raised by hand when what is called resolved, or its interval, changes
+RULE = "8"  # of a row: raised by hand when what is called resolved, or its interval, changes
 WITNESSES = (("uniform", "2", "box", "300"), ("plume_08", "3", "cylinder", "300"), ("blob_half_05", "3", "box", "1000"))  # show that it was raised
 EARLIER = {"1": "which called more clouds resolved (a fifth of the points need not show the same width) and told narrower intervals of pairs",
            "2": "which told narrower intervals of pairs and called the same clouds resolved",
            "3": "which called more clouds resolved (the two families of shapes might differ, and a pole might add any part where the widths stay)",
            "4": "whose intervals knew nothing of what poles add to the value, and which called a few more clouds resolved",
            "5": "which called more clouds resolved: fewer than 700 points in 3-D by pairs, and poles by the largest cells; and took lower bounds of cells whose few pairs came out many",
-           "6": "which had no layers among the shapes: intervals 1 to 2 % narrower, values and resolved clouds the same"}
+           "6": "which had no layers among the shapes: intervals 1 to 2 % narrower, values and resolved clouds the same",
+           "7": "which fitted pairs of all distances always (of 51 rows of such densities 48 are the same to the last digit, a blob's value moved by 0.3 %)"}
 MOST_ROWS = None  # made anew in this run; None: all
 JOBS = 1  # rows that are made side by side
 
