@@ -583,7 +583,9 @@ const clast_idle *clast_grains_idle(const clast_grains_options *o, uint32_t kind
     }
     const bool is_named = o->kind != CLAST_GRAINS_AUTO;
     const char *const why = is_named ? "with this --kind" : "with files of these kinds";
-    const uint32_t may_be = is_named ? 1U << o->kind : kinds != 0 ? kinds : UINT32_MAX;
+    const bool is_kind = o->kind >= 0 && o->kind <= CLAST_GRAINS_CLUMP; // else refused by who reads
+    const uint32_t named = is_kind ? 1U << (uint32_t)o->kind : UINT32_MAX;
+    const uint32_t may_be = is_named ? named : kinds != 0 ? kinds : UINT32_MAX;
     const clast_idle made[CLAST_N_IDLE] = {
         {(may_be & 1U << CLAST_GRAINS_SERIES) == 0, "degree|level", why},
         {(may_be & 1U << CLAST_GRAINS_POINTS) == 0, "spacing", why},
