@@ -562,6 +562,7 @@ clast_status clast_grains_read(int32_t n_file, const char *const *path,
     }
     reading r = {.task = task, .n = n_file, .monitor = monitor};
     CLX_TRY(clx_parallel_try(n_file, 1, read_files, &r));
+    clx_monitor_report(monitor, "files", n_file, n_file); // the last may be another worker's
     CLX_TRY(join(task, n_file, &made));
     *grains = made;
     made = (clast_grains){0};
