@@ -229,10 +229,7 @@ static void print_events(const cli_decompose_job *j, int64_t n_repeated)
     if (isnan(r->events_low)) {
         (void)printf("%d cell%s, no %s: %s\n", r->cells.n, cli_plural(r->cells.n),
                      r->beta_dt > 0.0 ? "number of events" : "pair integral",
-                     n_repeated > 0 ? "so many points repeat the place of another, and there is "
-                                      "no density at such a place; leave copies out"
-                                    : "points lie closer together than cells of this domain can "
-                                      "tell");
+                     clast_decompose_unbounded_text(n_repeated));
         return;
     }
     char high[32] = "-";

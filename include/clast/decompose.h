@@ -263,6 +263,11 @@ typedef enum {
 /// A stop in words, "rejected by the tests and split".
 CLAST_API const char *clast_decompose_stop_text(clast_decompose_stop stop);
 
+/// Why a decomposition has no number of events (its events_low is NaN), in words.
+///
+/// @param n_repeated  points that repeat the place of an earlier one (clast_cloud_repeated)
+CLAST_API const char *clast_decompose_unbounded_text(int64_t n_repeated);
+
 /// Cells. A box [low, high] is in the domain's coordinates for a box or a mesh domain (there not
 /// cut), in the unit cube for mapped domains; components and labels give their bounding box. In a
 /// mesh domain cells without volume inside are left out.

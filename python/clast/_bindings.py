@@ -3643,6 +3643,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
     'clast_uniformity_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_uniformity_config), POINTER(clast_uniformity)], '@param u [n][d] in the unit cube @param side [3] for the score.'),
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
+    'clast_decompose_unbounded_text': (c_char_p, [c_int64], 'Why a decomposition has no number of events (its events_low is NaN), in words.'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
     'clast_decompose_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], 'The same of one cloud of which each rank has a part; points stay where they are.'),

@@ -274,9 +274,7 @@ def _warn_of_units(config: Any, cloud: Cloud) -> None:
 
 def _warn_of_no_number(found: Any, cloud: Cloud) -> None:
     """Says why the events are nan, as the command does."""
-    why = ("so many points repeat the place of another, and there is no density at such a place; leave copies out" if cloud.n_repeated > 0 else
-           "points lie closer together than cells of this domain can tell")
-    warn(f"no {'number of events' if found.beta_dt > 0 else 'pair integral'}: {why}")
+    warn(f"no {'number of events' if found.beta_dt > 0 else 'pair integral'}: {call('clast_decompose_unbounded_text')(cloud.n_repeated).decode()}")
 
 
 def _warn_of_pairs(found: Any) -> None:

@@ -127,6 +127,13 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
     return "";
 }
 
+const char *clast_decompose_unbounded_text(int64_t n_repeated)
+{
+    return n_repeated > 0 ? "so many points repeat the place of another, and there is no density "
+                            "at such a place; leave copies out"
+                          : "points lie closer together than cells of this domain can tell";
+}
+
 static void free_cells(clast_cells *cells)
 {
     clx_free(cells->low);

@@ -306,7 +306,7 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
     r->estimator = shown->is_by_pairs ? CLAST_ESTIMATOR_PAIRS : CLAST_ESTIMATOR_CELLS;
     r->resolved = shown->resolved;
     r->keeps_apart = shown->is_apart;
-    r->points_needed = shown->n_factor * (double)r->n;
+    r->points_needed = r->n > 0 ? shown->n_factor * (double)r->n : (double)INFINITY;
     r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
     if (shown->resolved && is_one_cell(n, shown, all)) {
         r->estimator = CLAST_ESTIMATOR_CELLS;

@@ -157,10 +157,7 @@ clast_status clx_repeated_check(const clast_decomposition *found, const clast_cl
     }
     CLX_TRY(clast_cloud_repeated(cloud, &n_repeated));
     status = clx_fail(CLAST_E_FORMAT, "%s: no number of events: %s", of,
-                      n_repeated > 0
-                          ? "so many points repeat the place of another, and there is no density "
-                            "at such a place; leave copies out"
-                          : "points lie closer together than cells of this domain can tell");
+                      clast_decompose_unbounded_text(n_repeated));
 done:
     return status;
 }

@@ -399,6 +399,25 @@ static const char *stop_of(const clast_cloud *cloud, const clast_decompose_confi
     return words;
 }
 
+/* As before an injection: how many points would do cannot be told, and is no NaN. */
+static void no_points_need_no_number(void **state)
+{
+    (void)state;
+    clast_decompose_config c;
+    clast_decomposition r = {0};
+    double x[3] = {9.0, 9.0, 9.0};
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
+    set(&c, "domain", "box:0,0,0,1,1,1");
+    set(&c, "outside", "drop");
+    for (int64_t n = 0; n < 2; ++n) {
+        const clast_cloud cloud = {.n = n, .dimension = 3, .x = x};
+        CHECK_OK(clast_decompose(&cloud, &c, &r));
+        assert_true(isinf(r.points_needed) && !r.resolved);
+        clast_decomposition_free(&r);
+    }
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
 /* A tree that split a rejected cloud into many cells said "the tests accept", as did tests alone
  * that rejected and clouds too small for a test: no stop was set, and 0 is that one. */
 static void a_stop_is_what_happened(void **state)
@@ -626,6 +645,7 @@ int main(void)
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
         cmocka_unit_test(crossfit_keeps_the_variable),
         cmocka_unit_test(copies_of_a_point_are_drawn_each_for_itself),
+        cmocka_unit_test(no_points_need_no_number),
         cmocka_unit_test(a_stop_is_what_happened),
         cmocka_unit_test(a_lower_threshold_is_searched_like_the_upper_one),
         cmocka_unit_test(both_thresholds_are_searched_jointly),
