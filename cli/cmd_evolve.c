@@ -58,16 +58,17 @@ static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
 /// How clast pack settles the bed: the default times of its contacts are those of grains of
 /// millimetres. One that falls through the whole column is stopped within a quarter of the smallest
 /// radius, the half of what clast pack allows: v T / pi with v^2 = 2 g H. A step is a fortieth of
-/// a collision, as by default there; what moves five diameters a second is still.
+/// a collision, as by default there; what moves five of its diameters a second is still, and slices
+/// of the porosity profile are as high as one.
 static void print_pack(const clast_evolve_result *r)
 {
     const double speed = sqrt(2.0 * 9.80665 * r->bed_height);
     const double collision = CLAST_PI * 0.25 * r->bed_least / speed;
     (void)printf("%-26s clast pack --start %s/deposit.h5 --domain box --width %.6gum --height "
-                 "%.6gum --shaking-time 0 --collision-time %.2gus --time-step %.2gus --rule speed "
-                 "--still-speed %.2gum/s\n",
+                 "%.6gum --shaking-time 0 --collision-time %.3gus --time-step %.3gus --rule speed "
+                 "--still-speed %.3gmm/s --layer %.3gum\n",
                  "  settles by", cli_name(r->folder), 1e6 * r->bed_width, 1e6 * r->bed_height,
-                 1e6 * collision, 1e6 * collision / 40.0, 1e7 * r->bed_least);
+                 1e6 * collision, 1e6 * collision / 40.0, 1e4 * r->bed_least, 2e6 * r->bed_least);
 }
 
 /// deposit.h5, in which a body that stands for others comes once.
