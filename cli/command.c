@@ -110,7 +110,7 @@ static clast_status run_command(cli_parser *p)
     const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
     clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);
     CLI_GUARD(check_common(p));
-    CLI_GUARD(cli_memory_limit(p->common.max_memory));
+    CLI_GUARD(cli_memory_limit(&p->common));
     CLI_GUARD(cli_time_limit(p->common.time_limit));
     CLI_GUARD(cli_check_outputs(p->command, &p->common, p->config));
     return p->command->run(&p->common, p->config);

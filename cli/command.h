@@ -132,8 +132,9 @@ bool cli_stop_asked(void);
 /// without another says how to go on from it.
 void cli_signals_way_on(const char *command, const char *folder);
 
-/// Limits the library's memory to `text` (8GB, 50%; 0: not at all), NULL: 80 % of the machine's.
-clast_status cli_memory_limit(const char *text);
+/// Limits the library's memory to --max-memory (8GB, 50%; 0: not at all), 80 % of the machine's
+/// unless told; ranks on one machine have equal shares of it. Called by all ranks.
+clast_status cli_memory_limit(const cli_common *common);
 
 /// Ends the command as SIGTERM does once `text` (90min, 2h) has gone by; NULL: no limit.
 clast_status cli_time_limit(const char *text);

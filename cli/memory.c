@@ -1,6 +1,8 @@
-// The memory that a command may take: --max-memory, or a share of the machine's.
+// The memory that a command may take: --max-memory, or a share of the machine's; its ranks on one
+// machine share it.
 #include "command.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +10,7 @@
 
 static const double share = 0.8; // the rest is the system's and that of others
 
-enum { PATH = 4096 };
+enum { PATH = 4096, WORDS = 8 }; // WORDS: of a machine's name
 
 /// The least of `bytes` and the limit in a control group's file, where it is there and sets one.
 static double file_limit(const char *path, double bytes)
@@ -86,8 +88,33 @@ static clast_status parse(const char *text, double *bytes)
     return status;
 }
 
-clast_status cli_memory_limit(const char *text)
+/// Ranks on this machine, by its name. Called by all ranks.
+static clast_status count_ranks(const cli_common *common, int32_t *n)
 {
+    const clast_comm *comm = common->comm;
+    clast_status status = CLAST_OK;
+    int64_t(*name)[WORDS] = NULL;
+    *n = 1;
+    if (comm->n_rank == 1 || comm->sum == NULL) {
+        return CLAST_OK;
+    }
+    name = calloc((size_t)comm->n_rank, sizeof *name);
+    CLI_TRY(cli_agree(common, name != NULL ? CLAST_OK : CLAST_E_MEMORY));
+    (void)gethostname((char *)name[comm->rank], sizeof *name - 1);
+    comm->sum(comm->context, name[0], (int64_t)comm->n_rank * WORDS); // the others' are 0 here
+    for (int32_t k = 0; k < comm->n_rank; ++k) {
+        *n += k != comm->rank && memcmp(name[k], name[comm->rank], sizeof *name) == 0;
+    }
+done:
+    free(name);
+    return status;
+}
+
+clast_status cli_memory_limit(const cli_common *common)
+{
+    const char *text = common->max_memory;
+    int32_t n_rank = 1;
+    CLI_GUARD(count_ranks(common, &n_rank));
     double bytes = share * machine_memory();
     const clast_status status = text != NULL ? parse(text, &bytes) : CLAST_OK;
     if (status != CLAST_OK) {
@@ -97,5 +124,5 @@ clast_status cli_memory_limit(const char *text)
         return cli_fail(CLAST_E_USAGE, "--max-memory takes a size such as 8GB or 50%%, not '%s'",
                         text != NULL ? text : "");
     }
-    return clast_memory_set_limit((int64_t)bytes);
+    return clast_memory_set_limit((int64_t)ceil(bytes / n_rank));
 }

@@ -236,6 +236,14 @@ class Faults(Case):
             self.assertEqual(len(own_lines(err)), 1, err)
             self.assertIn("CLAST_RANK_TIMEOUT", err)
 
+    def test_ranks_of_a_machine_share_its_memory(self):
+        """Each had the whole limit, by default 80 % of the machine's."""
+        process = start(2, *SPHERES, "--max-memory", "20kB", "-o", self.folder / "run")
+        _, err = process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertEqual(len(own_lines(err)), 1, err)
+        self.assertIn("the limit is 10 kB", err)
+
 
 if __name__ == "__main__":
     unittest.main()
