@@ -167,7 +167,7 @@ json_t *cli_shape_json(const cli_shape_result *shape)
 
 static const char *unit(const cli_shape_result *shape, int power)
 {
-    static const char *const metres[] = {"", " m", " m2", " m3", " m4", " m5"};
+    static const char *const metres[] = {"", " m", " m^2", " m^3", " m^4", " m^5"};
     return shape->in_metres ? metres[power] : "";
 }
 
@@ -324,7 +324,7 @@ void cli_shape_words(const cli_shape_result *shape)
     (void)printf("%lld grains; L, I, S by %s%s%s; %s\n", (long long)shape->grains.n,
                  n_surface > 0 ? "" : "the ", axes_name(shape),
                  n_surface > 0 && n_surface < shape->grains.n ? ", of rows by their table" : "",
-                 shape->in_metres ? "volume in m3, area in m2, lengths in m"
+                 shape->in_metres ? "volume in m^3, area in m^2, lengths in m"
                                   : "the files' units (give --unit for SI)");
     (void)printf("%11s %11s %10s %10s %10s %10s %6s %6s %6s %6s %6s %-6s %s\n", "volume", "area",
                  "L", "I", "S", "D", "S/I", "I/L", "spher.", "convex", "round.", "Zingg", "file");

@@ -67,7 +67,7 @@ typedef struct clast_aggregate_params {
     int32_t mode;
     double core_size;            ///< by core_meaning; 0: as the shape is
     int32_t core_meaning;        ///< clast_size_meaning of core_size
-    double core_density;         ///< kg/m3
+    double core_density;         ///< kg/m^3
     clast_f64_list coat_weight;  ///< chance of each coat shape; empty: equal
     clast_f64_list class_limit;  ///< sizes up to limit k take coat shape k; empty: by weight
     clast_f64_list coat_density; ///< one for all, or one each
@@ -174,7 +174,7 @@ typedef struct clast_aggregate_result {
     clast_permeable_range permeable;
     double coat_porosity;        ///< 1 - solid / (first envelope - core)
     double coat_grain;           ///< Sauter's mean size of the placed grains [m]
-    double permeability;         ///< of the coat [m2]; NAN outside of the law
+    double permeability;         ///< of the coat [m^2]; NAN outside of the law
     double drag_permeable;       ///< Stokes drag over that of the solid body; NAN as that
     double max_overlap;          ///< greatest step back that frees a particle, of the bodies of
                                  ///< `contact`; 0 within rounding; NAN: not looked for (march)

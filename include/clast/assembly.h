@@ -14,7 +14,7 @@ struct clast_assembly {
     double (*position)[3];    ///< [n_grain][3] m, centroid
     double (*orientation)[4]; ///< [n_grain][4] unit quaternion w, x, y, z
     double *scale;            ///< [n_grain] > 0
-    double *density;          ///< [n_grain] kg/m3
+    double *density;          ///< [n_grain] kg/m^3
     int64_t *id;              ///< [n_grain] the grain's name, unique
     int32_t n_contact;
     int32_t (*contact)[2];      ///< [n_contact][2] grain indices, or NULL when not known
@@ -179,9 +179,9 @@ typedef struct clast_printable_report {
     bool resolved;           ///< smallest_feature is 2 spacings or more
     int32_t n_part;          ///< connected pieces; 1 on success
     int32_t n_void;          ///< closed voids found
-    double void_volume;      ///< their volume, filled unless keep_voids [m3]
-    double solid_volume;     ///< sum of the grains' volumes [m3]
-    double volume;           ///< enclosed by the surface [m3]
+    double void_volume;      ///< their volume, filled unless keep_voids [m^3]
+    double solid_volume;     ///< sum of the grains' volumes [m^3]
+    double volume;           ///< enclosed by the surface [m^3]
     double n_triangle_expected; ///< by the grains' surface and the spacing, before any work
 } clast_printable_report;
 

@@ -76,15 +76,15 @@ typedef struct clast_dem_config {
     double rolling_friction; ///< torque at most this times R* |F_n|, F_n as friction takes it
     int32_t rolling_model;   ///< clast_dem_rolling
     int32_t cohesion;        ///< clast_dem_cohesion
-    double cohesion_energy;  ///< energy density of AREA [J/m3]
-    double surface_energy;   ///< w of DMT and JKR [J/m2]
+    double cohesion_energy;  ///< energy density of AREA [J/m^3]
+    double surface_energy;   ///< w of DMT and JKR [J/m^2]
     bool clip;               ///< a dashpot never pulls
     bool normal_torque;      ///< normal forces turn grains; eq. 5 as printed leaves that out
     bool gyroscopic;         ///< angular momentum is kept (eq. 3); the reference leaves it out
     int32_t clump_contacts;  ///< clast_dem_clump_contacts
     double time_step;        ///< [s]
     double gravity;          ///< [m/s2], along -z
-    double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]
+    double fluid_density;    ///< buoyancy, eq. 10 [kg/m^3]
     double fluid_viscosity;  ///< drag, torque of fluid at rest; 0: none [Pa s]
     int32_t sphere_drag;     ///< clast_dem_sphere_drag
     bool hindrance;          ///< drag grows with the grains around (clast_drag_hindrance)
@@ -106,7 +106,7 @@ CLAST_API extern const clast_field clast_dem_fields[];
 typedef struct clast_dem_grain {
     int32_t shape;
     double scale;
-    double density;             ///< [kg/m3]
+    double density;             ///< [kg/m^3]
     double position[3];         ///< of the centre of mass [m]
     double orientation[4];      ///< unit quaternion w, x, y, z
     double velocity[3];         ///< [m/s]
@@ -232,7 +232,7 @@ typedef struct clast_dem_cell {
 /// What a bed carries. Tensors are xx, yy, zz, xy, xz, yz, pressure above 0. Stress, modulus and
 /// volume of domain cell alone; 0 in others (clast_stress).
 typedef struct clast_dem_load {
-    double volume, solid;     ///< of the cell, of its grains [m3]
+    double volume, solid;     ///< of the cell, of its grains [m^3]
     double stress[6];         ///< of contacts: sum f l / V [Pa]
     double kinetic_stress[6]; ///< sum m v v / V, v beside the cell's even motion [Pa]
     double modulus[3]; ///< of the normal springs at even strain, sum k (l n)^2 / V: an upper bound

@@ -11,7 +11,7 @@ typedef struct clast_sizes {
     int64_t n;
     double *low, *high; ///< [n] m; equal for a plain size
     double *count;      ///< [n] > 0
-    double *density;    ///< [n] > 0 [kg/m3], or NULL: none is given
+    double *density;    ///< [n] > 0 [kg/m^3], or NULL: none is given
 } clast_sizes;
 
 /// Room for n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
@@ -137,7 +137,7 @@ CLAST_API double clast_grading_mass_share(const clast_grading *grading, double s
 CLAST_API double clast_grading_size(const clast_grading *grading, double share);
 CLAST_API double clast_grading_mass_size(const clast_grading *grading, double share);
 
-/// Mean of D^3 [m3]: a mass M of grains of density rho holds M / (rho V mean_cube) grains on
+/// Mean of D^3 [m^3]: a mass M of grains of density rho holds M / (rho V mean_cube) grains on
 /// average, V the volume at size 1.
 CLAST_API double clast_grading_mean_cube(const clast_grading *grading);
 
@@ -145,7 +145,7 @@ CLAST_API double clast_grading_mean_cube(const clast_grading *grading);
 typedef struct clast_grading_sample {
     int64_t n;
     const double *size;   ///< [n] m
-    const double *volume; ///< [n] m3, or NULL: size^3
+    const double *volume; ///< [n] m^3, or NULL: size^3
 } clast_grading_sample;
 
 /// Wanted against achieved, in a few numbers.
@@ -214,7 +214,7 @@ CLAST_API const clast_idle *clast_grading_idle(const clast_curve *curve,
 ///
 /// A column `count`, `n`, `number` or `n_grains` counts the row's particles, else `weight`,
 /// `frequency` or `fraction`, else `mass` or `retained` (mass_g) weighs them; columns that begin
-/// with `low` and `high` are the ends of a bin; `density` (kg/m3 unless its name ends in another
+/// with `low` and `high` are the ends of a bin; `density` (kg/m^3 unless its name ends in another
 /// unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
 ///
 /// @param column  name of the size column; "": the first

@@ -36,7 +36,7 @@ CLAST_API clast_status clast_mesh_append(clast_mesh *mesh, const clast_mesh *oth
 /// Axis-aligned box of all vertices; an empty mesh gives low > high.
 CLAST_API void clast_mesh_bounds(const clast_mesh *mesh, double low[3], double high[3]);
 
-/// Sum of the triangles' areas [m2].
+/// Sum of the triangles' areas [m^2].
 CLAST_API double clast_mesh_area(const clast_mesh *mesh);
 
 /// Volume, centroid and inertia of the solid bounded by a closed, outward mesh.

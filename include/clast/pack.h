@@ -59,7 +59,7 @@ typedef struct clast_pack_config {
     bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
     bool form_law;   ///< stretch every grain to a form drawn from a law
     double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
-    clast_f64_list density; ///< [kg/m3]; 0: the shape's own (clast_material); none: 2650, or those
+    clast_f64_list density; ///< [kg/m^3]; 0: the shape's own (clast_material); none: 2650, or those
                             ///< that a start brings
     int32_t density_of;     ///< clast_pack_density_of
     clast_f64_list density_weight; ///< chances of densities that are drawn
@@ -122,7 +122,7 @@ typedef struct clast_pack_wall {
     clast_mesh mesh;              ///< of a surface [m]
     clast_dem_wall_motion motion; ///< with its table
     double press[3];              ///< unit: where it presses; zeros: it is not pressed
-    double area;                  ///< over which its pressure acts; 0: its own [m2]
+    double area;                  ///< over which its pressure acts; 0: its own [m^2]
 } clast_pack_wall;
 
 /// What a packing is made of, loaded. Borrowed by clast_pack_create.
@@ -230,7 +230,7 @@ typedef struct clast_pack_result {
     double sank; ///< how far the highest grain sank after the end of shaking [m]; NAN: not over, or
                  ///< no shaking_time
     double still_diameters; ///< still_speed by the smallest grain's diameter [1/s]
-    double own_density;     ///< of an aggregate that is packed at another; 0: none is [kg/m3]
+    double own_density;     ///< of an aggregate that is packed at another; 0: none is [kg/m^3]
     double given_density;   ///< that one
     double flatness[2];     ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
     double elongation[2];   ///< I/L, the same

@@ -39,7 +39,7 @@ CLAST_API clast_status clast_bed_close(const clast_mesh *container, clast_mesh *
 /// The inside of such a surface as a bed; its floor is the lowest point.
 CLAST_API clast_bed clast_bed_of_surface(const clast_mesh *closed);
 
-/// Volume between the heights edge[k] and edge[k + 1] [m3].
+/// Volume between the heights edge[k] and edge[k + 1] [m^3].
 CLAST_API void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *edge,
                                  double *volume);
 
@@ -66,7 +66,7 @@ CLAST_API clast_status clast_bed_table(const clast_bed *bed, clast_table *table)
 /// The bed of such a table; CLAST_E_FORMAT when it is none.
 CLAST_API clast_status clast_bed_from_table(const clast_table *table, clast_bed *bed);
 
-/// Horizontal area; of a surface its volume over its height [m2].
+/// Horizontal area; of a surface its volume over its height [m^2].
 CLAST_API double clast_bed_area(const clast_bed *bed);
 
 typedef enum {
@@ -95,7 +95,7 @@ CLAST_API clast_porosity_options clast_porosity_options_default(void);
 /// heights is what is left).
 ///
 /// @param edge   [n + 1] rising; the first may be -INFINITY, the last INFINITY [m]
-/// @param solid  [n] m3
+/// @param solid  [n] m^3
 /// @return CLAST_E_ARGUMENT for edges that do not rise or another method; CLAST_E_MEMORY for clumps
 /// only: all others allocate nothing
 CLAST_API clast_status clast_porosity_grain_slabs(const clast_assembly *assembly, int32_t i,
@@ -120,7 +120,7 @@ CLAST_API clast_status clast_porosity_profile(const clast_assembly *assembly, co
 typedef struct clast_porosity_bulk {
     double porosity;      ///< over [z_low, z_high]
     double z_low, z_high; ///< m
-    double solid;         ///< m3 between them
+    double solid;         ///< m^3 between them
     double top;           ///< height where the porosity rises through the cut, before trimming [m]
 } clast_porosity_bulk;
 

@@ -5,12 +5,12 @@ CLAST_BEGIN
 
 /// What a body falls through, and how it is pulled.
 typedef struct clast_fluid {
-    double density;   ///< kg/m3
+    double density;   ///< kg/m^3
     double viscosity; ///< dynamic, Pa s
     double gravity;   ///< m/s2
 } clast_fluid;
 
-/// Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m3, 1.7894e-5 Pa s;
+/// Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m^3, 1.7894e-5 Pa s;
 /// standard gravity 9.80665 m/s2.
 CLAST_API clast_fluid clast_fluid_air(void);
 
@@ -93,7 +93,7 @@ typedef enum {
     CLAST_PERMEABILITY_KOZENY_CARMAN ///< packed beds, porosity 0.26 to 0.7
 } clast_permeability_law;
 
-/// Permeability k [m2] of grains of this size (6 times volume over surface, Sauter's mean) at this
+/// Permeability k [m^2] of grains of this size (6 times volume over surface, Sauter's mean) at this
 /// porosity e; with s = (1 - e)^(1/3)
 ///
 ///     Happel           k = d^2 / 18 (3 - 4.5 s + 4.5 s^5 - 3 s^6) / (s^3 (3 + 2 s^5)) [Happel1958]
@@ -116,7 +116,7 @@ CLAST_API double clast_drag_permeable(double beta, double core);
 
 /// What air flows through.
 typedef struct clast_porous {
-    double permeability; ///< > 0 [m2]
+    double permeability; ///< > 0 [m^2]
     double core;         ///< radius of the solid core over that of the body, in [0, 1)
 } clast_porous;
 

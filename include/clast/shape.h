@@ -40,7 +40,7 @@ typedef struct clast_parts {
 
 /// What a shape's own material weighs.
 typedef struct clast_material {
-    double density;       ///< mean: mass over volume [kg/m3]; 0: not known
+    double density;       ///< mean: mass over volume [kg/m^3]; 0: not known
     bool is_mixed;        ///< parts of several densities; then the two below tell where the mass is
     double centre[3];     ///< of mass, in the shape's frame
     double inertia[3][3]; ///< about that centre, at mean density 1

@@ -93,7 +93,7 @@ typedef struct clast_packing_report {
 /// "#format x_y_z_r" above it: spheres, and clumps by clumpId. Else spheres: Delimited text (CSV,
 /// blanks), LAMMPS dumps, VTK points and .xyz (a count, a comment, then element x y z and perhaps a
 /// radius) by the names of their columns: x, y, z and radius, r, diameter or d, with or without a
-/// unit (x_mm); density or rho [kg/m3] or with its unit (density_g/cm3), or mass with its unit
+/// unit (x_mm); density or rho [kg/m^3] or with its unit (density_g/cm3), or mass with its unit
 /// (mass_g). Without names by place: x y z r, id x y z (voro++; give the diameter) or id x y z r,
 /// where the ids are the whole numbers from 0 or 1 on. `.xyzd` holds little-endian doubles x, y, z,
 /// diameter (packing-generation). Of several snapshots of a dump or .xyz the last is read.

@@ -72,7 +72,7 @@ class Grading:
 
     @property
     def mean_cube(self) -> float:
-        """Mean of the cubed size by number [m3]."""
+        """Mean of the cubed size by number [m^3]."""
         return float(call("clast_grading_mean_cube")(self._open()))
 
     def n_expected(self, mass: float, density: float = 2650.0, grain_volume: float = np.pi / 6) -> float:

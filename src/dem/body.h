@@ -76,7 +76,7 @@ void clx_rounding_prepare(clx_dem_body *body);
 /// scale 1. The margin is less than the ball inside.
 double clx_rounding_factor(const clx_dem_body *body, double margin);
 
-/// Bounding radius [m] and volume [m3] of a shape at scale 1.
+/// Bounding radius [m] and volume [m^3] of a shape at scale 1.
 void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2]);
 
 /// Skin that the widest grain of a domain needs, a share of its radius: its own in a cell, in which

@@ -22,7 +22,7 @@
 
 /// Volume of grains by height, for the porosity around one.
 typedef struct clx_slabs {
-    double *solid; ///< [n] [m3]
+    double *solid; ///< [n] [m^3]
     int64_t capacity;
     int32_t n;
     double low, thick, volume; ///< of the first slab's bottom; of a slab

@@ -36,7 +36,7 @@ typedef struct clx_law {
     double restitution, viscosity; ///< dry; of the fluid [Pa s]
     bool has_roll_spring;          ///< model C
     double damping_ratio;          ///< -ln e / sqrt(pi^2 + ln^2 e)
-    double cohesion_energy;        ///< [J/m3]
+    double cohesion_energy;        ///< [J/m^3]
     double pull;                   ///< DMT, JKR: force over R* [N/m]
     bool has_neck;                 ///< JKR's whole curve: with Hertz's law
     double adhesion;               ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
@@ -292,7 +292,7 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
 
 /// Constant torque against rolling, no more than would stop it within a step. [Ai2011 model A]
 ///
-/// @param inertia  reduced moment of inertia of the two [kg m2]
+/// @param inertia  reduced moment of inertia of the two [kg m^2]
 static inline void clx_law_roll(const clx_law *law, const clx_meeting *c, double inertia, double dt,
                                 clx_contact_force *force)
 {
@@ -318,7 +318,7 @@ static inline double clx_law_stiffness(const clx_law *law, const clx_meeting *c)
 ///                                                                            [Ai2011 model C]
 /// The dashpot rests where the spring gives way, and takes no more than model A may in a step.
 ///
-/// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m2]
+/// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m^2]
 static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
                                        const double inertia[2], double dt, double torque[3],
                                        clx_contact_force *force)

@@ -12,7 +12,7 @@
 
 enum { N_FORM = 63, FORM_SEED = 30, GRAIN_SEED = 35 };
 
-static const double DENSITY = 2650.0; ///< [kg/m3]
+static const double DENSITY = 2650.0; ///< [kg/m^3]
 
 /// What shrinks an ellipsoid of equal volume and moments to one of equal mass (case E1).
 static const double ELLIPSOID = 0.985;

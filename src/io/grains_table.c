@@ -110,16 +110,16 @@ static const measure measures[] = {
     MEASURE("centroid_z", centroid[2], 1),
 };
 
-static const char *const unit_text[] = {"-", "m", "m2", "m3", "m4", "m5"};
+static const char *const ending[] = {"", "_m", "_m2", "_m3", "_m4", "_m5"};
+static const char *const unit[] = {"-", "m", "m^2", "m^3", "m^4", "m^5"};
 
 static clast_status add_column(clast_table *table, const char *name, int power, bool in_metres,
                                double **number)
 {
     char full[96];
     const bool has_unit = power > 0 && in_metres;
-    (void)snprintf(full, sizeof full, "%s%s%s", name, has_unit ? "_" : "",
-                   has_unit ? unit_text[power] : "");
-    return clast_table_add_number(table, full, has_unit ? unit_text[power] : "-", number);
+    (void)snprintf(full, sizeof full, "%s%s", name, has_unit ? ending[power] : "");
+    return clast_table_add_number(table, full, has_unit ? unit[power] : "-", number);
 }
 
 static clast_status add_lengths(const clast_grains *grains, clast_axes_kind axes,

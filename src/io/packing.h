@@ -71,7 +71,7 @@ clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wa
 /// Densities of grains that are the table's rows, by its columns; no_density where it has none.
 ///
 /// Of a dump or data file the columns density and, where its units are known, mass; of other tables
-/// density or rho, kg/m3 or as their names say, and mass in the unit that its name says. A mass
+/// density or rho, kg/m^3 or as their names say, and mass in the unit that its name says. A mass
 /// needs grains in metres.
 clast_status clx_packing_densities(const clast_table *table, const clx_packing_wanted *wanted,
                                    bool is_lammps, const clx_lammps_units *units,

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/// Density of grains that are given none [kg/m3], as in pack/density.c.
+/// Density of grains that are given none [kg/m^3], as in pack/density.c.
 static const double USUAL = 2650.0;
 
 static bool is_folder(const char *path)

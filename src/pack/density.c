@@ -7,7 +7,7 @@
 #include <clast/shape.h>
 #include <math.h>
 
-/// Of grains that are given none: quartz [kg/m3].
+/// Of grains that are given none: quartz [kg/m^3].
 static double usual[1] = {2650.0};
 
 void clx_pack_set_density(clast_pack_config *config)
@@ -125,7 +125,7 @@ static clast_status check_shapes(const clast_pack *p)
                   "has",
                   shape->name);
         CLX_CHECK(!shape->own.is_mixed || given == 0.0, CLAST_E_CONFIG,
-                  "aggregate %s has parts of several densities, %g kg/m3 in the mean: give it "
+                  "aggregate %s has parts of several densities, %g kg/m^3 in the mean: give it "
                   "density 0 to keep them (density, one for each shape)",
                   shape->name, shape->own.density);
     }

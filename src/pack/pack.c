@@ -102,7 +102,7 @@ static clast_status check_room(const clast_pack *p)
         clx_unit_text(c->mass, "kg"), clx_unit_text(edge[1], "m"),
         clx_unit_text(0.5 * heavy * room, "kg"));
     CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
-              "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", light, c->dem.fluid_density);
+              "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", light, c->dem.fluid_density);
 done:
     return status;
 }

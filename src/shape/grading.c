@@ -32,7 +32,7 @@ typedef struct {
     double number;             ///< share of the grains
     double number_to, mass_to; ///< running shares up to and with this piece
     double cube;               ///< mean of (D / low)^3
-    double density;            ///< of its grains [kg/m3], or 0: not given
+    double density;            ///< of its grains [kg/m^3], or 0: not given
 } piece;
 
 struct clast_grading {
@@ -42,7 +42,7 @@ struct clast_grading {
     double low, high; ///< m
     double mu, sigma; ///< log-normal: mean and deviation of ln D
     double cut_part;  ///< log-normal: probability between the limits
-    double mean_cube; ///< m3
+    double mean_cube; ///< m^3
 };
 
 void clast_grading_destroy(clast_grading *grading)

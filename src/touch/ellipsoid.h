@@ -11,7 +11,7 @@ typedef struct clx_entry {
 /// Entry of the line c + t z into {x + y : x in A, y in B}, A and B given by their matrices
 /// (h(n) = sqrt(n^T A n)); false if the line misses, or surely enters after t_high.
 ///
-/// @param a, b  xx, yy, zz, yz, xz, xy [m2], positive definite   @param c  centre of the moving
+/// @param a, b  xx, yy, zz, yz, xz, xy [m^2], positive definite   @param c  centre of the moving
 /// ellipsoid minus that of the lying one at t = 0 [m]
 bool clx_ellipsoid_entry(const double a[6], const double b[6], const double c[3], double t_high,
                          clx_entry *entry);
