@@ -72,7 +72,7 @@ static void join_details(void)
         "files are snapshots of the same\nparticles: collisions go on for --duration in each, the "
         "last too, so that three take three times it;\ncells are made anew when the cloud has "
         "changed. Positions, velocities and columns of the flow are each snapshot's own,\nother "
-        "columns the first one's. Cells are made anew too when half of the particles are left that "
+        "columns the first one's. Cells are made anew too when 3/4 of the particles are left that "
         "they were made\nof (--rebuild never: they are not).\n"
         "-o FOLDER writes history.csv, spectrum.csv, particles.csv (those left after the first "
         "run: POINTS to go on from,\nwith --monomers-column monomers, --radius-column radius_m, "

@@ -53,8 +53,8 @@ typedef struct clast_collide_config {
     int32_t block; ///< kinds of particles above which a cell is dealt into random blocks of this
                    ///< many; 0: never
     bool self_collisions; ///< the particles of one parcel collide with each other too
-    bool keep_positions;  ///< an aggregate stays where its heavier part was, else at the centre of
-                          ///< mass
+    bool keep_positions;  ///< an aggregate stays where its heavier part was, else it is where one
+                          ///< of its parts was, drawn by mass
     uint64_t seed;
     double count_unit; ///< monomers that 1 in clast_population.monomers stands for in the radius
                        ///< laws; 0: 1
@@ -206,7 +206,7 @@ CLAST_API void clast_spectrum_free(clast_spectrum *result);
 /// Times at which cells are made anew.
 typedef enum {
     CLAST_REBUILD_CHANGED, ///< at a snapshot, when the cloud is found to have changed; before a
-                           ///< step, when half of the particles are left that several cells were
+                           ///< step, when 3/4 of the particles are left that several cells were
                            ///< made of
     CLAST_REBUILD_ALWAYS,  ///< at every snapshot, and before such a step
     CLAST_REBUILD_NEVER

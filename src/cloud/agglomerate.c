@@ -98,7 +98,7 @@ const clast_field clast_agglomerate_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, rebuild), 0, 0, 0, "-",
      "when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for "
      "never "
-     "also when half of the particles are left",
+     "also when 3/4 of the particles are left",
      "changed|always|never", .group = "cells in time"},
     {FIELD(CLAST_FIELD_F64, change_level), 0.01, 1e-12, 0.5, "-",
      "false alarms of the test that finds the cloud changed", NULL},

@@ -550,8 +550,9 @@ done:
     return status;
 }
 
-/// Whether half of the particles are left that several cells were made of: what is alone in its
-/// cell meets nobody, for all that is near it in the next one.
+/// Whether three quarters of the particles are left that several cells were made of: cells empty at
+/// their own pace, and what is alone in its cell meets nobody, for all that is near it in the next
+/// one.
 static bool is_thinned(const clx_evolution *r)
 {
     int64_t n = 0;
@@ -559,7 +560,7 @@ static bool is_thinned(const clx_evolution *r)
         n += r->population.monomers[i] > 0 ? 1 : 0;
     }
     return r->config->rebuild != CLAST_REBUILD_NEVER && r->mesh->cells.n > 1 &&
-           2 * n <= r->n_at_mesh;
+           4 * n <= 3 * r->n_at_mesh;
 }
 
 /// Refuses places that a file brings and no density has. Those of aggregates are not asked: on a

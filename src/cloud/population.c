@@ -4,6 +4,7 @@
 #include "base/status.h"
 
 #include <math.h>
+#include <string.h>
 
 double clx_aggregate_radius(const clast_collide_config *c, double monomers)
 {
@@ -48,6 +49,19 @@ static double merged_radius(const clast_population *p, const clast_collide_confi
     return cbrt(a * a * a + b * b * b);
 }
 
+/// Whether what two become lies where the other was, with the odds of its share of the mass: so
+/// the particles that are left lie as even as those before, and on average at the centre of mass.
+/// Independent of the cell's own draws.
+static bool is_others_place(const clast_population *p, const clast_collide_config *c, int64_t live,
+                            int64_t other, double share)
+{
+    const uint64_t event = (uint64_t)live * UINT64_C(0x9E3779B97F4A7C15) +
+                           (uint64_t)other * UINT64_C(0xBF58476D1CE4E5B9) +
+                           (uint64_t)p->monomers[live];
+    clx_rng rng = clx_rng_at(c->seed, CLX_STREAM_COLLISION_PLACE, event);
+    return clx_rng_uniform(&rng) < share;
+}
+
 /// `live` takes up as many of the other's particles as it has itself.
 static void take_up(clast_population *p, const clast_collide_config *c, int64_t live, int64_t other)
 {
@@ -55,8 +69,8 @@ static void take_up(clast_population *p, const clast_collide_config *c, int64_t 
     const double share = mass > 0.0 ? p->mass[other] / mass : 0.5;
     const int32_t d = p->dimension;
     p->radius[live] = merged_radius(p, c, live, other);
-    for (int32_t k = 0; k < d && !c->keep_positions; ++k) {
-        p->x[live * d + k] += share * (p->x[other * d + k] - p->x[live * d + k]);
+    if (!c->keep_positions && live != other && is_others_place(p, c, live, other, share)) {
+        memcpy(p->x + live * d, p->x + other * d, (size_t)d * sizeof *p->x);
     }
     for (int32_t k = 0; k < d && p->velocity != NULL; ++k) {
         p->velocity[live * d + k] +=
