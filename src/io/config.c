@@ -94,6 +94,34 @@ static clast_status read_document(const reader *r, yaml_document_t *document)
     return status;
 }
 
+/// The next document of the input; after the last one, one without a root.
+static clast_status load(yaml_parser_t *parser, const reader *r, yaml_document_t *document)
+{
+    return yaml_parser_load(parser, document) == 1
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG, "%s:%zu: %s", r->path, parser->problem_mark.line + 1,
+                          parser->problem != NULL ? parser->problem : "not YAML");
+}
+
+/// Refuses what follows the first document: it would not be read. An empty one (a lone ---) may.
+static clast_status check_last(yaml_parser_t *parser, const reader *r)
+{
+    clast_status status = CLAST_OK;
+    bool is_last = false;
+    while (!is_last && status == CLAST_OK) {
+        yaml_document_t document;
+        CLX_TRY(load(parser, r, &document));
+        const yaml_node_t *root = yaml_document_get_root_node(&document);
+        is_last = root == NULL;
+        if (!is_last && (root->type != YAML_SCALAR_NODE || root->data.scalar.length > 0)) {
+            status = fail_at(r, root, "a second document; a file is one configuration", "");
+        }
+        yaml_document_delete(&document);
+    }
+done:
+    return status;
+}
+
 /// Reads the document that the parser's input holds.
 static clast_status read_input(yaml_parser_t *parser, reader *r)
 {
@@ -105,11 +133,10 @@ static clast_status read_input(yaml_parser_t *parser, reader *r)
         ++n;
     }
     CLX_TRY(clx_alloc(&r->seen, n, sizeof *r->seen));
-    CLX_CHECK(yaml_parser_load(parser, &document) == 1, CLAST_E_CONFIG, "%s:%zu: %s", r->path,
-              parser->problem_mark.line + 1,
-              parser->problem != NULL ? parser->problem : "not YAML");
+    CLX_TRY(load(parser, r, &document));
     has_document = true;
     CLX_TRY(read_document(r, &document));
+    CLX_TRY(check_last(parser, r));
 done:
     if (has_document) {
         yaml_document_delete(&document);

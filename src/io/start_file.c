@@ -8,6 +8,7 @@
 #include <clast/field.h>
 #include <clast/state.h>
 #include <clast/status.h>
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -177,6 +178,39 @@ static const char *const *text_column(const clast_table *t, const char *name)
     return NULL;
 }
 
+/// The shape of this name, or of the file of this name with its ending left out; or -1.
+static int32_t find_shape(const clast_assembly *a, const char *name)
+{
+    const size_t n = strlen(name);
+    int32_t found = -1;
+    int32_t n_found = 0;
+    for (int32_t i = 0; i < a->n_shape; ++i) {
+        const char *own = a->shape[i].name;
+        if (strcmp(own, name) == 0) {
+            return i;
+        }
+        if (strncmp(own, name, n) == 0 && own[n] == '.' && isalpha((unsigned char)own[n + 1])) {
+            found = i;
+            ++n_found;
+        }
+    }
+    return n_found == 1 ? found : -1;
+}
+
+/// Names the shapes that there are, as far as a line holds them.
+static clast_status refuse_name(const clast_assembly *a, int64_t row, const char *name)
+{
+    enum { MOST = 4 };
+    char names[256] = "";
+    size_t n = 0;
+    for (int32_t i = 0; i < a->n_shape && i < MOST && n < sizeof names; ++i) {
+        n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i > 0 ? ", " : "",
+                              a->shape[i].name);
+    }
+    return clx_fail(CLAST_E_FORMAT, "row %lld: shape '%s' is none of shapes: %s%s",
+                    (long long)row + 1, name, names, a->n_shape > MOST ? ", ..." : "");
+}
+
 static clast_status add_row(const clast_table *t, int64_t i, const char *const *name,
                             const double *const x[3], clast_assembly *a)
 {
@@ -186,14 +220,8 @@ static clast_status add_row(const clast_table *t, int64_t i, const char *const *
     const double *density = clast_table_numbers(t, "density_kg/m^3");
     const double place[3] = {x[0][i], x[1][i], x[2][i]};
     double q[4];
-    int32_t shape = 0;
-    while (shape < a->n_shape && strcmp(a->shape[shape].name, name[i]) != 0) {
-        ++shape;
-    }
-    CLX_CHECK(shape < a->n_shape, CLAST_E_FORMAT,
-              "row %lld: shape '%s' is none of shapes, whose names are their numbers and files "
-              "(1-sphere)",
-              (long long)i + 1, name[i]);
+    const int32_t shape = find_shape(a, name[i]);
+    CLX_TRY(shape >= 0 ? CLAST_OK : refuse_name(a, i, name[i]));
     for (int k = 0; k < 4; ++k) {
         const double *column = clast_table_numbers(t, part[k]);
         CLX_CHECK(column != NULL, CLAST_E_FORMAT, "there is no column %s", part[k]);

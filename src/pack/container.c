@@ -2,7 +2,18 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include "pack/pack.h"
+#include "pack/walls.h"
 #include <math.h>
+#include <string.h>
+
+static bool lies_in_floor(const clast_mesh *mesh, int32_t i, double extent)
+{
+    bool lies = true;
+    for (int k = 0; k < 3; ++k) {
+        lies = lies && fabs(mesh->vert[mesh->tri[i][k]][2]) <= 1e-9 * extent;
+    }
+    return lies;
+}
 
 /// Triangles but those that lie in the floor: the plane pushes there.
 static clast_status walls_of(const clast_mesh *mesh, bool has_floor, double extent,
@@ -12,16 +23,62 @@ static clast_status walls_of(const clast_mesh *mesh, bool has_floor, double exte
     CLX_TRY(clast_mesh_copy(mesh, walls));
     walls->n_tri = 0;
     for (int32_t i = 0; i < mesh->n_tri; ++i) {
-        bool is_floor = has_floor;
-        for (int k = 0; k < 3; ++k) {
-            is_floor = is_floor && fabs(mesh->vert[mesh->tri[i][k]][2]) <= 1e-9 * extent;
-        }
-        if (!is_floor) {
+        if (!has_floor || !lies_in_floor(mesh, i, extent)) {
             for (int k = 0; k < 3; ++k) {
                 walls->tri[walls->n_tri][k] = mesh->tri[i][k];
             }
             ++walls->n_tri;
         }
+    }
+done:
+    return status;
+}
+
+/// The first item that has this name among its first words, of which it looks at `most`; or -1.
+static int32_t find_name(const clast_text_list *list, int most, const char *name)
+{
+    for (int32_t i = 0; i < list->n; ++i) {
+        const char *at = list->item[i];
+        char word[64];
+        for (int k = 0; k < most && at != NULL; ++k) {
+            at = clx_next_word(at, word, sizeof word);
+            if (at != NULL && strcmp(word, name) == 0) {
+                return i;
+            }
+        }
+    }
+    return -1;
+}
+
+/// Options that name the container, but not the floor in which its bottom lies.
+static clast_status check_bottom(const char *option, const clast_text_list *list, int most)
+{
+    const int32_t i = find_name(list, most, "container");
+    return i < 0 || find_name(list, most, "floor") >= 0
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG,
+                          "%s %d, '%s': the container's bottom lies in the floor, which pushes in "
+                          "its place; give --no-floor, or name the floor, too",
+                          option, i + 1, list->item[i]);
+}
+
+clast_status clx_pack_check_bottom(const clast_pack_config *config, const clast_pack_input *input)
+{
+    clast_status status = CLAST_OK;
+    const clast_mesh *mesh = input->container;
+    double low[3];
+    double high[3];
+    int32_t i = 0;
+    if (input->container_closed == NULL || !config->dem.floor) {
+        return CLAST_OK;
+    }
+    clast_mesh_bounds(input->container_closed, low, high);
+    while (i < mesh->n_tri && !lies_in_floor(mesh, i, high[2])) {
+        ++i;
+    }
+    if (i < mesh->n_tri) {
+        CLX_TRY(check_bottom("wall", &config->wall, 1));
+        CLX_TRY(check_bottom("contacts", &config->contacts, 2));
     }
 done:
     return status;
@@ -42,7 +99,7 @@ clast_status clx_pack_contain(clast_pack *p)
     clast_mesh_bounds(mesh, low, high);
     CLX_CHECK(!d->floor || low[2] >= -1e-9 * (high[2] - low[2]), CLAST_E_CONFIG,
               "the container reaches down to z = %s, below the floor at z = 0: move it, or give "
-              "--floor no",
+              "--no-floor",
               clx_unit_text(low[2], "m"));
     CLX_CHECK(!d->lid, CLAST_E_CONFIG, "a container has its own lid, or none: leave out lid");
     p->base = d->floor ? 0.0 : low[2];

@@ -38,9 +38,9 @@ clast_bed clast_pack_bed(const clast_pack *pack)
     if (d->domain == CLAST_DEM_CELL) {
         clast_dem_cell cell;
         clast_dem_read_cell(pack->dem, &cell);
-        const bool is_upright = cell.shift == 0.0; // a sheared one repeats straight in x, y alone
-        return (clast_bed){.kind = is_upright ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC,
+        return (clast_bed){.kind = CLAST_BED_PERIODIC_3D,
                            .ceiling = cell.side[2],
+                           .shift = cell.shift,
                            .low = {-0.5 * cell.side[0], -0.5 * cell.side[1]},
                            .high = {0.5 * cell.side[0], 0.5 * cell.side[1]}};
     }
@@ -102,7 +102,8 @@ static clast_status check_room(const clast_pack *p)
         clx_unit_text(c->mass, "kg"), clx_unit_text(edge[1], "m"),
         clx_unit_text(0.5 * heavy * room, "kg"));
     CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
-              "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", light, c->dem.fluid_density);
+              "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", light,
+              c->dem.fluid_density);
 done:
     return status;
 }
@@ -295,10 +296,12 @@ done:
     return status;
 }
 
-/// All grains of a cell at once; then its stages begin.
-static clast_status generate_in_cell(clast_pack *p)
+clast_status clx_pack_fill_cell(clast_pack *p)
 {
     clast_status status = CLAST_OK;
+    if (p->config.dem.domain != CLAST_DEM_CELL || p->phase != CLAST_PACK_GENERATE) {
+        return CLAST_OK;
+    }
     CLX_TRY(p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p));
     CLX_CHECK(
         p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
@@ -345,8 +348,10 @@ static clast_status look(clast_pack *p)
     }
     CLX_TRY(clx_dem_gather_grains(p->dem));
     const double height = clast_dem_mean_height(p->dem, NULL);
-    const bool is_level = fabs(height - p->last_height) < c->height_change;
-    const bool is_slow = clast_dem_max_speed(p->dem) < c->still_speed;
+    const double moved = fabs(height - p->last_height);
+    const double speed = clast_dem_max_speed(p->dem);
+    const bool is_level = moved < c->height_change;
+    const bool is_slow = speed < c->still_speed;
     p->last_height = height;
     p->converged = c->rule == CLAST_PACK_BY_HEIGHT  ? is_level
                    : c->rule == CLAST_PACK_BY_SPEED ? is_slow
@@ -360,10 +365,11 @@ static clast_status look(clast_pack *p)
         return begin_phase(p, CLAST_PACK_DONE);
     }
     CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
-              "the bed is not still after %s of damping: its mean height moves by more than %s in "
-              "%s, its fastest grain at %s",
-              clx_unit_text(c->max_damping_time, "s"), clx_unit_text(c->height_change, "m"),
-              clx_unit_text(c->check_time, "s"), clx_unit_text(clast_dem_max_speed(p->dem), "m/s"));
+              "the bed is not still after %s of damping: its mean height has moved by %s in %s "
+              "(height_change %s), its fastest grain moves at %s (still_speed %s)",
+              clx_unit_text(c->max_damping_time, "s"), clx_unit_text(moved, "m"),
+              clx_unit_text(c->check_time, "s"), clx_unit_text(c->height_change, "m"),
+              clx_unit_text(speed, "m/s"), clx_unit_text(c->still_speed, "m/s"));
 done:
     return status;
 }
@@ -397,9 +403,7 @@ static clast_status decide(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const int64_t step = clast_dem_n_step(p->dem);
-    if (p->phase == CLAST_PACK_GENERATE && p->config.dem.domain == CLAST_DEM_CELL) {
-        CLX_TRY(generate_in_cell(p));
-    }
+    CLX_TRY(clx_pack_fill_cell(p));
     CLX_TRY(clx_pack_outlets(p));
     if (p->phase == CLAST_PACK_LOAD) {
         CLX_TRY(p->config.dem.domain == CLAST_DEM_CELL ? clx_pack_load_look(p)

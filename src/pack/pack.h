@@ -112,6 +112,9 @@ clast_status clx_pack_draw(clast_pack *pack, clx_pack_number *number, clast_dem_
 /// Forms of a law are measured without being made.
 clast_status clx_pack_check_draws(clast_pack *pack);
 
+/// All grains of a new cell at once; then its stages begin. Does nothing elsewhere.
+CLX_SHARED clast_status clx_pack_fill_cell(clast_pack *pack);
+
 /// Makes one fill of grains; mass and n_made follow.
 clast_status clx_pack_fill(clast_pack *pack);
 
@@ -123,6 +126,10 @@ clast_status clx_pack_prepare(clast_pack *pack);
 
 /// Walls and room of the container, where there is one; else of the domain.
 clast_status clx_pack_contain(clast_pack *pack);
+
+/// Refuses to move the container, or to give it contacts of its own, where its bottom lies in the
+/// floor and would stay behind.
+clast_status clx_pack_check_bottom(const clast_pack_config *config, const clast_pack_input *input);
 
 /// Whether a sphere lies in the container; true without one.
 bool clx_pack_holds(const clast_pack *pack, const double x[3], double radius);

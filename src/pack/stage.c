@@ -121,7 +121,7 @@ static clast_status read_test(const clast_pack_config *c, int32_t number, const 
         }
     } else if (strcmp(name, "shear") == 0) {
         CLX_TRY(read_shear(c, number, one, s));
-        if (w->n > 2 && strcmp(w->word[2], "until") != 0) {
+        if (w->n > 2 && strcmp(w->word[2], "until") != 0 && strchr(w->word[2], '=') == NULL) {
             *taken = 3;
             CLX_TRY(read_drive(c, number, w->word[2], &s->kind[2], &s->aim[2]));
         }
@@ -137,20 +137,21 @@ static clast_status read_end(const clast_pack_config *c, int32_t number, const w
 {
     static const char *const name[] = {"rest", "strain", "stress", "time"};
     static const char *const unit[] = {"-", "-", "Pa", "s"};
-    const bool has_value = at + 2 == w->n;
     for (int k = 0; k < 4 && at < w->n; ++k) {
         if (strcmp(w->word[at], name[k]) != 0) {
             continue;
         }
         s->end = (clx_end_kind)k;
-        if ((k == CLX_END_REST || k == CLX_END_STRESS) && at + 1 == w->n) {
-            return CLAST_OK;
+        const bool is_bare = k == CLX_END_REST || (k == CLX_END_STRESS && at + 1 == w->n);
+        if (!is_bare &&
+            (at + 1 == w->n || clast_unit_parse(w->word[at + 1], unit[k], &s->until) != CLAST_OK ||
+             s->until <= 0.0)) {
+            return fail(c, number, "expected a number above 0 after", name[k]);
         }
-        return has_value && k != CLX_END_REST &&
-                       clast_unit_parse(w->word[at + 1], unit[k], &s->until) == CLAST_OK &&
-                       s->until > 0.0
+        const int after = is_bare ? at + 1 : at + 2;
+        return after >= w->n
                    ? CLAST_OK
-                   : fail(c, number, "expected a number above 0 after", name[k]);
+                   : fail(c, number, "a stage has one end, and nothing after it:", w->word[after]);
     }
     return fail(c, number,
                 "expected until rest, until strain 0.1, until stress 10kPa or until time 1s", "");

@@ -128,17 +128,15 @@ static clast_status read_end(const clast_pack_config *c, int32_t number, const c
             continue;
         }
         s->end = (clx_wall_end)k;
-        const bool is_bare = k == CLX_UNTIL_REST || k == CLX_UNTIL_STRESS;
-        if (is_bare && value[0] == '\0') {
-            return CLAST_OK;
+        const bool is_bare = k == CLX_UNTIL_REST || (k == CLX_UNTIL_STRESS && value[0] == '\0');
+        if (!is_bare &&
+            !(ends_in(value, unit[k]) && clast_unit_parse(value, unit[k], &s->until) == CLAST_OK &&
+              (k == CLX_UNTIL_MASS ? s->until >= 0.0 : s->until > 0.0))) {
+            return fail(c, number, "expected a number above 0 with its unit after", word);
         }
-        char more[WORD];
-        const bool is_last = rest != NULL && clx_next_word(rest, more, sizeof more) == NULL;
-        const bool is_fine = k != CLX_UNTIL_REST && is_last && ends_in(value, unit[k]) &&
-                             clast_unit_parse(value, unit[k], &s->until) == CLAST_OK &&
-                             (k == CLX_UNTIL_MASS ? s->until >= 0.0 : s->until > 0.0);
-        return is_fine ? CLAST_OK
-                       : fail(c, number, "expected a number above 0 with its unit after", word);
+        at = clx_next_word(is_bare ? at : rest, value, sizeof value);
+        return at == NULL ? CLAST_OK
+                          : fail(c, number, "a stage has one end, and nothing after it:", value);
     }
     return fail(c, number,
                 "expected until rest, until time 1s, until stress 10kPa, until way 5mm or until "

@@ -74,11 +74,12 @@ static bool read_vector(const char *text, const char *unit, double out[3])
     return true;
 }
 
-/// A number and a unit, above 0 where it has to be.
+/// A number and its unit, which may end in a digit (m^2); above 0 where it has to be.
 static bool read_number(const char *text, const char *unit, bool is_above_0, double *out)
 {
-    return clast_unit_parse(text, unit, out) == CLAST_OK && (!is_above_0 || *out > 0.0) &&
-           !isdigit((unsigned char)text[strlen(text) - 1]);
+    const char *end = clx_number_parse(text, text + strlen(text), out);
+    return end != NULL && *end != '\0' && clast_unit_parse(text, unit, out) == CLAST_OK &&
+           (!is_above_0 || *out > 0.0);
 }
 
 /// Words that three numbers follow, in the order of read_vector_word's places.
@@ -163,6 +164,24 @@ static const char *read_motion(const char *name, const char *const next[2], clx_
     return "expected move, vibrate, axis, about, rotate, swing, table, press or area, not";
 }
 
+/// What is wrong with a word before what follows it is read, or NULL; *given: the words so far.
+static const char *refuse_word(const clast_pack_config *c, const char *name, uint32_t *given)
+{
+    static const char *const names[] = {"press", "area",   "move",    "about", "axis",
+                                        "table", "rotate", "vibrate", "swing"};
+    for (uint32_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        if (strcmp(name, names[k]) != 0) {
+            continue;
+        }
+        if ((*given >> k & 1U) != 0) {
+            return "it is given twice:";
+        }
+        *given |= 1U << k;
+        return k < 2 && c->stages.n == 0 ? "no stage presses the wall (stages); leave out" : NULL;
+    }
+    return NULL;
+}
+
 static clast_status check(const clast_pack_config *c, int32_t i, const clx_wall_words *w)
 {
     const clast_dem_wall_motion *m = &w->wall.motion;
@@ -229,6 +248,7 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
     const char *at = NULL;
     char word[3][CLX_WALL_PATH] = {"", "", ""};
     clx_wall_words w = {.file = ""};
+    uint32_t given = 0;
     CLX_TRY(read_head(c, i, &at, &w));
     while (at != NULL && (at = clx_next_word(at, word[0], sizeof word[0])) != NULL) {
         int taken = 0;
@@ -238,8 +258,10 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
             word[k][0] = next != NULL ? word[k][0] : '\0';
             after = next;
         }
-        const char *wrong =
-            read_motion(word[0], (const char *const[2]){word[1], word[2]}, &w, &taken);
+        const char *wrong = refuse_word(c, word[0], &given);
+        wrong = wrong != NULL
+                    ? wrong
+                    : read_motion(word[0], (const char *const[2]){word[1], word[2]}, &w, &taken);
         if (wrong != NULL) {
             return fail(c, i, wrong, word[taken < 3 ? taken : 2]);
         }

@@ -292,6 +292,7 @@ static clast_status prepare(run *r, bool goes_on)
     CLX_TRY((goes_on ? clx_pack_create_again : clast_pack_create)(r->config, &r->source.input,
                                                                   &r->pack));
     CLX_TRY(clx_pack_share(r->pack, r->comm));
+    CLX_TRY(goes_on ? CLAST_OK : clx_pack_fill_cell(r->pack));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
     }

@@ -28,6 +28,18 @@ class Configs(Case):
         for text in ("", "\n\n", "# mass: 1g\n"):
             self.assert_fails(2, "pack", self.write(text), says=("run.yaml: empty; expected lines of the form 'key: value'",))
 
+    def test_a_second_document_is_refused(self):
+        """It was dropped unread, whatever it said."""
+        said = "a second document; a file is one configuration"
+        bed = "curve: 4mm\nmass: 1g\nmax_steps: 1\n"
+        for text, line in ((f"---\n{bed}---\nfriction: 0.3\n", "6:1: " + said), (f"{bed}...\nnonsense: 4\n", "run.yaml:5:"),
+                           (f"{bed}---\n---\n4\n", "6:1: " + said), (f"{bed}---\n{{{{{{ not yaml\n", "did not find expected"),
+                           (f"{bed}...\n---\n[1]", "6:1: " + said), (f"---\n---\n{bed}", "expected lines of the form 'key: value'")):
+            self.assert_fails(2, "pack", self.write(text), says=("run.yaml:", line))
+        for end in ("---\n", "...\n", "---\n# mass: 2g\n", "...\n---\n", "---\n---\n...\n"):
+            r = clast("pack", self.write("---\n" + bed + end), "--quiet", "-j", 1)
+            self.assertEqual(r.code, 0, (end, r.err))
+
     def test_a_file_says_what_the_command_line_says(self):
         (self.folder / "forms.csv").write_text("flatness,elongation\n0.6,0.7\n0.65,0.68\n0.7,0.72\n")
         forms = self.folder / "forms.csv"

@@ -27,6 +27,18 @@ def name(option):
 
 
 class Load(Case):
+    def test_a_cell_that_does_not_hold_its_grains_leaves_no_run(self):
+        """The refused run's folder was in the way of the right one, and advised a --resume that was refused too."""
+        words = [{"5g": "13g"}.get(word, word) for word in CELL]
+        self.assert_fails(2, *words, *FAST, "--stages", "isotropic 20kPa until rest", "-o", self.folder / "run", says=["the cell holds"])
+        self.assertFalse((self.folder / "run").exists())
+
+    def test_what_is_not_still_is_named_with_its_limit(self):
+        """By --rule speed a bed that moved by 0.6 pm "moved by more than 10 um", and the limit of the speed was not named."""
+        self.assert_fails(5, "pack", "--curve", "4mm", "--mass", "1g", "--width", "2cm", "--height", "6cm", "--shaking-time", "0", "--rule", "speed",
+                          "--still-speed", "1um/s", "--max-damping-time", "0.4s", "-q",
+                          says=["its mean height has moved by", "in 10 ms (height_change 10 um)", "(still_speed 1 um/s)"])
+
     def test_bed_is_pressed_and_its_energy_found(self):
         run = self.folder / "run"
         result = clast(*CELL, *FAST, "--stages", "isotropic 20kPa until rest", "--energy", "--json", "-o", run)
@@ -212,13 +224,32 @@ class Load(Case):
                 self.assertEqual(old["shape"], new["shape"])
                 for key in old.keys() - {"shape"}:
                     self.assertAlmostEqual(float(old[key]), float(new[key]), 14, key)
-        self.assert_fails(3, "pack", "--start", table, *shapes[:2], *lone, says=("row", "none of shapes"))
+        self.assert_fails(3, "pack", "--start", table, *shapes[:2], *lone, says=("row", "none of shapes: 1-ellipsoid:1.3,1,0.8\n"))
+        text = table.read_text()
+        table.write_text(text.replace("2-grain00.ply", "2-grain00"))  # a file's ending may be left out
+        again = clast("pack", "--start", table, *shapes, *lone, "--json")
+        self.assertEqual((again.code, again.json["n_grain"]), (0, text.count("\n") - 1), again.err)
+        table.write_text(text.replace("2-grain00.ply", "grain00"))
+        self.assert_fails(3, "pack", "--start", table, *shapes, *lone,
+                          says=("shape 'grain00' is none of shapes: 1-ellipsoid:1.3,1,0.8, 2-grain00.ply",))
         # the ellipsoid of a surface is a shape of the table, too
         made = clast("pack", "--curve", "4mm", "--mass", "2g", *shapes, "--ellipsoids", *lone, "-o", self.folder / "eggs", "--json")
         self.assertEqual(clast("export", self.folder / "eggs", "-o", table).code, 0)
         back = clast("pack", "--start", table, *shapes, "--ellipsoids", *lone, "--json")
         self.assertEqual(back.code, 0, back.err)
         self.assertAlmostEqual(back.json["mass"] / made.json["mass"], 1, 14)
+
+    def test_sides_are_driven_beside_a_shear_without_a_pressure(self):
+        """"this is no strain rate (0.1/s): 'y=0.1/s'": the side was read as the shear's pressure."""
+        ends = []
+        for k, words in enumerate(("shear 1/s y=0.1/s", "y=0.1/s xz=1/s", "shear 1/s x=5kPa", "shear 1/s 5kPa x=5kPa", "shear 1/s xz=2/s", "shear 2/s")):
+            run = self.folder / f"run{k}"
+            result = clast(*CELL, "--stages", f"{words} until time 1ms", "-o", run)
+            self.assertEqual(result.code, 0, (words, result.err))
+            ends.append((run / "load.csv").read_bytes())
+        self.assertEqual(ends[0], ends[1])
+        self.assertEqual(ends[4], ends[5])
+        self.assertNotEqual(ends[2], ends[3])  # z stays
 
     def test_bad_loads_are_said(self):
         self.assert_fails(2, *CELL, says=("without stages",))
@@ -231,6 +262,9 @@ class Load(Case):
         self.assert_fails(2, *CELL, "--stages", "isotropic 0Pa", says=("stage 1", "never reached"))
         self.assert_fails(2, *CELL, "--stages", "hold until stress 1kPa", says=("stage 1", "drive a side"))
         self.assert_fails(2, *CELL, "--stages", "xz=1 until strain 1", says=("stage 1", "no pressure"))
+        for end, word in (("rest until time 1ms", "until"), ("strain 0.1 x=5kPa", "x=5kPa"), ("stress 1kPa 2kPa", "2kPa")):
+            self.assert_fails(2, *CELL, "--stages", f"isotropic 10kPa until {end}", says=("stage 1", f"a stage has one end, and nothing after it: '{word}'"))
+        self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa until time rest", says=("stage 1", "expected a number above 0 after 'time'"))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa", "--fluid-viscosity", "1e-3", says=("fluid_viscosity", "domain cell"))
         for option in (("--rule", "speed"), ("--still-speed", "1"), ("--check-time", "1s"), ("--height-change", "1mm"),
                        ("--max-damping-time", "1s"), ("--shake-period", "1s"), ("--no-shake-from-start",), ("--wall-friction", "0.1"),

@@ -41,7 +41,45 @@ def write_plate(path, half, z, hole=0.0):
     write_stl(path, triangles)
 
 
+def write_tank(path, low=0):
+    """A closed box in mm, whose bottom lies at z = low."""
+    corner = [(20 * (k & 1), 20 * (k >> 1 & 1), low + 60 * (k >> 2)) for k in range(8)]
+    sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    write_stl(path, [[corner[k] for k in side] for a, b, c, d in sides for side in ((a, b, c), (a, c, d))])
+
+
 class Walls(Case):
+    def test_a_containers_bottom_in_the_floor_is_no_wall_of_it(self):
+        """It stayed behind while its sides moved through the ball, and had the floor's contact law, without a word."""
+        tank, start, run = self.folder / "tank.stl", self.folder / "start.csv", self.folder / "run"
+        write_tank(tank)
+        write_tank(self.folder / "low.stl", -1)
+        start.write_text("x_m,y_m,z_m,radius_m\n0.01,0.01,0.002,0.002\n", encoding="utf-8")
+        bed = ["pack", "--start", start, "--density", "2500", "--container", tank, "--container-unit", "mm", "--fluid-density", "0", "--shake-amplitude", "0",
+               "--shaking-time", "0.1", "--max-steps", "20000", "-q", "-j", "1"]
+        up, bouncy = ("--wall", "container move 0,0,10mm/s"), ("--contacts", "grains container restitution 0.8")
+        said = "the container's bottom lies in the floor, which pushes in its place; give --no-floor"
+        self.assert_fails(2, *bed, *up, says=("wall 1, 'container move 0,0,10mm/s': " + said,))
+        self.assert_fails(2, *bed, *bouncy, says=("contacts 1, 'grains container restitution 0.8': " + said,))
+        self.assertEqual(clast(*bed, *bouncy, "--contacts", "floor grains restitution 0.8", "--max-steps", "1").code, 0)
+        self.assertEqual(clast(*bed, "--contacts", "grains walls restitution 0.8", "--max-steps", "1").code, 0)
+        self.assert_fails(2, *bed, "--container", self.folder / "low.stl", says=("below the floor at z = 0: move it, or give --no-floor",))
+        result = clast(*bed, *up, "--no-floor", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        way = rows(run / "walls.csv")[-1]["container_z_m"]
+        self.assertGreater(way, 0.9e-3)
+        with open(run / "grains.csv", encoding="utf-8") as file:
+            self.assertAlmostEqual(float(next(csv.DictReader(file))["z_m"]), 2e-3 + way, 6)
+
+    def test_a_pressure_acts_on_the_area_that_is_given(self):
+        """No spelling of an area was read but 1e-2m²: units that end in a digit were taken for bare numbers."""
+        lid = [*BED, "--mass", "3g", "--lid", "--max-steps", "1", "--stages", "lid=1kPa until rest"]
+        for area in ("0.01m^2", "100cm^2", "1e-2m²", "1e4mm^2"):
+            result = clast(*lid, "--wall", f"lid area {area}")
+            self.assertEqual(result.code, 0, (area, result.err))
+        for area in ("0.01", "0m^2", "-1m^2", "1m", "1m^3", "2", "m^2"):
+            self.assert_fails(2, *lid, "--wall", f"lid area {area}", says=(f"wall 1, 'lid area {area}': expected an area (0.01m^2), not '{area}'",))
+
     def test_a_lid_presses_a_bed(self):
         """An oedometer: the lid comes to its pressure, the floor carries it and the weight; force is the work's slope."""
         run = self.folder / "run"
@@ -206,6 +244,12 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall + " move 1,2mm/s", says=("wall 1", "expected a velocity"))
         self.assert_fails(2, *bed, "--wall", wall + " fly", says=("wall 1", "expected move"))
         self.assert_fails(2, *bed, "--wall", wall + " rotate 3rpm", says=("wall 1", "no axis"))
+        self.assert_fails(2, *bed, "--wall", wall + " axis 0,0,1 rotate 3", says=("wall 1", "expected an angular velocity"))
+        for words in ("move 0,0,10mm/s", "vibrate 0,0,0.2mm 20ms", "axis 0,0,1", "rotate 30rpm", "swing 5deg 20ms", "about 0,0,1mm", f"table {table}"):
+            self.assert_fails(2, *bed, "--wall", f"{wall} {words} {words}", says=("wall 1", f"it is given twice: '{words.split()[0]}'"))
+        for words in ("press 0,0,-1", "area 1m^2"):  # they did nothing
+            self.assert_fails(2, *bed, "--wall", f"{wall} {words}", says=("wall 1", f"no stage presses the wall (stages); leave out '{words.split()[0]}'"))
+        self.assert_fails(2, *bed, "--wall", wall + " press 0,0,-1 press 0,0,1", "--stages", "plate=1kPa", says=("wall 1", "it is given twice: 'press'"))
         self.assert_fails(2, *bed, "--wall", wall, "--wall", wall, says=("wall 2", "has this name"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-40m/s", says=("wall 1", "faster than half"))
         stiff = [word for pair in ("grains grains", "grains walls") for word in ("--contacts", pair + " collision_time 10us")]
@@ -219,6 +263,9 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-1mm/s", "--stages", f"plate {'x' * 70} until time 1s", says=("stage 1", "x~"))
         self.assert_fails(2, *bed, "--stages", "hold", says=("stages", "neither"))
+        for end in ("rest until time 1ms", "time 1ms until rest", "stress 1kPa 2kPa"):
+            self.assert_fails(2, *bed, "--wall", wall + " press 0,0,-1", "--stages", f"plate=1kPa until {end}",
+                              says=("stage 1", "a stage has one end, and nothing after it: '"))
         # these pressed nothing, stood still or were over at once, with exit code 0
         lid, hold = [*bed, "--lid", "--wall", "lid"], ("--stages", "hold until time 1ms")
         self.assert_fails(2, *lid, "--stages", "open lid until time 1ms", *hold, "--stages", "lid=1kPa until rest",
