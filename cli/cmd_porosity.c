@@ -209,6 +209,7 @@ static clast_status measure_run(const cli_common *common, const char *input,
                         input);
     }
     cli_porosity_wanted wanted = {.options = clast_porosity_options_default(),
+                                  .is_given = config->bed[0] != '\0',
                                   .gap = typed.gap,
                                   .core = config->core,
                                   .local = config->local,

@@ -118,6 +118,11 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
     if (isfinite(f->walls.ratio)) {
         cli_json_number(object, "wall_ratio", f->walls.ratio);
     }
+    if (f->beyond.n >= 0) {
+        cli_json_count(object, "n_beyond", f->beyond.n);
+        cli_json_number(object, "max_beyond", f->beyond.depth);
+        cli_json_number(object, "solid_beyond", f->beyond.solid);
+    }
     if (f->core_depth > 0.0) {
         cli_json_number(object, "core_depth", f->core.depth);
         cli_json_number(object, "core", f->core.porosity);
@@ -237,6 +242,13 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
                      f->core_depth > 0.0    ? ""
                      : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
                                             : ", which loosen the bed");
+    }
+    if (f->beyond.n > 0) {
+        (void)printf("beyond the sides    %d grain%s, by up to %s: bulk and profile count them "
+                     "whole, %.3g %% of this solid lies outside%s\n",
+                     f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit),
+                     100.0 * f->beyond.solid / f->bulk.solid,
+                     f->pores.sizes.n_column > 0 ? "; porosity by points (pores) does not" : "");
     }
     if (f->core_depth > 0.0) {
         (void)printf(

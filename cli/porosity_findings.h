@@ -17,6 +17,7 @@ typedef struct cli_porosity_findings {
     clast_table chains;
     clast_porosity_bulk bulk;
     clast_bed_walls walls;
+    clast_bed_beyond beyond;  ///< n -1: not looked for, or there are no side walls
     clast_porosity_core core; ///< where asked for
     double mean_coordination; ///< NAN where contacts are not known
     clast_overlaps overlaps;

@@ -1,9 +1,13 @@
 // What clast porosity measures of one bed.
 #include "porosity_measure.h"
 
+#include "quantity.h"
 #include <math.h>
+#include <string.h>
 
 enum { PORE_BINS = 50 };
+
+static const double MOST_BEYOND = 0.01; ///< of the solid that counts
 
 void cli_porosity_bed_free(cli_porosity_bed *s)
 {
@@ -46,6 +50,11 @@ static clast_status measure_contacts(cli_porosity_bed *s, double gap, cli_porosi
     clast_period period = {.low = {bed->low[0], bed->low[1], bed->floor}};
     const bool is_periodic = clast_bed_period(bed, period.length);
     f->overlaps = (clast_overlaps){-1, NAN, NAN};
+    if (s->contacts.n_column == 0 && bed->shift != 0.0) {
+        return cli_fail(CLAST_E_USAGE,
+                        "--bed: contacts across the borders of a sheared box are those of runs of "
+                        "clast pack, which know them; this bed knows none");
+    }
     if (s->contacts.n_column == 0) {
         CLI_GUARD(clast_assembly_overlaps(assembly, is_periodic ? &period : NULL, &f->overlaps));
     }
@@ -73,6 +82,30 @@ static clast_status check_bed(const clast_porosity_bulk *bulk)
                                               1.0 - bulk->porosity, bulk->z_low, bulk->z_high);
 }
 
+/// Nor is one that grains reach out of, whose solid counts whole: points know better.
+static clast_status check_sides(const cli_porosity_bed *s, const cli_porosity_wanted *wanted,
+                                cli_porosity_findings *f)
+{
+    const char *unit = strcmp(s->assembly.unit, "model") == 0 ? "model units" : s->assembly.unit;
+    double period[3];
+    f->beyond.n = -1;
+    if (!wanted->is_given || clast_bed_period(&s->bed, period)) {
+        return CLAST_OK;
+    }
+    CLI_GUARD(clast_bed_beyond_measure(&s->assembly, &s->bed, &f->bulk, wanted->options.method,
+                                       &f->beyond));
+    return f->beyond.solid <= MOST_BEYOND * f->bulk.solid || wanted->pores > 0
+               ? CLAST_OK
+               : cli_fail(
+                     CLAST_E_GEOMETRY,
+                     "--bed: %d of %d grains reach beyond its sides, by up to %s, with %.3g %% of "
+                     "the solid that would count as inside; give what holds the grains (--core "
+                     "leaves out what is near its walls), or --pores for the porosity of this "
+                     "bed by points",
+                     f->beyond.n, s->assembly.n_grain, cli_quantity(f->beyond.depth, unit),
+                     100.0 * f->beyond.solid / f->bulk.solid);
+}
+
 clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted *wanted,
                                   cli_porosity_findings *f)
 {
@@ -87,6 +120,7 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
     CLI_GUARD(clast_porosity_profile(assembly, bed, options, &f->profile));
     CLI_GUARD(clast_porosity_measure(assembly, bed, &f->profile, options, &f->bulk));
     CLI_GUARD(check_bed(&f->bulk));
+    CLI_GUARD(check_sides(s, wanted, f));
     f->walls = clast_bed_side_walls(bed, assembly);
     if (wanted->core > 0.0) {
         CLI_GUARD(

@@ -16,8 +16,9 @@ typedef struct cli_porosity_bed {
 /// What is asked for; lengths in the bed's unit, 0: not.
 typedef struct cli_porosity_wanted {
     clast_porosity_options options;
-    double gap;  ///< grains this close touch
-    double core; ///< grain sizes from the side walls
+    bool is_given; ///< the bed, which need not be what holds the grains
+    double gap;    ///< grains this close touch
+    double core;   ///< grain sizes from the side walls
     bool local;
     int32_t rings; ///< of radial porosity
     int64_t pores; ///< points

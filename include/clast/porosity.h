@@ -22,11 +22,13 @@ typedef enum {
 /// The container that a porosity refers to; z points up.
 typedef struct clast_bed {
     clast_bed_kind kind;
-    double centre[2];          ///< cylinder [m]
-    double radius;             ///< cylinder [m]
-    double low[2], high[2];    ///< box and periodic; bounds of a surface [m]
-    double floor;              ///< height of the bottom [m]
-    double ceiling;            ///< periodic in all three directions: height of the box's top [m]
+    double centre[2];       ///< cylinder [m]
+    double radius;          ///< cylinder [m]
+    double low[2], high[2]; ///< box and periodic; bounds of a surface [m]
+    double floor;           ///< height of the bottom [m]
+    double ceiling;         ///< periodic in all three directions: height of the box's top [m]
+    double shift; ///< of the images above along x, periodic in all three directions: a sheared cell
+                  ///< [m]
     const clast_mesh *surface; ///< mesh: closed and outward; borrowed
 } clast_bed;
 
@@ -44,8 +46,8 @@ CLAST_API void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *
                                  double *volume);
 
 /// Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1", "periodic:X0,Y0,X1,Y1" or, in
-/// all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1", each number with an optional unit; the floor
-/// is at 0, or at Z0.
+/// all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT]", each number with an optional unit;
+/// the floor is at 0, or at Z0; a sheared cell's upper images lie farther along x by SHIFT.
 ///
 /// @return CLAST_E_CONFIG with the text and what was expected
 CLAST_API clast_status clast_bed_parse(const char *text, clast_bed *bed);
@@ -54,7 +56,7 @@ CLAST_API clast_status clast_bed_parse(const char *text, clast_bed *bed);
 CLAST_API int clast_bed_format(const clast_bed *bed, size_t size, char *text);
 
 /// Periods in x, y and z [m], 0 for none; false for a bed that has none. The first image begins at
-/// (low[0], low[1], floor).
+/// (low[0], low[1], floor); one period up is a step of `shift` along x, too.
 CLAST_API bool clast_bed_period(const clast_bed *bed, double period[3]);
 
 /// Moves every grain's centroid into the bed's first image.
@@ -77,7 +79,7 @@ typedef enum {
 typedef struct clast_porosity_options {
     clast_porosity_method method;
     double layer;  ///< height of a slice h_p [m]
-    double cut;    ///< n_cut: the bed ends where the porosity rises through it
+    double cut;    ///< n_cut: the bed ends where the porosity rises through it; 1: with its solid
     double trim;   ///< h_pd: left out at both ends [m]
     bool at_slice; ///< the bed ends with the slice (reference program); else between slice centres
 } clast_porosity_options;
@@ -148,6 +150,26 @@ typedef struct clast_bed_walls {
 /// NAN throughout for beds or assemblies that do not hold together.
 CLAST_API clast_bed_walls clast_bed_side_walls(const clast_bed *bed,
                                                const clast_assembly *assembly);
+
+/// What reaches beyond the sides of a bed: slices count grains whole, so that a bed which is
+/// smaller than what holds them has too low a porosity.
+typedef struct clast_bed_beyond {
+    int32_t n; ///< grains with one or more of 512 even points beyond: a contact's overlap has none
+    double depth; ///< of the farthest: exact for spheres, else of its points [m]
+    double solid; ///< theirs beyond the sides, by points [m^3]
+} clast_bed_beyond;
+
+/// Between the heights of the bulk; a periodic bed has no sides, nothing is beyond them.
+///
+/// @param method  of the bulk
+/// @param beyond  written only on success
+/// @return CLAST_E_MEMORY, or what a bed's surface or a grain's is refused with
+/// @note the same bytes for any thread count
+CLAST_API clast_status clast_bed_beyond_measure(const clast_assembly *assembly,
+                                                const clast_bed *bed,
+                                                const clast_porosity_bulk *bulk,
+                                                clast_porosity_method method,
+                                                clast_bed_beyond *beyond);
 
 typedef struct clast_porosity_core {
     double depth;    ///< left out at the side walls: middle of the ramp [m]
@@ -304,11 +326,13 @@ CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const clast_
 ///     sigma_ij = 1/V sum f_i l_j                            [Love1927, Weber1966; pressure > 0]
 ///
 /// over contacts, f the force of a on b and l the branch from a to b; of a branch that is partly
-/// outside the heights, that part is left out. Rows: the six entries of the symmetric part, mean
-/// pressure, deviator q, ratio of horizontal to vertical stress.
+/// outside the heights, that part is left out. In a bed that is periodic in z it comes in again on
+/// the other side. Rows: the six entries of the symmetric part, mean pressure, deviator q, ratio of
+/// horizontal to vertical stress.
 ///
 /// @param contacts  of clast_dem_contact_table    @param z  heights [m]
-/// @return CLAST_E_FORMAT when the table is no such, CLAST_E_GEOMETRY where there is no volume
+/// @return CLAST_E_FORMAT when the table is no such, CLAST_E_GEOMETRY where there is no volume,
+///         CLAST_E_USAGE for heights farther apart than the period in z
 CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed *bed,
                                     const double z[2], clast_table *table);
 

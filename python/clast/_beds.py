@@ -89,6 +89,8 @@ class Porosity:
     n_grain: int
     grain_size: float
     wall_ratio: float  #: least width of the bed by the grains' size
+    n_beyond: int  #: grains that reach beyond the sides of a given bed, -1: the run's own, or periodic
+    max_beyond: float
     core: float  #: porosity away from the side walls
     core_error: float
     wall_share: float
@@ -189,13 +191,31 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     if bulk.porosity < -1e-2:
         raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
                     f"{bulk.z_high:g}: it is smaller than what holds them, or in another unit")
+    beyond = _beyond(b, given, options, bulk)
     walls = call("clast_bed_side_walls")(held, placed)
     if given["core"] > 0:
         check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(bulk), given["core"], ctypes.byref(options), ctypes.byref(away)))
     touching = _contacts(b, near)
     tables: dict[str, Any] = _more(b, given, options, profile, bulk)
     return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top, b.grains.unit, len(b.grains), walls.size, walls.ratio,
-                    away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
+                    beyond.n, beyond.depth, away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
+
+
+def _beyond(b: _Bed, given: dict[str, Any], options: Any, bulk: Any) -> Any:
+    """What reaches beyond the sides of a given bed, which is refused where that would make the porosity false."""
+    found = c.clast_bed_beyond(-1, float("nan"), float("nan"))
+    if not given["bed"] or b.bed.kind in (c.VALUES["CLAST_BED_PERIODIC"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
+        return found
+    check(call("clast_bed_beyond_measure")(ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), ctypes.byref(bulk), options.method,
+                                           ctypes.byref(found)))
+    told = (f"{found.n} of {len(b.grains)} grains reach beyond its sides, by up to {found.depth:.4g}, with {100 * found.solid / bulk.solid:.3g} % of "
+            "the solid that counts as inside" if found.n else "")
+    if found.solid > 0.01 * bulk.solid and not given["pores"]:
+        raise Error("CLAST_E_GEOMETRY", f"bed: {told}; give what holds the grains (core leaves out what is near its walls), or pores for the "
+                    "porosity of this bed by points")
+    if told:
+        warn("bed: " + told)
+    return found
 
 
 def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
@@ -204,6 +224,8 @@ def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
     period = c.clast_period(low=(b.bed.low[0], b.bed.low[1], b.bed.floor))
     where = ctypes.byref(period) if call("clast_bed_period")(ctypes.byref(b.bed), period.length) else None
     knows = b.contacts.struct.n_column > 0
+    if not knows and b.bed.shift:
+        raise refuse("bed: contacts across the borders of a sheared box are those of runs of clast pack, which know them; this bed knows none")
     if not knows:
         check(call("clast_assembly_overlaps")(placed, where, ctypes.byref(found)))
     if gap > 0:

@@ -40,9 +40,9 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
     CLX_ARGUMENTS(text, bed);
     clast_status status = CLAST_OK;
     clast_bed made = {0};
-    double number[6] = {0};
+    double number[7] = {0};
     const char *colon = strchr(text, ':');
-    const int n = colon != NULL ? lengths(colon + 1, 6, number) : -1;
+    const int n = colon != NULL ? lengths(colon + 1, 7, number) : -1;
     const size_t word = colon != NULL ? (size_t)(colon - text) : 0;
     if (word == 8 && strncmp(text, "cylinder", word) == 0 && (n == 1 || n == 3)) {
         made.kind = CLAST_BED_CYLINDER;
@@ -57,19 +57,22 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
         const bool is_box = word == 3 && strncmp(text, "box", word) == 0;
         const bool is_periodic = word == 8 && strncmp(text, "periodic", word) == 0;
         CLX_CHECK(
-            ((is_box || is_periodic) && n == 4) || (is_periodic && n == 6), CLAST_E_CONFIG,
+            ((is_box || is_periodic) && n == 4) || (is_periodic && n >= 6), CLAST_E_CONFIG,
             "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or, in all "
             "three directions, periodic:X0,Y0,Z0,X1,Y1,Z1, not '%s'",
             text);
-        made.kind = is_box ? CLAST_BED_BOX : n == 6 ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC;
+        made.kind = is_box ? CLAST_BED_BOX : n >= 6 ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC;
         for (int k = 0; k < 2; ++k) {
             made.low[k] = number[k];
-            made.high[k] = number[k + n / 2];
+            made.high[k] = number[k + (n == 4 ? 2 : 3)];
         }
-        made.floor = n == 6 ? number[2] : 0.0;
-        made.ceiling = n == 6 ? number[5] : 0.0;
+        made.floor = n >= 6 ? number[2] : 0.0;
+        made.ceiling = n >= 6 ? number[5] : 0.0;
+        made.shift = number[6];
         CLX_CHECK(n == 4 || made.ceiling > made.floor, CLAST_E_CONFIG, "bed '%s' has no height",
                   text);
+        CLX_CHECK(n < 7 || fabs(made.shift) <= made.high[0] - made.low[0], CLAST_E_CONFIG,
+                  "bed '%s' is sheared by more than its width", text);
     }
     CLX_CHECK(clast_bed_area(&made) > 0.0, CLAST_E_CONFIG, "bed '%s' has no area", text);
     *bed = made;
@@ -92,6 +95,9 @@ int clast_bed_format(const clast_bed *bed, size_t size, char *text)
         n = clx_number_print(text, size, "periodic:%.17g,%.17g,%.17g,%.17g,%.17g,%.17g",
                              bed->low[0], bed->low[1], bed->floor, bed->high[0], bed->high[1],
                              bed->ceiling);
+        if (bed->shift != 0.0 && n >= 0 && (size_t)n < size) {
+            n += clx_number_print(text + n, size - (size_t)n, ",%.17g", bed->shift);
+        }
     } else {
         n = clx_number_print(text, size, "%s:%.17g,%.17g,%.17g,%.17g",
                              bed->kind == CLAST_BED_BOX ? "box" : "periodic", bed->low[0],
@@ -121,10 +127,12 @@ void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
     const double low[3] = {bed->low[0], bed->low[1], bed->floor};
     double period[3] = {0};
     (void)clast_bed_period(bed, period);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 2; k >= 0; --k) { // z first: it moves a sheared bed's grains along x
         for (int32_t i = 0; i < assembly->n_grain && period[k] > 0.0; ++i) {
             double *x = &assembly->position[i][k];
-            *x = fmin(*x - period[k] * floor((*x - low[k]) / period[k]), low[k] + period[k]);
+            const double turn = floor((*x - low[k]) / period[k]);
+            *x = fmin(*x - period[k] * turn, low[k] + period[k]);
+            assembly->position[i][0] -= k == 2 ? turn * bed->shift : 0.0;
         }
     }
 }

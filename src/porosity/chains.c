@@ -33,6 +33,7 @@ typedef struct {
     const clast_assembly *assembly;
     clx_contacts c;
     double period[3];
+    double shift;       ///< along x of the images above
     grain *grain;       ///< [n_grain]
     int32_t *chain_of;  ///< [n_grain] set of linked grains, by its smallest member
     int32_t *n_in;      ///< [n_grain] grains of a set
@@ -74,9 +75,13 @@ static void add_contact(bed_chains *b, int64_t k)
     const int32_t first = (int32_t)c->a[k];
     double arm[3];
     double force[3];
-    for (int i = 0; i < 3; ++i) {
-        arm[i] = c->point[i][k] - b->assembly->position[first][i];
-        arm[i] -= b->period[i] > 0.0 ? b->period[i] * floor(arm[i] / b->period[i] + 0.5) : 0.0;
+    double along = 0.0;
+    for (int i = 2; i >= 0; --i) { // z first: it moves a sheared bed's images along x
+        const double way =
+            c->point[i][k] - b->assembly->position[first][i] - (i == 0 ? along : 0.0);
+        const double turn = b->period[i] > 0.0 ? floor(way / b->period[i] + 0.5) : 0.0;
+        arm[i] = way - b->period[i] * turn;
+        along = i == 2 ? turn * b->shift : along;
         force[i] = c->force[i][k];
     }
     b->force_norm[k] = v3_norm(force);
@@ -208,6 +213,7 @@ clast_status clast_bed_chains(const clast_bed *bed, const clast_assembly *assemb
     bed_chains b = {.assembly = assembly};
     const int32_t n = assembly->n_grain;
     (void)clast_bed_period(bed, b.period);
+    b.shift = b.period[2] > 0.0 ? bed->shift : 0.0;
     CLX_TRY(clx_contacts_read(contacts, &b.c));
     CLX_TRY(check_contacts(&b.c, n));
     CLX_TRY(clx_alloc(&b.grain, n, sizeof *b.grain));

@@ -42,6 +42,7 @@ typedef struct {
     double low[3], step[3];
     int64_t n[3];
     bool is_periodic[3];
+    double shift;                    ///< along x of the images above
     bool has_forces, has_velocities; ///< else what comes from them is NAN
     double (*cell)[N_FIELD];
 } grid;
@@ -72,6 +73,12 @@ static int64_t wrapped(const grid *g, int axis, int64_t k)
     return g->is_periodic[axis] ? ((k % n) + n) % n : k;
 }
 
+/// Periods above the first image that row k of the grid lies.
+static double turn_of(const grid *g, int64_t k)
+{
+    return g->is_periodic[2] ? floor((double)k / (double)g->n[2]) : 0.0;
+}
+
 /// Spreads values at a place into the fields from `first` on.
 static void spread(grid *g, const double x[3], int first, int n_value, const double *value)
 {
@@ -83,6 +90,10 @@ static void spread(grid *g, const double x[3], int first, int n_value, const dou
     }
     for (int k = 0; k < n[2]; ++k) {
         const int64_t at_z = wrapped(g, 2, begin[2] + k);
+        const double turn = turn_of(g, begin[2] + k);
+        if (g->shift != 0.0 && (k == 0 || turn != turn_of(g, begin[2] + k - 1))) {
+            n[0] = shares(g, 0, x[0] - turn * g->shift, &begin[0], share[0]);
+        }
         for (int j = 0; j < n[1]; ++j) {
             const int64_t row = (at_z * g->n[1] + wrapped(g, 1, begin[1] + j)) * g->n[0];
             const double both = share[2][k] * share[1][j];
@@ -197,6 +208,7 @@ static clast_status make_grid(const clast_bed *bed, const clast_assembly *a, con
     double n_cell = 1.0;
     (void)clast_bed_period(bed, period);
     g->width = width;
+    g->shift = period[2] > 0.0 ? bed->shift : 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double from = axis == 2                         ? bed->floor
                             : bed->kind == CLAST_BED_CYLINDER ? bed->centre[axis] - bed->radius

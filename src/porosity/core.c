@@ -1,4 +1,5 @@
-// Side walls: how far a bed reaches in grain sizes, and its porosity away from them.
+// Side walls: how far a bed reaches in grain sizes, what reaches beyond them, and the porosity away
+// from them.
 //
 // Grains stand in layers at a wall, so the solid beyond a sharp cut swings with the cut's place by
 // a hundredth. What counts therefore rises from 0 to 1 over one grain size: the mean over such
@@ -8,13 +9,18 @@
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
+#include "base/alloc.h"
+#include "base/parallel.h"
 #include "base/status.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
+#include <clast/mesh.h>
 #include <clast/shape.h>
 
-enum { POINTS = 512 };
+enum { POINTS = 512, BLOCK = 32 };
+
+static const double TOUCH = 1e-3; ///< of a grain's reach: so far it passes a wall unseen
 
 static double volume_of(const clast_assembly *a, int32_t i)
 {
@@ -61,6 +67,105 @@ static double distance(const clast_bed *bed, const double x[3])
         least = fmin(least, fmin(x[k] - bed->low[k], bed->high[k] - x[k]));
     }
     return least;
+}
+
+/// A grain as the method has it.
+static clx_touch_body body_of(const clast_assembly *a, const clx_touch_set *set,
+                              clast_porosity_method method, int32_t i)
+{
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
+    if (method != CLAST_POROSITY_SPHERES) {
+        return *clx_touch_scene_body(set->scene, i);
+    }
+    const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+    clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume_of(a, i)));
+    clx_touch_body_place(&ball, a->position[i], upright, 1.0);
+    return ball;
+}
+
+typedef struct {
+    const clast_assembly *assembly;
+    const clast_bed *bed;
+    const clx_touch_set *set;
+    clast_bvh *surface; ///< of a bed within one, else NULL
+    clast_porosity_method method;
+    double z[2];
+    double *share, *depth; ///< [n_grain] of its points beyond the sides; of the farthest [m]
+} beyond_search;
+
+/// Distance of a point from the nearest side [m], below 0 outside.
+static double inside_by(const beyond_search *s, const double x[3])
+{
+    return s->surface != NULL ? -clast_bvh_signed_distance(s->surface, x) : distance(s->bed, x);
+}
+
+static void find_beyond(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const beyond_search *s = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const clx_touch_body body = body_of(s->assembly, s->set, s->method, (int32_t)i);
+        const double inside = inside_by(s, body.position);
+        double cube[3] = {0.5, 0.5, 0.5};
+        double x[3];
+        int32_t n = 0;
+        int32_t n_beyond = 0;
+        for (int32_t tried = 0;
+             inside < (1.0 - TOUCH) * body.radius && n < POINTS && tried < 1000 * POINTS; ++tried) {
+            clx_lattice_step(cube);
+            if (clx_body_draw(&body, cube, x)) {
+                ++n;
+                const double by = x[2] >= s->z[0] && x[2] <= s->z[1] ? -inside_by(s, x) : 0.0;
+                n_beyond += by > 0.0 ? 1 : 0;
+                s->depth[i] = fmax(s->depth[i], by);
+            }
+        }
+        s->share[i] = n > 0 ? (double)n_beyond / n : 0.0;
+        if (n_beyond > 0 && body.kind == CLX_TOUCH_SPHERE) {
+            s->depth[i] = body.radius - inside;
+        }
+    }
+}
+
+clast_status clast_bed_beyond_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                      const clast_porosity_bulk *bulk, clast_porosity_method method,
+                                      clast_bed_beyond *beyond)
+{
+    CLX_ARGUMENTS(assembly, bed, bulk, beyond);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    clast_bed_beyond made = {0};
+    double period[3];
+    beyond_search s = {.assembly = assembly,
+                       .bed = bed,
+                       .set = &set,
+                       .method = method,
+                       .z = {bulk->z_low, bulk->z_high}};
+    if (clast_bed_period(bed, period)) {
+        *beyond = made;
+        return CLAST_OK;
+    }
+    if (bed->kind == CLAST_BED_MESH) {
+        CLX_TRY(clast_bvh_create(bed->surface, &s.surface));
+    }
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    CLX_TRY(clx_alloc(&s.share, assembly->n_grain, sizeof *s.share));
+    CLX_TRY(clx_alloc(&s.depth, assembly->n_grain, sizeof *s.depth));
+    clx_parallel_for(assembly->n_grain, BLOCK, find_beyond, &s);
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        made.n += s.share[i] > 0.0 ? 1 : 0;
+        made.depth = fmax(made.depth, s.depth[i]);
+        made.solid += s.share[i] * volume_of(assembly, i);
+    }
+    *beyond = made;
+done:
+    clx_free(s.share);
+    clx_free(s.depth);
+    clast_bvh_destroy(s.surface);
+    clx_touch_set_free(&set);
+    return status;
 }
 
 typedef struct {
@@ -112,16 +217,8 @@ static void add_cut(core_sum *c, int32_t i)
     const clast_assembly *a = c->assembly;
     const double volume = volume_of(a, i);
     double variance = 0.0;
-    double mean = 0.0;
-    if (c->method == CLAST_POROSITY_SPHERES) {
-        const double upright[4] = {1.0, 0.0, 0.0, 0.0};
-        clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume));
-        clx_touch_body_place(&ball, a->position[i], upright, 1.0);
-        mean = mean_weight(c, &ball, &variance);
-    } else {
-        mean = mean_weight(c, clx_touch_scene_body(c->set->scene, i), &variance);
-    }
-    c->solid += mean * volume;
+    const clx_touch_body body = body_of(a, c->set, c->method, i);
+    c->solid += mean_weight(c, &body, &variance) * volume;
     c->variance += volume * volume * variance;
 }
 

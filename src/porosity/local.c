@@ -59,13 +59,14 @@ static bool is_inside(const diagram *d, const double x[3])
            x[1] <= d->bed->high[1];
 }
 
-/// Moves a centre into the period's first image.
+/// Moves a centre into the period's first image: z first, which moves it along x in a sheared bed.
 static void wrap(const diagram *d, double x[3])
 {
     const double low[3] = {d->bed->low[0], d->bed->low[1], d->bed->floor};
-    for (int k = 0; k < 3 && k < d->n_period; ++k) {
-        x[k] -= d->period[k] * floor((x[k] - low[k]) / d->period[k]);
-        x[k] = fmin(x[k], low[k] + d->period[k]);
+    for (int k = d->n_period - 1; k >= 0; --k) {
+        const double turn = floor((x[k] - low[k]) / d->period[k]);
+        x[k] = fmin(x[k] - d->period[k] * turn, low[k] + d->period[k]);
+        x[0] -= k == 2 ? turn * d->bed->shift : 0.0;
     }
 }
 
@@ -165,6 +166,11 @@ done:
     return status;
 }
 
+static bool is_sheared(const diagram *d)
+{
+    return d->n_period == 3 && d->bed->shift != 0.0;
+}
+
 /// The bed's flat walls around sphere i, relative to its centre.
 static clast_status walls(const diagram *d, int32_t i, clx_cell *cell)
 {
@@ -175,6 +181,12 @@ static clast_status walls(const diagram *d, int32_t i, clx_cell *cell)
     for (int k = 0; k < d->n_period; ++k) { // its own images cut it at half a period
         low[k] = c[k] - 0.5 * d->period[k];
         high[k] = c[k] + 0.5 * d->period[k];
+    }
+    if (is_sheared(d)) { // those above and below cut it aslant; no farther than this from it
+        const double far =
+            (d->period[2] * d->period[2] + d->period[0] * d->period[0]) / d->period[2];
+        low[2] = c[2] - far;
+        high[2] = c[2] + far;
     }
     v3_sub(low, low, c);
     v3_sub(high, high, c);
@@ -240,11 +252,16 @@ static clast_status cut_grid_cell(const diagram *d, int32_t i, const int32_t at[
     clast_status status = CLAST_OK;
     int32_t g[3];
     double shift[3];
-    for (int k = 0; k < 3; ++k) {
-        if (!image(d, k, at[k], &g[k], &shift[k])) {
+    double along =
+        0.0; // of the images above or below in a sheared bed: whole cells, and less than one
+    for (int k = 2; k >= 0; --k) {
+        const int32_t index = k == 0 ? at[0] - (int32_t)floor(along / d->step[0]) : at[k];
+        if (!image(d, k, index, &g[k], &shift[k])) {
             return CLAST_OK;
         }
+        along = k == 2 && is_sheared(d) ? shift[2] / d->period[2] * d->bed->shift : along;
     }
+    shift[0] += along;
     const int64_t c = grid_cell(d, g[0], g[1], g[2]);
     const double reach2 = clx_cell_reach2(cell);
     for (int32_t k = d->first[c]; k < d->first[c + 1]; ++k) {
@@ -286,8 +303,9 @@ static clast_status make_cell(const diagram *d, int32_t i, clx_cell *cell)
     CLX_TRY(walls(d, i, cell));
     const double gain = d->largest * d->largest - d->radius[i] * d->radius[i];
     for (int32_t ring = 0; ring <= 2 * most; ++ring) {
-        // Whatever lies in this ring and beyond is at least (ring - 1) steps away.
-        const double away = (ring - 1) * d->least;
+        // Whatever lies in this ring and beyond is at least (ring - 1) steps away, or one less
+        // where cells of images lie between those of the grid.
+        const double away = (ring - (is_sheared(d) ? 2 : 1)) * d->least;
         const double reach = sqrt(clx_cell_reach2(cell));
         if (away > 0.0 && (away * away - gain) / (2.0 * away) > reach && away * away > gain) {
             break;

@@ -55,6 +55,15 @@ static bool visit(int32_t body, const clx_gap *gap, void *context)
     return !v->held;
 }
 
+/// A point's x as it is k periods up, in the first image: a sheared bed's is another.
+static double along_x(const search *s, double x, int k)
+{
+    const double at = x + k * s->bed->shift;
+    return at == x || !(s->period[0] > 0.0)
+               ? x
+               : at - s->period[0] * floor((at - s->bed->low[0]) / s->period[0]);
+}
+
 /// Distance of a point to the nearest grain or image of one within `reach`, or HUGE_VAL; -1 inside.
 static double nearest_within(const search *s, const double x[3], double reach, double dust)
 {
@@ -70,7 +79,8 @@ static double nearest_within(const search *s, const double x[3], double reach, d
         const int k = m % (2 * nz + 1) - nz;
         const int j = m / (2 * nz + 1) % (2 * ny + 1) - ny;
         const int i = m / ((2 * nz + 1) * (2 * ny + 1)) - nx;
-        v3_set(v.x, x[0] + i * s->period[0], x[1] + j * s->period[1], x[2] + k * s->period[2]);
+        v3_set(v.x, along_x(s, x[0], k) + i * s->period[0], x[1] + j * s->period[1],
+               x[2] + k * s->period[2]);
         clx_touch_body_place(&probe, v.x, upright, 1.0);
         (void)clx_touch_scene_contacts(s->set->scene, &probe, reach, visit, &v);
     }

@@ -267,6 +267,25 @@ done:
     return status;
 }
 
+/// Height up to which the bed may hold solid.
+static double highest(const clast_assembly *assembly, const clast_bed *bed,
+                      const clast_porosity_options *options)
+{
+    double low[3];
+    double high[3];
+    double rim[3] = {0.0, 0.0, HUGE_VAL};
+    clast_assembly_bounds(assembly, low, high);
+    for (int32_t i = 0; i < assembly->n_grain && options->method == CLAST_POROSITY_SPHERES; ++i) {
+        const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
+        high[2] = fmax(high[2], assembly->position[i][2] +
+                                    assembly->scale[i] * cbrt(0.75 / CLAST_PI * shape->volume));
+    }
+    if (bed->kind == CLAST_BED_MESH) {
+        clast_mesh_bounds(bed->surface, low, rim);
+    }
+    return fmin(high[2], rim[2]);
+}
+
 clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
                                     const clast_porosity_options *options, clast_table *table)
 {
@@ -275,28 +294,15 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
     CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
-    double low[3];
-    double high[3];
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
     CLX_TRY(check_options(options));
     CLX_CHECK(clast_bed_area(bed) > 0.0, CLAST_E_USAGE, "slices of %s over %s hold nothing",
               clx_unit_text(options->layer, "m"), clx_unit_text(clast_bed_area(bed), "m^2"));
-    clast_assembly_bounds(assembly, low, high);
-    for (int32_t i = 0; i < assembly->n_grain && options->method == CLAST_POROSITY_SPHERES; ++i) {
-        const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
-        high[2] = fmax(high[2], assembly->position[i][2] +
-                                    assembly->scale[i] * cbrt(0.75 / CLAST_PI * shape->volume));
-    }
-    if (bed->kind == CLAST_BED_MESH) {
-        double box_low[3];
-        double box_high[3];
-        clast_mesh_bounds(bed->surface, box_low, box_high);
-        high[2] = fmin(high[2], box_high[2]);
-    }
     const double n =
         bed->kind == CLAST_BED_PERIODIC_3D
             ? fmax(1.0, ceil((bed->ceiling - bed->floor) / options->layer * (1.0 - 1e-12)))
-            : fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
+            : fmax(1.0,
+                   ceil((highest(assembly, bed, options) - bed->floor) / options->layer) + 1.0);
     CLX_TRY(check_images(assembly, bed));
     CLX_CHECK(n <= SLICE_LIMIT, CLAST_E_LIMIT,
               "%g slices of %s; at most %d (coordinates in another unit?)", n,
@@ -310,28 +316,33 @@ done:
     return status;
 }
 
-/// Height where the porosity rises through the cut, searched from the top.
-static clast_status find_top(const clast_porosity_options *options, const clast_table *profile,
-                             const char *unit, double *top)
+/// Height where the porosity rises through the cut, searched from the top; with a cut of 1 that of
+/// the highest solid.
+static clast_status find_top(const clast_assembly *assembly, const clast_bed *bed,
+                             const clast_porosity_options *options, const clast_table *profile,
+                             double *top)
 {
     clast_status status = CLAST_OK;
     const double *low = clast_table_numbers(profile, "z_low_m");
     const double *high = clast_table_numbers(profile, "z_high_m");
     const double *n = clast_table_numbers(profile, "porosity");
+    const double *solid = clast_table_numbers(profile, "solid_m3");
     int64_t k = profile->n_row - 1;
-    CLX_CHECK(low != NULL && high != NULL && n != NULL, CLAST_E_USAGE,
+    CLX_CHECK(low != NULL && high != NULL && n != NULL && solid != NULL, CLAST_E_USAGE,
               "the table is no porosity profile");
-    while (k >= 0 && n[k] > options->cut) {
+    while (k >= 0 && (n[k] > options->cut || solid[k] == 0.0)) {
         --k;
     }
     CLX_CHECK(k >= 0, CLAST_E_GEOMETRY,
               "no slice is denser than the cut: the least porosity of slices %s high is above %g; "
               "check the bed, a greater cut, or lower slices (layer)",
               clx_unit_text(profile->n_row > 0 ? high[0] - low[0] : 0.0,
-                            strcmp(unit, "m") == 0 ? "m" : "-"),
+                            strcmp(assembly->unit, "m") == 0 ? "m" : "-"),
               options->cut);
     *top = high[k];
-    if (!options->at_slice && k + 1 < profile->n_row) {
+    if (!options->at_slice && options->cut >= 1.0) {
+        *top = highest(assembly, bed, options);
+    } else if (!options->at_slice && k + 1 < profile->n_row) {
         const double t = (options->cut - n[k]) / (n[k + 1] - n[k]);
         *top = 0.5 * (low[k] + high[k]) + t * (high[k] - low[k]);
     }
@@ -357,7 +368,7 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
               options->trim);
     made.top = bed->ceiling;
     if (!is_endless) {
-        CLX_TRY(find_top(options, profile, assembly->unit, &made.top));
+        CLX_TRY(find_top(assembly, bed, options, profile, &made.top));
     }
     made.z_low = bed->floor + options->trim;
     made.z_high = made.top - options->trim;

@@ -4,32 +4,91 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "porosity/contact_columns.h"
+#include "porosity/slabs.h"
 #include "porosity/whole.h"
 #include <math.h>
 
-/// Share of a branch from z to z + length that lies between two heights.
-static double share_between(double z, double length, double low, double high)
+enum { MOST_PERIODS = 4 }; ///< of a branch
+
+/// Rising heights between which branches are shared out.
+typedef struct {
+    int32_t n;
+    const double *edge; ///< [n + 1]
+    double period;      ///< in height, 0: none
+    bool is_open;       ///< what is below or above counts at the ends
+} slices;
+
+/// Share of a branch between two heights that lies between two others.
+static double share_between(double from, double to, double low, double high)
 {
-    if (fabs(length) < 1e-300) {
-        return z >= low && z < high ? 1.0 : 0.0;
+    if (!(to > from)) {
+        return from >= low && from < high ? 1.0 : 0.0;
     }
-    const double from = fmin(z, z + length);
-    const double to = fmax(z, z + length);
     return fmax(0.0, fmin(to, high) - fmax(from, low)) / (to - from);
 }
 
-/// Adds f_i l_j of the parts of branches between the heights; symmetric part xx yy zz xy xz yz.
-static void add_between(const clx_contacts *c, int64_t k, double low, double high, double sum[6])
+/// Adds a share of f_i l_j; symmetric part xx yy zz xy xz yz.
+static void add_share(const clx_contacts *c, int64_t k, double share, double sum[6])
 {
     CLAST_ASSERT(k >= 0 && k < c->n);
     static const int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-    const double share = share_between(c->z_a[k], c->branch[2][k], low, high);
     for (int e = 0; e < 6 && share > 0.0; ++e) {
         const int i = at[e][0];
         const int j = at[e][1];
         sum[e] +=
             0.5 * share * (c->force[i][k] * c->branch[j][k] + c->force[j][k] * c->branch[i][k]);
     }
+}
+
+/// Adds contact k, whose branch lies between these heights, to the slices that it passes.
+static void add_branch(const clx_contacts *c, int64_t k, double from, double to, const slices *s,
+                       double (*sum)[6])
+{
+    const int32_t first = clx_slice_of(s->n, s->edge, from);
+    for (int32_t i = first < s->n ? first : s->n - 1; i < s->n && (i == first || s->edge[i] <= to);
+         ++i) {
+        const double low = s->is_open && i == 0 ? -HUGE_VAL : s->edge[i];
+        const double high = s->is_open && i + 1 == s->n ? HUGE_VAL : s->edge[i + 1];
+        add_share(c, k, share_between(from, to, low, high), sum[i]);
+    }
+}
+
+/// The same in a bed that repeats in height: images from the highest that begins below the top.
+static void add_images(const clx_contacts *c, int64_t k, const slices *s, double (*sum)[6])
+{
+    const double top = s->edge[s->n];
+    const double length = fabs(c->branch[2][k]);
+    double from = fmin(c->z_a[k], c->z_a[k] + c->branch[2][k]);
+    from -= s->period * (floor((from - top) / s->period) + 1.0);
+    from = from < top ? from : top - s->period; // by rounding
+    do {
+        add_branch(c, k, from, from + length, s, sum);
+        from -= s->period;
+    } while (from + length > s->edge[0]);
+}
+
+/// Adds all branches to the slices that they pass.
+static clast_status gather(const clx_contacts *c, const slices *s, double (*sum)[6])
+{
+    clast_status status = CLAST_OK;
+    const bool repeats = s->period > 0.0;
+    CLX_CHECK(!repeats || s->edge[s->n] - s->edge[0] <= (1.0 + 1e-12) * s->period, CLAST_E_USAGE,
+              "heights of %s in a bed that repeats after %s",
+              clx_unit_text(s->edge[s->n] - s->edge[0], "m"), clx_unit_text(s->period, "m"));
+    for (int64_t k = 0; k < c->n; ++k) {
+        if (!repeats) {
+            const double end = c->z_a[k] + c->branch[2][k];
+            add_branch(c, k, fmin(c->z_a[k], end), fmax(c->z_a[k], end), s, sum);
+            continue;
+        }
+        CLX_CHECK(isfinite(c->z_a[k]) && fabs(c->branch[2][k]) <= MOST_PERIODS * s->period,
+                  CLAST_E_FORMAT, "contact %lld has a branch of %s in a bed that repeats after %s",
+                  (long long)k + 1, clx_unit_text(c->branch[2][k], "m"),
+                  clx_unit_text(s->period, "m"));
+        add_images(c, k, s, sum);
+    }
+done:
+    return status;
 }
 
 static clast_status add_row(clast_table *table, int64_t row, const char *name, double value,
@@ -73,52 +132,29 @@ clast_status clast_stress(const clast_table *table, const clast_bed *bed, const 
     clast_status status = CLAST_OK;
     clast_table made = {0};
     clx_contacts c = {0};
-    double sum[6] = {0.0};
+    double sum[1][6] = {{0.0}};
     double volume = 0.0;
+    double period[3];
+    (void)clast_bed_period(bed, period);
     CLX_TRY(clx_contacts_read(table, &c));
     clast_bed_volumes(bed, 1, z, &volume);
     CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %s and %s",
               clx_unit_text(z[0], "m"), clx_unit_text(z[1], "m"));
-    for (int64_t k = 0; k < c.n; ++k) {
-        add_between(&c, k, z[0], z[1], sum);
-    }
+    CLX_TRY(gather(&c, &(slices){.n = 1, .edge = z, .period = period[2]}, sum));
     for (int e = 0; e < 6; ++e) {
-        sum[e] /= volume;
+        sum[0][e] /= volume;
     }
     CLX_TRY(clast_table_init(&made, "stress", 9));
     CLX_TRY(clast_table_add_text(&made, "name"));
     CLX_TRY(clast_table_add_number(&made, "value", "-", NULL));
     CLX_TRY(clast_table_add_text(&made, "unit"));
     CLX_TRY(clast_table_add_text(&made, "meaning"));
-    CLX_TRY(make_rows(sum, &made));
+    CLX_TRY(make_rows(sum[0], &made));
     *out = made;
     made = (clast_table){0};
 done:
     clast_table_free(&made);
     return status;
-}
-
-static int64_t slice_at(const double *edge, int64_t n, double z)
-{
-    CLAST_ASSERT(n > 0);
-    const double step = (edge[n] - edge[0]) / (double)n;
-    const double k = floor((z - edge[0]) / step);
-    return (int64_t)fmax(0.0, fmin((double)(n - 1), k));
-}
-
-/// Adds all branches to the slices that they pass.
-static void gather(const clx_contacts *c, const double *edge, int64_t n, double (*sum)[6])
-{
-    for (int64_t k = 0; k < c->n; ++k) {
-        const double z = c->z_a[k];
-        const double end = z + c->branch[2][k];
-        const int64_t first = slice_at(edge, n, fmin(z, end));
-        const int64_t last = slice_at(edge, n, fmax(z, end));
-        for (int64_t s = first; s <= last; ++s) { // what is below or above counts at the ends
-            add_between(c, k, s == 0 ? -HUGE_VAL : edge[s], s + 1 == n ? HUGE_VAL : edge[s + 1],
-                        sum[s]);
-        }
-    }
 }
 
 clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed,
@@ -137,10 +173,12 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
     double *edge = NULL;
     double *volume = NULL;
     double *column = NULL;
+    double period[3];
     const int64_t n = profile->n_row;
     const double *low = clast_table_numbers(profile, "z_low_m");
     const double *high = clast_table_numbers(profile, "z_high_m");
-    CLX_CHECK(n > 0 && low != NULL && high != NULL, CLAST_E_USAGE,
+    (void)clast_bed_period(bed, period);
+    CLX_CHECK(n > 0 && n < INT32_MAX && low != NULL && high != NULL, CLAST_E_USAGE,
               "the table is no porosity profile");
     CLX_TRY(clx_contacts_read(table, &c));
     CLX_TRY(clx_alloc(&sum, n, sizeof *sum));
@@ -150,7 +188,8 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
         edge[k] = k < n ? low[k] : high[n - 1];
     }
     clast_bed_volumes(bed, (int32_t)n, edge, volume);
-    gather(&c, edge, n, sum);
+    const slices s = {(int32_t)n, edge, period[2], period[2] == 0.0};
+    CLX_TRY(gather(&c, &s, sum));
     CLX_TRY(clast_table_init(&made, "stress_profile", n));
     CLX_TRY(clast_table_add_number(&made, "z_low_m", "m", &column));
     CLX_TRY(clast_table_add_number(&made, "z_high_m", "m", NULL));

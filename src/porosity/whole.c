@@ -29,6 +29,10 @@ const char *clx_bed_fault(const clast_bed *bed)
             return "its sides are not finite, or end before they begin";
         }
     }
+    if (bed->kind == CLAST_BED_PERIODIC_3D &&
+        !(fabs(bed->shift) <= bed->high[0] - bed->low[0])) { // the same images, if farther
+        return "its shift is more than its width";
+    }
     return isfinite(bed->floor) && (bed->kind != CLAST_BED_PERIODIC_3D || isfinite(bed->ceiling))
                ? NULL
                : "its floor or ceiling is not finite";

@@ -278,6 +278,62 @@ class Porosity(Case):
         self.assert_fails(2, "porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--gap", "0.1mm", says=["knows its contacts"])
         self.assertEqual(clast("porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--floor=-1mm", "--json").json["z_low"], -1e-3)
 
+    def test_a_cell_carries_its_stress_through_its_borders(self):
+        """Contacts across the border in z were left out of porosity's stress, and piled on the end slices; a sheared cell had a floor."""
+        cell = ["--density", 2500, "--domain", "cell", "--no-floor", "--gravity", 0, "--fluid-density", 0, "-q"]
+        start = self.folder / "cubic.csv"
+        start.write_text("x_m,y_m,z_m,radius_m\n" + "".join(f"{4e-3 * i - 6e-3},{4e-3 * j - 6e-3},{4e-3 * k},2e-3\n"
+                                                            for i in range(4) for j in range(4) for k in range(4)))
+        runs = {"lattice": ["--start", start, "--width", "16mm", "--height", "16mm", "--friction", 0, "--stages", "isotropic 10kPa until rest"],
+                "sheared": ["--curve", "uniform:3mm,5mm", "--width", "20mm", "--height", "20mm", "--mass", "2g", "--load-rate", 20,
+                            "--stages", "isotropic 10kPa until rest", "--stages", "shear 5/s until strain 0.03"]}
+        for name, words in runs.items():
+            run, out = self.folder / name, self.folder / (name + "-porosity")
+            found = clast("pack", *words, *cell, "-o", run)
+            self.assertEqual(found.code, 0, found.err)
+            with open(run / "load.csv", encoding="ascii") as file:
+                load = {k: float(v or "nan") for k, v in list(csv.DictReader(file))[-1].items()}
+            found = clast("porosity", run, "--local", "--chains", "--fields", "2mm", "--json", "-o", out)
+            self.assertEqual(found.code, 0, found.err)
+            self.assertAlmostEqual(found.json["bulk"], load["porosity"], 9)
+            self.assertEqual(found.json["n_local"], found.json["n_grain"])
+            for axes in ("xx", "yy", "zz", "xy", "xz", "yz"):
+                self.assertAlmostEqual(found.json["stress"]["stress_" + axes] / load["pressure_Pa"],
+                                       load[f"stress_{axes}_Pa"] / load["pressure_Pa"], 4, (name, axes))
+            with open(out / "stress_profile.csv", encoding="ascii") as file:
+                for row in csv.DictReader(file):
+                    self.assertAlmostEqual(float(row["stress_zz_Pa"]) / load["stress_zz_Pa"], 1, 1, (name, row["z_low_m"]))
+
+    def test_what_a_smaller_bed_than_the_grains_holds(self):
+        """Slices count grains whole: a window of a packing had the solid beyond its sides, 0.174 for 0.47, without a word."""
+        path = self.lattice(5)
+        more = ["--layer", 0.1, "--cut", 0.9]
+        for bed, n in [("box:0.5,0.5,4.5,4.5", 80), ("cylinder:2.5,2.5,2.5", 60), ("box:10,0,15,5", 125)]:
+            self.assert_fails(3, "porosity", path, "--bed", bed, *more, says=[f"--bed: {n} of 125 grains reach beyond its sides", "--pores"])
+        text = clast("porosity", path, "--bed", "box:0.5,0.5,4.5,4.5", *more, "--pores", 20000)
+        self.assertEqual(text.code, 0, text.err)
+        self.assertIn("beyond the sides    80 grains, by up to 0.5 model units: bulk and profile count them whole, ", text.out)
+        found = clast("porosity", path, "--bed", "box:0.5,0.5,4.5,4.5", *more, "--pores", 20000, "--json").json
+        self.assertAlmostEqual(found["max_beyond"], 0.5, 12)
+        self.assertAlmostEqual(found["pore_porosity"], 1 - 3.141592653589793 / 6, 2)
+        found = clast("porosity", path, "--bed", "box:0.04,0,5,5", *more, "--json").json
+        self.assertEqual(found["n_beyond"], 25)
+        self.assertAlmostEqual(found["max_beyond"], 0.04, 12)
+        self.assertTrue(0 < found["solid_beyond"] < 0.01 * found["solid"])
+        found = clast("porosity", path, "--bed", "box:0,0,5,5", *more, "--json").json
+        self.assertEqual((found["n_beyond"], found["max_beyond"], found["solid_beyond"]), (0, 0, 0))
+        self.assertNotIn("n_beyond", clast("porosity", path, "--bed", "periodic:0,0,5,5", *more, "--json").json)
+
+    def test_a_cut_of_one_ends_with_the_highest_grain(self):
+        """It ended at the end of the profile's empty slice, by the height of the slices: 0.56 and 0.48 of one bed."""
+        path = self.lattice(5)
+        for layer in (0.07, 0.1, 1, 3):
+            for more in ([], ["--method", "spheres"]):
+                found = clast("porosity", path, "--bed", "box:0,0,5,5", "--layer", layer, "--cut", 1, *more, "--json").json
+                self.assertAlmostEqual(found["top"], 5, 12)
+                self.assertAlmostEqual(found["bulk"], 1 - 3.141592653589793 / 6, 12)
+        self.assertAlmostEqual(clast("porosity", path, "--bed", "box:0,0,5,5", "--layer", 3, "--cut", 1, "--at-slice", "--json").json["top"], 6, 12)
+
     def test_the_jammed_packing_as_it_is(self):
         path = shared("packings/rcp10000/packing.xyzd")
         if path is None:

@@ -179,6 +179,14 @@ class Numbers(unittest.TestCase):
         before = grains.positions.copy()
         self.assertEqual(clast.porosity(grains, bed=bed, trim="2mm", layer="1mm", at_slice=True).porosity, found.porosity)
         self.assertTrue(np.array_equal(grains.positions, before))
+        # a window of the packing counted the solid beyond its sides
+        with self.assertRaisesRegex(clast.Error, "^bed: 96 of 128 grains reach beyond its sides, by up to 0.0005"):
+            clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm")
+        with self.assertWarnsRegex(UserWarning, "^bed: 96 of 128 grains reach beyond its sides"):
+            window = clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm", pores=500)
+        said = command("porosity", path, "--bed", "box:0mm,0mm,3mm,3mm", "--layer", "0.2mm", "--pores", 500)
+        self.assertEqual((window.n_beyond, window.max_beyond, window.porosity), (said["n_beyond"], said["max_beyond"], said["bulk"]))
+        self.assertEqual(found.n_beyond, -1)
         for keys, line in (({}, "^bed: .* does not say what holds the grains"), (dict(bed="cylinder:1mm"), "^bed: grains take"),
                            (dict(bed=bed, trim="2"), "2"), (dict(bed=bed, trim=-1.0), "^trim: -1.0 lies outside")):
             with self.assertRaisesRegex(clast.Error, line):

@@ -226,6 +226,66 @@ static void hidden_grain_has_no_porosity(void **state)
     clast_assembly_free(&a);
 }
 
+/// A box whose upper images lie half its width farther along x, and the straight one of twice its
+/// height that is the same bed; cells of sheared beds ended at a floor and a top.
+static void sheared_bed_is_the_straight_one_of_twice_its_height(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    clast_assembly a[2] = {{0}, {0}};
+    clast_bed bed[2];
+    clast_table local[2] = {{0}, {0}};
+    clast_table fields[2] = {{0}, {0}};
+    clast_pores pores[2] = {{0}, {0}};
+    const double z[2][2] = {{0.0, 3.0}, {0.0, 6.0}};
+    double sum = 0.0;
+    for (int i = 0; i < N; ++i) {
+        const double u[4] = {fmod(0.5 + 0.819 * i, 1.0), fmod(0.5 + 0.671 * i, 1.0),
+                             fmod(0.5 + 0.5497 * i, 1.0), 0.25 + 0.005 * i};
+        add(&a[0], 4.0 * u[0], 3.0 * u[1], 3.0 * u[2], u[3]);
+        add(&a[1], 4.0 * u[0], 3.0 * u[1], 3.0 * u[2], u[3]);
+    }
+    for (int i = 0; i < N; ++i) {
+        const double *x = a[0].position[i];
+        add(&a[1], x[0] + (x[0] < 2.0 ? 2.0 : -2.0), x[1], x[2] + 3.0, a[0].scale[i]);
+    }
+    CHECK_OK(clast_bed_parse("periodic:0,0,0,4,3,3,2", &bed[0]));
+    CHECK_OK(clast_bed_parse("periodic:0,0,0,4,3,6", &bed[1]));
+    for (int k = 0; k < 2; ++k) {
+        clast_pore_options o = {.n_point = 20000, .n_bin = 10};
+        (void)clast_bed_period(&bed[k], o.period);
+        CHECK_OK(clast_porosity_local(&a[k], &bed[k], z[k][0], z[k][1], &local[k]));
+        CHECK_OK(clast_pores_measure(&a[k], &bed[k], z[k], &o, &pores[k]));
+        CHECK_OK(clast_bed_fields(&bed[k], &a[k], NULL, NULL, 0.5, &fields[k]));
+    }
+    for (int i = 0; i < N; ++i) {
+        const double cell = clast_table_numbers(&local[0], "cell_m3")[i];
+        CHECK_REL(cell, clast_table_numbers(&local[1], "cell_m3")[i], 1e-12);
+        CHECK_ABS(clast_table_numbers(&local[0], "border")[i], 0.0, 0.0);
+        sum += cell;
+    }
+    CHECK_REL(sum, 36.0, 1e-12);
+    CHECK_ABS(pores[0].porosity, pores[1].porosity, 5e-3);
+    CHECK_REL(pores[0].mean, pores[1].mean, 2e-2);
+    assert_int_equal(2 * fields[0].n_row, fields[1].n_row);
+    for (int64_t k = 0; k < fields[0].n_row; ++k) {
+        CHECK_REL(clast_table_numbers(&fields[0], "solid")[k],
+                  clast_table_numbers(&fields[1], "solid")[k], 1e-12);
+    }
+    const double far[3] = {1.0, 1.0, 4.0}; /* above the box: wrapped, half a width along x */
+    CHECK_OK(clast_assembly_add_grain(&a[0], 0, far, upright, 0.1, 1.0));
+    clast_bed_wrap(&bed[0], &a[0]);
+    const double *home = a[0].position[N];
+    CHECK_ABS(home[0], 3.0, 0.0);
+    CHECK_ABS(home[2], 1.0, 0.0);
+    for (int k = 0; k < 2; ++k) {
+        clast_table_free(&local[k]);
+        clast_table_free(&fields[k]);
+        clast_pores_free(&pores[k]);
+        clast_assembly_free(&a[k]);
+    }
+}
+
 static clast_status make_local(void *context)
 {
     clast_bed bed;
@@ -260,6 +320,7 @@ int main(void)
         cmocka_unit_test(cells_fill_the_bed),
         cmocka_unit_test(boulder_in_gravel_has_a_cell),
         cmocka_unit_test(hidden_grain_has_no_porosity),
+        cmocka_unit_test(sheared_bed_is_the_straight_one_of_twice_its_height),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

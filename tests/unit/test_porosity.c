@@ -294,9 +294,17 @@ static void profile_is_the_same_for_any_threads(void **state)
 static void beds_are_read_and_written(void **state)
 {
     (void)state;
-    static const char *const bad[] = {
-        "",       "cylinder",    "cylinder:0",    "cylinder:-1",       "box:1,2,3", "box:0,0,0,1",
-        "ball:3", "box:0,0,1,x", "box:nan,0,1,1", "periodic:0,0,1,1,1"};
+    static const char *const bad[] = {"",
+                                      "cylinder",
+                                      "cylinder:0",
+                                      "cylinder:-1",
+                                      "box:1,2,3",
+                                      "box:0,0,0,1",
+                                      "ball:3",
+                                      "box:0,0,1,x",
+                                      "box:nan,0,1,1",
+                                      "periodic:0,0,1,1,1",
+                                      "periodic:0,0,0,1,1,1,1.5"};
     char text[200];
     clast_bed bed;
     clast_bed again;
@@ -307,6 +315,11 @@ static void beds_are_read_and_written(void **state)
     assert_true(clast_bed_format(&bed, sizeof text, text) > 0);
     CHECK_OK(clast_bed_parse(text, &again));
     assert_memory_equal(&bed, &again, sizeof bed);
+    CHECK_OK(clast_bed_parse("periodic:-1,-2,-3,1,2,3,-0.3", &bed));
+    assert_true(clast_bed_format(&bed, sizeof text, text) > 0);
+    CHECK_OK(clast_bed_parse(text, &again));
+    assert_memory_equal(&bed, &again, sizeof bed);
+    CHECK_OK(clast_bed_parse("periodic:-5cm,-5cm,0.05,0.07", &bed));
     clast_table table = {0};
     bed.floor = 0.25;
     CHECK_OK(clast_bed_table(&bed, &table));

@@ -72,6 +72,61 @@ static void column_carries_its_weight(void **state)
     clast_dem_destroy(dem);
 }
 
+/* A lattice pressed along z carries the same stress at all heights of a box that repeats: contacts
+ * across the border were left out of the bulk and piled on the end slices of the profile. The last
+ * slice is thinner than the others, which once took their contacts from the wrong slices. */
+static void stress_goes_through_a_periodic_border(void **state)
+{
+    (void)state;
+    enum { LAYERS = 4 };
+    static const char *const name[] = {"a",          "b",         "centre_z_m", "x_m",
+                                       "y_m",        "z_m",       "branch_x_m", "branch_y_m",
+                                       "branch_z_m", "force_x_N", "force_y_N",  "force_z_N"};
+    clast_table contacts = {0};
+    clast_table profile = {0};
+    clast_table out = {0};
+    double *column[12];
+    const clast_bed bed = {
+        .kind = CLAST_BED_PERIODIC_3D, .high = {1.0, 1.0}, .floor = -0.5, .ceiling = 3.5};
+    const double edge[] = {-0.5, 0.9, 2.3, 3.5};
+    CHECK_OK(clast_table_init(&contacts, "contacts", LAYERS));
+    for (int k = 0; k < 12; ++k) {
+        CHECK_OK(clast_table_add_number(&contacts, name[k], "-", &column[k]));
+    }
+    for (int i = 0; i < LAYERS; ++i) { /* the second and the last from above, in other images */
+        const double up = i % 2 == 0 ? 1.0 : -1.0;
+        column[2][i] = (up > 0.0 ? i : i + 1) + 4.0 * (i - 1);
+        column[8][i] = up;
+        column[11][i] = 7.0 * up;
+    }
+    CHECK_OK(clast_table_init(&profile, "profile", 3));
+    CHECK_OK(clast_table_add_number(&profile, "z_low_m", "m", &column[0]));
+    CHECK_OK(clast_table_add_number(&profile, "z_high_m", "m", &column[1]));
+    for (int k = 0; k < 3; ++k) {
+        column[0][k] = edge[k];
+        column[1][k] = edge[k + 1];
+    }
+    CHECK_OK(clast_stress_profile(&contacts, &bed, &profile, &out));
+    for (int k = 0; k < 3; ++k) {
+        CHECK_REL(clast_table_numbers(&out, "stress_zz_Pa")[k], 7.0, 1e-14);
+    }
+    clast_table_free(&out);
+    const double whole[2] = {-0.5, 3.5};
+    const double part[2] = {3.0, 3.4};
+    const double more[2] = {0.0, 4.1};
+    CHECK_OK(clast_stress(&contacts, &bed, whole, &out));
+    CHECK_REL(out.column[1].number[2], 7.0, 1e-14);
+    clast_table_free(&out);
+    CHECK_OK(clast_stress(&contacts, &bed, part, &out));
+    CHECK_REL(out.column[1].number[2], 7.0, 1e-13);
+    clast_table_free(&out);
+    CHECK_STATUS(clast_stress(&contacts, &bed, more, &out), CLAST_E_USAGE);
+    contacts.column[8].number[0] = 1e300;
+    CHECK_STATUS(clast_stress(&contacts, &bed, whole, &out), CLAST_E_FORMAT);
+    clast_table_free(&contacts);
+    clast_table_free(&profile);
+}
+
 /* Student 1908: t(0.975, 2) = 4.30265. */
 static void mean_has_its_interval(void **state)
 {
@@ -133,6 +188,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(column_carries_its_weight),
+        cmocka_unit_test(stress_goes_through_a_periodic_border),
         cmocka_unit_test(mean_has_its_interval),
         cmocka_unit_test(inside_of_a_surface_is_a_bed),
     };
