@@ -166,9 +166,9 @@ const clast_field clast_evolve_fields[] = {
     NUMBER(duration, 0, 0, 1e300, "s", "time that passes at most", .common = true, .group = "time"),
     COUNT(rows, 50, 1, 1e6, "rows of the tables over it"),
     NUMBER(step_error, 0.05, 1e-6, 0.5, "-",
-           "share of a meeting, and of the height passed up or down (and of the width, where sides "
-           "are deposit), that a step may hold; and the most collisions of a pair's kind in a "
-           "sub-step"),
+           "share of a meeting, of the height passed up or down (of the width too, where sides are "
+           "not periodic) and of the density that a field changes, that a step may hold; and the "
+           "most collisions of a pair's kind in a sub-step"),
     NUMBER(time_step, 0, 0, 1e300, "s", "longest step; 0: by step_error"),
     {FIELD(U64, seed), 1, 0, 0, "-", "of every draw", .common = true},
 
@@ -338,6 +338,8 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
         {!c->structure, "meeting|walk_step|max_tries|keep", "without structure: drops merge"},
         {clx_evolve_meeting(c, collide.kernel) != CLAST_MEETING_DIFFUSIVE, "walk_step",
          "without meeting diffusive"},
+        {c->floor != CLAST_BORDER_DEPOSIT && c->sides != CLAST_BORDER_DEPOSIT, "bed_width",
+         "without a floor or sides that are deposit: nothing comes down"},
         {input->points == NULL, "columns", "without points"},
         {input->field == NULL, "field_columns", "without field"},
         {0}};

@@ -111,28 +111,72 @@ done:
     return status;
 }
 
-void clx_flow_add(const clx_flow *flow, const double x[3], double velocity[3])
+/// The cell of a point, beyond the grid the next to it, and how far along it is from 0 to 1.
+static void locate(const clx_flow *flow, const double x[3], int64_t cell[3], double part[3])
 {
-    CLAST_ASSERT(flow->u != NULL);
-    int64_t cell[3];
-    double part[3];
     for (int k = 0; k < 3; ++k) {
         const double most = flow->n[k] - 1;
         const double place = fmin(fmax((x[k] - flow->low[k]) / flow->step[k], 0.0), most);
         cell[k] = (int64_t)fmin(floor(place), fmax(most - 1.0, 0.0));
         part[k] = place - (double)cell[k];
     }
+}
+
+/// Velocity at a corner of a cell: bit k is the upper one along axis k.
+static const double *at_corner(const clx_flow *flow, const int64_t cell[3], int corner)
+{
+    int64_t node = 0;
+    for (int k = 2; k >= 0; --k) {
+        const int64_t at = cell[k] + (corner >> k & 1);
+        node = node * flow->n[k] + (at < flow->n[k] ? at : flow->n[k] - 1);
+    }
+    return flow->u[node];
+}
+
+/// Weight of a corner along one axis.
+static double weight_of(int corner, int axis, const double part[3])
+{
+    return (corner >> axis & 1) != 0 ? part[axis] : 1.0 - part[axis];
+}
+
+void clx_flow_add(const clx_flow *flow, const double x[3], double velocity[3])
+{
+    CLAST_ASSERT(flow->u != NULL);
+    int64_t cell[3];
+    double part[3];
+    locate(flow, x, cell, part);
     for (int corner = 0; corner < 8; ++corner) {
+        const double *u = at_corner(flow, cell, corner);
         double weight = 1.0;
-        int64_t node = 0;
         for (int k = 2; k >= 0; --k) {
-            const int up = corner >> k & 1;
-            weight *= up != 0 ? part[k] : 1.0 - part[k];
-            const int64_t at = cell[k] + up;
-            node = node * flow->n[k] + (at < flow->n[k] ? at : flow->n[k] - 1);
+            weight *= weight_of(corner, k, part);
         }
         for (int k = 0; k < 3; ++k) {
-            velocity[k] += weight * flow->u[node][k];
+            velocity[k] += weight * u[k];
         }
     }
+}
+
+double clx_flow_divergence(const clx_flow *flow, const double x[3])
+{
+    CLAST_ASSERT(flow->u != NULL);
+    int64_t cell[3];
+    double part[3];
+    double change[3] = {0.0, 0.0, 0.0}; // of u_k from the cell's lower face along k to its upper
+    double sum = 0.0;
+    locate(flow, x, cell, part);
+    for (int corner = 0; corner < 8; ++corner) {
+        const double *u = at_corner(flow, cell, corner);
+        for (int k = 0; k < 3; ++k) {
+            const double weight =
+                weight_of(corner, (k + 1) % 3, part) * weight_of(corner, (k + 2) % 3, part);
+            change[k] += (corner >> k & 1) != 0 ? weight * u[k] : -weight * u[k];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double place = (x[k] - flow->low[k]) / flow->step[k];
+        const bool is_in_grid = flow->n[k] > 1 && place >= 0.0 && place <= flow->n[k] - 1;
+        sum += is_in_grid ? change[k] / flow->step[k] : 0.0;
+    }
+    return sum;
 }

@@ -194,13 +194,20 @@ clast_status clx_evolve_find_rate(clast_evolve *e);
 clast_status clx_evolve_meet_all(clast_evolve *e, double dt);
 
 /// pace.c: how long the next step may be. The mean particle meets, and the mean mass moves up or
-/// down and spreads, by a share step_error of one and of the height; where sides keep what meets
-/// them it moves and spreads by that share of the width. Ends at the next row.
+/// down and spreads, by a share step_error of one and of the height; where sides are not periodic
+/// it moves along x and y by that share of the domain's extent, where they keep what meets them it
+/// spreads by that of the width. By as much a field changes the density about it. Ends at the next
+/// row.
 double clx_evolve_step_of(const clast_evolve *e);
 
-/// Refuses a time_step in which the mean mass comes onto the floor or out of the top from wherever
-/// it is, and meets nobody.
+/// Refuses a time_step in which the mean mass comes onto the floor or the sides, or out of the top,
+/// from wherever it is, and meets nobody.
 clast_status clx_evolve_check_time_step(const clast_evolve *e);
+
+/// Refuses a wind that carries more than a share step_error of the mass into sides that reflect,
+/// where it gathers in a layer (diffusivity over speed) thinner than it moves in a step: what meets
+/// there would be what steps are. A field is taken as it is: it may turn the mass aside before.
+clast_status clx_evolve_check_mirrors(const clast_evolve *e);
 
 /// move.c: every body in the fluid for a time dt, onto the floor too.
 ///

@@ -167,7 +167,7 @@ clast_status clast_evolve_run(const clast_evolve_config *config, const char *fol
                               const clast_monitor *monitor, clast_evolve_result *result)
 {
     CLX_ARGUMENTS(config, result);
-    const clast_idle rules[] = {{folder == NULL, "keep", "without -o"}, {0}};
+    const clast_idle rules[] = {{folder == NULL, "keep|checkpoint_time", "without -o"}, {0}};
     CLX_GUARD(clast_fields_check(clast_evolve_fields, config));
     CLX_GUARD(clx_fields_idle(clast_evolve_fields, config, rules));
     clast_status status = CLAST_OK;

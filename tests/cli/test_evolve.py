@@ -370,11 +370,15 @@ class Evolve(Case):
                  "with kernel shear_laminar and without brownian"),
                 (still, "viscosity", 1e-4, and_still), (still, "fluid-density", 2, and_still), (still, "mean-free-path", "1um", and_still),
                 (still, "fall", "sphere", "without gravity and brownian"), (still, "collision-radius", "volume", "with kernel constant"),
-                ([*box, "--kernel", "constant"], "dissipation", 1, "with kernel constant")):
+                ([*box, "--kernel", "constant"], "dissipation", 1, "with kernel constant"), (box, "checkpoint-time", "5s", "without -o"),
+                ([*box, "--floor", "reflect", "-o", self.folder / "never"], "bed-width", "1mm", "without a floor or sides that are deposit")):
             with self.subTest(option):
                 refused = self.assert_fails(2, *words, f"--{option}", value, says=(f" does nothing {why}",))
                 self.assertIn(option, refused.err.replace("_", "-"))
         self.assertEqual(clast(*box, "--no-brownian", "--temperature", "500K", "--quiet").code, 0)  # the kernel looks at it
+        aside = clast(*box, "--floor", "reflect", "--sides", "deposit", "--wind", "2,0,0", "--bed-width", "1mm", "-q", "-o", self.folder / "aside")
+        self.assertEqual(aside.code, 0, aside.err)
+        self.assertTrue((self.folder / "aside/deposit.h5").exists())
 
     def test_bad_input_is_one_line(self):
         box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s"]
@@ -384,6 +388,11 @@ class Evolve(Case):
         self.assert_fails(2, *box, "--particles", 5, "--kernel", "shear_turbulent", says=("dissipation",))
         self.assert_fails(2, *box, "--particles", 5, "--kernel", "ballistic", "--gravity", 0, "--floor", "reflect", says=("ballistic", "velocity"))
         self.assert_fails(2, *box, "--particles", 5, "--curve", "100um", "--time-step", "2s", says=("time_step", "whole height", "take less than"))
+        self.assert_fails(2, *box, "--particles", 5, "--wind", "1,0,0", "--sides", "deposit", "--time-step", "2s",
+                          says=("time_step", "moves 2 m to the side", "whole width of 1 m"))
+        self.assert_fails(2, "evolve", "--domain", "cylinder:0,0,0,0,0,1,1m,2mm", "--sides", "reflect", "--duration", "60s", "--particles", 5, "--curve",
+                          "20um", "--time-step", "0.3s", says=("time_step", "whole height of 2 mm"))
+        self.assert_fails(2, *box, "--particles", 5, "--wind", "2,0,0", "--sides", "reflect", says=("wind", "100 % of the mass", "sides that reflect"))
         self.assert_fails(2, *box, "--particles", 5, "--bed-width", "1mm", says=("bed_width", "-o"))
         self.assert_fails(2, *box, "--particles", 5, "--wind", "1,2", says=("wind", "x,y,z"))
         self.assert_fails(2, *box, "--particles", 5, "--density", 1, "--density", 2, says=("density", "1 shapes"))
