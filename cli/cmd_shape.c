@@ -43,8 +43,8 @@ static const clast_field fields[] = {
     {"hull", .offset = offsetof(config, hull), CLAST_FIELD_BOOL, 0, 0, 1, "-",
      "measure the convex hull (as packings use it), not the surface", NULL, .common = true},
     TEXT(unit,
-         "unit of the files' coordinates (mm, um, ...): results are then SI; none: model "
-         "units",
+         "unit of coordinates (mm, um, ...) in files that do not say theirs: results are then SI; "
+         "none: model units",
          .common = true),
     {"kind", .offset = offsetof(config, kind), CLAST_FIELD_CHOICE, CLAST_GRAINS_AUTO, 0, 0, "-",
      "what files hold; auto: by name and content", "auto|surface|series|voxels|points|table|clump",
@@ -146,17 +146,6 @@ static clast_status volume_options(const config *c, clast_grains_options *o)
     }
     o->threshold = limit[0];
     return CLAST_OK;
-}
-
-/// True when every grain's lengths are in metres after clast_grains_to_metres.
-static bool all_have_unit(const clast_grains *grains, double unit_m)
-{
-    for (int64_t i = 0; i < grains->n; ++i) {
-        if (unit_m <= 0.0 && grains->record[i].unit_m <= 0.0 && grains->record[i].has_size) {
-            return false;
-        }
-    }
-    return unit_m > 0.0 || (grains->n > 0 && grains->record[0].unit_m > 0.0);
 }
 
 static clast_status write_table(const cli_common *common, const cli_shape_result *shape)
@@ -319,10 +308,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(clast_grains_read(common->n_argument, (const char *const *)common->argument, &options,
                               &monitor, &shape.grains));
     CLI_TRY(check_read(c, &shape.grains));
-    if (all_have_unit(&shape.grains, unit_m)) {
-        clast_grains_to_metres(&shape.grains, unit_m);
-        shape.in_metres = true;
-    }
+    CLI_TRY(clast_grains_to_metres(&shape.grains, unit_m, &shape.in_metres));
     CLI_TRY(write_table(common, &shape));
     CLI_TRY(add_statistics(common, c, &shape, folder, &statistics));
     CLI_TRY(print(common, &shape, &statistics));

@@ -159,7 +159,8 @@ typedef struct clast_grains {
     clast_grain_fault *fault; ///< [n_fault] files and labels that could not be measured
     int64_t n_note;
     clast_grain_fault *note; ///< [n_note] tables with rows left out (status CLAST_OK), surfaces
-                             ///< whose volume counts a region twice (CLAST_E_GEOMETRY)
+                             ///< whose volume counts a region twice or that are several
+                             ///< bodies (CLAST_E_GEOMETRY)
 } clast_grains;
 
 /// Measures every grain of n files, in parallel, whatever becomes of the others.
@@ -183,9 +184,14 @@ CLAST_API const clast_idle *clast_grains_idle(const clast_grains_options *option
 /// "surface", "series", "voxels", "points", "table", "clump".
 CLAST_API const char *clast_grains_kind_name(clast_grains_kind kind);
 
-/// Multiplies the lengths of all grains: by the file's own unit where it has one, else by
-/// `unit_m`.
-CLAST_API void clast_grains_to_metres(clast_grains *grains, double unit_m);
+/// Brings all lengths to metres: by the file's own unit where it says one, else by `unit_m`.
+/// Nothing is changed where a size has no unit at all. The order of the files does not matter.
+///
+/// @param unit_m     metres in one unit of the files that say none, 0 if it is not known
+/// @param in_metres  whether all lengths are in metres now
+/// @return CLAST_E_CONFIG where files say different units and another none, or where all say one
+///         and one of them not `unit_m`
+CLAST_API clast_status clast_grains_to_metres(clast_grains *grains, double unit_m, bool *in_metres);
 
 /// Everything as a table: a row a grain; L, I, S, D and the form factors by one definition, then L,
 /// I, S by each. NaN where a grain has no such measure. Column names end in their unit with

@@ -107,7 +107,8 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
            surfaces: Path | None = None, progress: Progress = None) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
+    What cannot be measured is told in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
+    lengths are those of the files.
     Ctrl-C ends it between files; nothing is kept but surfaces written by then.
     """
     if not files:
@@ -148,11 +149,8 @@ def _measure(files: tuple[Path, ...], options: Any, keywords: list[str], metres:
     records = [g.record[k] for k in range(g.n)]
     if not g.n_fault:  # which may be of any kind
         refuse_idle(keywords, "clast_grains_idle", ctypes.byref(options), sum({1 << one.kind for one in records}))
-    in_metres = metres > 0 or (g.n > 0 and records[0].unit_m > 0)
-    if in_metres and all(metres > 0 or one.unit_m > 0 or not one.has_size for one in records):
-        call("clast_grains_to_metres")(ctypes.byref(g), metres)
-    else:
-        in_metres = False
+    in_metres = ctypes.c_bool()
+    check(call("clast_grains_to_metres")(ctypes.byref(g), metres, ctypes.byref(in_metres)))
     check(call("clast_grains_table")(ctypes.byref(g), axes, in_metres, ctypes.byref(table.struct)))
     faults, notes = (tuple(lines[k].text.decode("utf-8", "replace") for k in range(n)) for lines, n in ((g.fault, g.n_fault), (g.note, g.n_note)))
     for line in notes:
@@ -166,4 +164,4 @@ def _measure(files: tuple[Path, ...], options: Any, keywords: list[str], metres:
         raise Error(status_name(g.fault[g.n_fault - 1].status), faults[-1])
     if faults:
         warn(f"{len(faults)} file{'s' if len(faults) > 1 else ''} or grain{'s' if len(faults) > 1 else ''} could not be measured (first: {faults[0]})")
-    return Grains(table_of(table), faults, left_out, "m" if in_metres else "model")
+    return Grains(table_of(table), faults, left_out, "m" if in_metres.value else "model")

@@ -16,11 +16,15 @@ clast_status clx_check_finite(const clast_mesh *mesh);
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);
 bool clx_is_flat_at(const clast_mesh *mesh, const int32_t tri[3]);
 
-/// Marks [n_tri] superfluous triangles among those with the same three corners: all but the first,
-/// or all of them where the surface is closed without (two bodies' common wall). Collapsed ones are
-/// left out.
+/// Marks [n_tri] superfluous triangles among those with the same three corners: all but one that
+/// runs as most of them do (overlapping scans, a body written twice), or all of them where the
+/// surface is closed without (two bodies' common wall). Collapsed ones are left out.
 clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *topology,
                                  bool *duplicate, int32_t *n_duplicate);
+
+/// Triangles that repeat another with the same winding: a closed surface's volume counts them
+/// twice.
+clast_status clx_count_repeated(const clast_mesh *mesh, int32_t *n_repeated);
 
 /// Parts with their counts, measures, genus and nesting.
 clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
@@ -34,17 +38,20 @@ int clx_part_facing(const clast_mesh_check_result *result, int32_t part);
 /// direction: then no two cut each other. False is no answer.
 bool clx_is_star_shaped(const clast_mesh *mesh);
 
-/// What makes a surface's volume count a region twice.
+/// What makes a surface's volume count a region twice, or its form that of several bodies.
 typedef struct clx_doubles {
     int32_t n_part, n_doubled; ///< as in clast_mesh_check_result
+    int32_t n_repeated;        ///< of clx_count_repeated
+    int32_t n_body;            ///< solid parts, each with its cavities
     int64_t n_intersection;
 } clx_doubles;
 
-/// The counts of clast_mesh_check alone, in less than its time, of a closed surface. n_part is 0
-/// where the surface is star-shaped and nothing had to be counted.
+/// The counts of clast_mesh_check alone, in less than its time, of a closed surface. n_part and
+/// n_body are 0 where the surface is star-shaped and nothing had to be counted.
 clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles);
 
-/// "1 of its 2 parts counts twice in its volume ...", or of cuts; "" where each region counts once.
+/// "1 of its 2 parts counts twice in its volume ...", or of cuts or repeated triangles; "" where
+/// each region counts once.
 void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text);
 
 /// Volumes and areas, each in two ways.

@@ -42,9 +42,17 @@ static void open_words(clast_mesh_check_result *r)
             "`clast mesh repair`",
             left, r->weld_tolerance, r->weld_tolerance / r->extent);
     }
-    add(r, true, "open_edges",
-        "%d open edge%s in %d loop%s, the largest %.4g across (extent %.4g); %s", r->n_open_edge,
-        s(r->n_open_edge), r->n_open_loop, s(r->n_open_loop), r->largest_hole, r->extent, advice);
+    if (r->n_open_edge > 0) {
+        add(r, true, "open_edges",
+            "%d open edge%s in %d loop%s, the largest %.4g across (extent %.4g); %s",
+            r->n_open_edge, s(r->n_open_edge), r->n_open_loop, s(r->n_open_loop), r->largest_hole,
+            r->extent, advice);
+    } else { // no hole, yet a border: of facets written twice, or that stand on the surface
+        add(r, true, "odd_edges",
+            "edges of three triangles, or another odd number, form %d loop%s, the largest %.4g "
+            "across (extent %.4g); run `clast mesh repair`",
+            r->n_open_loop, s(r->n_open_loop), r->largest_hole, r->extent);
+    }
     if (r->volume_spread > 1e-9 * fabs(r->volume)) {
         add(r, false, "volume_uncertain",
             "the volume of an open surface depends on the origin: four ways to sum it differ by "
@@ -157,6 +165,11 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
                        "%d of its %d parts count%s twice in its volume (wound outward in a solid, "
                        "or inward outside of one)",
                        doubles->n_doubled, doubles->n_part, doubles->n_doubled == 1 ? "s" : "");
+    } else if (doubles->n_repeated > 0) {
+        (void)snprintf(text, size,
+                       "%d of its triangles repeat%s another, wound alike; its volume counts twice "
+                       "what they bound",
+                       doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
     }
 }
 

@@ -32,11 +32,11 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
               "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",
               path, (long long)found.n_intersection);
-    if (found.n_doubled > 0) {
-        clx_doubles_words(&found, sizeof words, words);
+    clx_doubles_words(&found, sizeof words, words);
+    if (words[0] != '\0') {
         CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
         status = clx_fail(CLAST_E_GEOMETRY, "%s: %s; drop %s: %s, or --accept-faults", path, words,
-                          found.n_doubled == 1 ? "it" : "them",
+                          found.n_doubled + found.n_repeated == 1 ? "it" : "them",
                           cure[0] != '\0' ? cure : "see clast mesh check");
     }
 done:
@@ -193,7 +193,7 @@ static clast_status load_sizes(const clast_aggregate_config *config, clast_sizes
                                    by_mass ? "leave size_by_mass out"
                                            : "set size_by_mass and size_draw",
                                    ", or give size_unit (um, mm, m or phi)"};
-        return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit,
+        return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit, NULL,
                                   sizes);
     }
     CLX_TRY(clast_sizes_alloc(config->params.size.n, sizes));

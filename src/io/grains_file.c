@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/path.h"
 #include "geom/check.h"
+#include "io/points.h"
 #include "io/spheres_table.h"
 #include <clast/cloud.h>
 #include <clast/field.h>
@@ -18,6 +19,7 @@
 #include <clast/harmonics.h>
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
+#include <clast/table.h>
 #include <clast/volume.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -124,6 +126,27 @@ done:
     return status;
 }
 
+/// Keeps a line about what a surface's measures mean.
+static clast_status warn(clx_grains_task *task, const char *text)
+{
+    return add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_E_GEOMETRY,
+                    task->path, text);
+}
+
+/// Tells a surface of a file that is not one grain.
+static clast_status note_bodies(clx_grains_task *task, const clx_doubles *found)
+{
+    char text[160];
+    if (found->n_body < 2 || found->n_intersection > 0) {
+        return CLAST_OK;
+    }
+    (void)snprintf(text, sizeof text,
+                   "%d bodies that do not hang together, measured as one grain; clast mesh repair "
+                   "--keep largest keeps one",
+                   found->n_body);
+    return warn(task, text);
+}
+
 /// Tells a surface of a file whose volume counts a region twice; those made here count it once.
 static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
                                  const clast_mesh *mesh)
@@ -137,6 +160,7 @@ static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
         return CLAST_OK;
     }
     CLX_TRY(clx_find_doubles(mesh, &found));
+    CLX_TRY(note_bodies(task, &found));
     clx_doubles_words(&found, sizeof words, words);
     if (words[0] == '\0') {
         goto done;
@@ -145,12 +169,11 @@ static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
         CLX_TRY(clast_mesh_cure(mesh, task->path, sizeof cure, cure));
     }
     (void)snprintf(text, sizeof text, "%s; %s%s", words,
-                   cure[0] == '\0'        ? "see clast mesh check"
-                   : found.n_doubled == 1 ? "drop it: "
-                                          : "drop them: ",
+                   cure[0] == '\0'                           ? "see clast mesh check"
+                   : found.n_doubled + found.n_repeated == 1 ? "drop it: "
+                                                             : "drop them: ",
                    cure);
-    CLX_TRY(add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_E_GEOMETRY,
-                     task->path, text));
+    CLX_TRY(warn(task, text));
 done:
     return status;
 }
@@ -367,27 +390,36 @@ done:
     return status;
 }
 
-static clast_status points_of_table(const clast_table *table, clast_mesh *points)
+/// The points of a table in the unit of its column x, with the metres in it; 0 if it says none.
+static clast_status points_of_table(const clast_table *table, clast_mesh *points, double *unit_m)
 {
     static const char *const names[3] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
-    const double *x[3];
+    const clast_column *x[3];
+    double metre[3] = {0.0};
+    int n_unit = 0;
     for (int k = 0; k < 3; ++k) {
-        x[k] = clast_table_numbers(table, names[k]);
-        if (x[k] == NULL && table->n_column == 3) {
-            x[k] = table->column[k].number; // three columns without names
+        x[k] = clx_column_find(table, names[k]);
+        if ((x[k] == NULL || x[k]->number == NULL) && table->n_column == 3) {
+            x[k] = &table->column[k]; // three columns without names
         }
-        CLX_CHECK(x[k] != NULL, CLAST_E_FORMAT,
+        CLX_CHECK(x[k] != NULL && x[k]->number != NULL, CLAST_E_FORMAT,
                   "no column of numbers is called '%s'; points need x, y and z", names[k]);
+        n_unit += clast_unit_factor(x[k]->unit, "m", &metre[k]) == CLAST_OK;
     }
+    CLX_CHECK(n_unit == 0 || n_unit == 3, CLAST_E_FORMAT,
+              "%d of the 3 columns x, y, z say their unit of length; give all of them one, or none",
+              n_unit);
     CLX_CHECK(table->n_row < INT32_MAX, CLAST_E_LIMIT, "%lld points are beyond 2^31",
               (long long)table->n_row);
     CLX_TRY(clast_mesh_alloc((int32_t)table->n_row, 0, points));
-    for (int32_t i = 0; i < points->n_vert; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            points->vert[i][k] = x[k][i];
+    for (int k = 0; k < 3; ++k) {
+        const double factor = metre[k] == metre[0] ? 1.0 : metre[k] / metre[0];
+        for (int32_t i = 0; i < points->n_vert; ++i) {
+            points->vert[i][k] = factor * x[k]->number[i];
         }
     }
+    *unit_m = metre[0];
 done:
     return status;
 }
@@ -415,19 +447,38 @@ done:
     return status;
 }
 
+/// Points joined by faces are a surface, and its form is not that of their hull.
+static clast_status refuse_faces(const clx_grains_task *task)
+{
+    clast_status status = CLAST_OK;
+    const bool is_asked = task->options->hull || task->options->spacing > 0.0;
+    CLX_CHECK(is_asked || task->options->kind == CLAST_GRAINS_POINTS, CLAST_E_FORMAT,
+              "a VTK file with faces, of which only the points are read: write the surface as STL, "
+              "OBJ, PLY or OFF, or measure the points' hull with --kind points");
+done:
+    return status;
+}
+
 static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
     clast_mesh points = {0};
-    CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
+    bool has_faces = false;
+    CLX_TRY(
+        clx_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table, &has_faces));
     if (kind == CLAST_GRAINS_CLUMP ||
         (kind == CLAST_GRAINS_AUTO && clx_spheres_are_named(&table))) {
         CLX_TRY(take_clump(task, &table));
     } else if (kind == CLAST_GRAINS_POINTS ||
-               (kind == CLAST_GRAINS_AUTO && clx_grains_has_points(&table))) {
-        CLX_TRY(points_of_table(&table, &points));
+               (kind == CLAST_GRAINS_AUTO && clx_points_are_named(&table))) {
+        CLX_TRY(has_faces ? refuse_faces(task) : CLAST_OK);
+        double unit_m = 0.0;
+        CLX_TRY(points_of_table(&table, &points, &unit_m));
         CLX_TRY(take_points(task, &points));
+        for (int64_t i = 0; i < task->grains.n; ++i) {
+            task->grains.record[i].unit_m = unit_m;
+        }
     } else {
         CLX_TRY(clx_grains_of_table(task, &table));
     }

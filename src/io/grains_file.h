@@ -25,9 +25,6 @@ clast_status clx_grains_note(clx_grains_task *task, const char *text);
 /// What a file's bytes are, where nobody says it; CLAST_GRAINS_AUTO: by the columns of its table.
 clast_grains_kind clx_grains_kind_of(const clx_grains_task *task);
 
-/// Whether a table has columns x, y and z.
-bool clx_grains_has_points(const clast_table *table);
-
 /// Refuses files whose surfaces would have one name in the folder.
 ///
 /// @return CLAST_E_USAGE with both files

@@ -4,18 +4,11 @@
 #include "base/path.h"
 #include "io/text.h"
 #include <clast/mesh.h>
-#include <clast/table.h>
 #include <clast/volume.h>
 
 static bool has_dataset(const clx_grains_task *task)
 {
     return task->options->dataset != NULL && task->options->dataset[0] != '\0';
-}
-
-bool clx_grains_has_points(const clast_table *table)
-{
-    return clast_table_find(table, "x") >= 0 && clast_table_find(table, "y") >= 0 &&
-           clast_table_find(table, "z") >= 0;
 }
 
 static bool has_extension(const char *path, const char *const *list)

@@ -47,8 +47,8 @@ static clast_status read_kind(clx_grains_task *task, surface_names *names)
     *names = names_of_kind(kind);
     if (kind == CLAST_GRAINS_AUTO) {
         CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
-        *names = clx_grains_has_points(&table) && !clx_spheres_are_named(&table) ? NAMES_FILE
-                                                                                 : NAMES_NONE;
+        *names = clx_points_are_named(&table) && !clx_spheres_are_named(&table) ? NAMES_FILE
+                                                                                : NAMES_NONE;
     }
 done:
     clast_table_free(&table);

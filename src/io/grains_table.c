@@ -5,30 +5,45 @@
 #include <clast/field.h>
 #include <clast/form.h>
 #include <clast/table.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/// Metres in the unit that a label such as "sieve size (mm)" or "d_um" ends in; 0 if none.
-static double unit_of_label(const char *label)
+/// True when the table's size is the sieve size of eq. 1, from which L, I and S follow: its label
+/// is then "sieve size (mm)", with the metres in that unit; 0 if none. No other label begins so.
+static bool is_sieve_size(const clast_form_set *set, double *metre)
 {
-    char unit[16];
-    double factor = 0.0;
-    const char *open = strrchr(label, '(');
-    const char *start = open != NULL ? open + 1 : strrchr(label, '_');
-    if (start == NULL) {
-        return 0.0;
+    char unit[16] = "";
+    const char *open = strchr(set->size_label, '(');
+    *metre = 0.0;
+    if (set->size == NULL || strncmp(set->size_label, "sieve size", 10) != 0) {
+        return false;
     }
-    start += open == NULL;
-    (void)snprintf(unit, sizeof unit, "%s", start);
-    unit[strcspn(unit, ")")] = '\0';
-    return clast_unit_factor(unit, "m", &factor) == CLAST_OK ? factor : 0.0;
+    if (open != NULL) {
+        (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(open + 1, ")"), open + 1);
+        (void)clast_unit_factor(unit, "m", metre);
+    }
+    return true;
 }
 
-/// True when the table's size is the sieve size of eq. 1, from which L, I and S follow.
-static bool is_sieve_size(const clast_form_set *set)
+/// A row's L, I, S follow from its size; where that is not there, its form alone is known.
+static clast_status note_sizes(clx_grains_task *task, const clast_form_set *set)
 {
-    return set->size != NULL &&
-           (strncmp(set->size_label, "sieve", 5) == 0 || strncmp(set->size_label, "D", 1) == 0);
+    char text[128];
+    int64_t n = 0;
+    int64_t first = 0;
+    for (int64_t i = set->n - 1; i >= 0; --i) {
+        n += isnan(set->size[i]);
+        first = isnan(set->size[i]) ? set->row[i] + 1 : first;
+    }
+    if (n == 0) {
+        return CLAST_OK;
+    }
+    (void)snprintf(text, sizeof text,
+                   "%lld of %lld sizes left out: missing, infinite or not positive (first: row "
+                   "%lld)",
+                   (long long)n, (long long)set->n, (long long)first);
+    return clx_grains_note(task, text);
 }
 
 clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table)
@@ -37,42 +52,87 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
     clast_form_set set = {0};
     char text[512];
     CLX_TRY(clast_form_set_of(table, task->options->columns, &set));
-    const bool has_size = is_sieve_size(&set);
-    const double unit = has_size ? unit_of_label(set.size_label) : 0.0;
+    double unit = 0.0;
+    const bool is_sieve = is_sieve_size(&set, &unit);
     for (int64_t i = 0; i < set.n; ++i) {
         clast_grain_record *record = NULL;
         (void)snprintf(text, sizeof text, ":%lld", (long long)set.row[i] + 1);
         CLX_TRY(clx_grains_add(task, text, &record));
         record->kind = CLAST_GRAINS_TABLE;
         record->has_surface = false;
-        record->has_size = has_size;
+        record->has_size = is_sieve && !isnan(set.size[i]);
         record->unit_m = unit;
         for (int a = 0; a < CLAST_N_AXES; ++a) { // whatever they are, these are the L, I, S
-            clast_form_lengths(set.flatness[i], set.elongation[i], has_size ? set.size[i] : 1.0,
-                               record->grain.axes[a].lis);
+            clast_form_lengths(set.flatness[i], set.elongation[i],
+                               record->has_size ? set.size[i] : 1.0, record->grain.axes[a].lis);
         }
     }
     clast_form_set_complaint(&set, sizeof text, text);
     if (text[0] != '\0') {
         CLX_TRY(clx_grains_note(task, text));
     }
+    if (is_sieve) {
+        CLX_TRY(note_sizes(task, &set));
+    }
 done:
     clast_form_set_free(&set);
     return status;
 }
 
-void clast_grains_to_metres(clast_grains *grains, double unit_m)
+/// Whether all lengths have a unit, the files' or the given one; which file comes first does not
+/// matter.
+static clast_status find_unit(const clast_grains *grains, double unit_m, bool *is_known)
 {
-    if (grains == NULL || grains->record == NULL) {
-        return;
+    clast_status status = CLAST_OK;
+    const clast_grain_record *none = NULL;  // says no unit
+    const clast_grain_record *own = NULL;   // says one
+    const clast_grain_record *other = NULL; // one that others do not share
+    const clast_grain_record *against = NULL;
+    for (const clast_grain_record *r = grains->record; r < grains->record + grains->n; ++r) {
+        if (r->has_size && r->unit_m > 0.0) {
+            const bool is_clump = r->kind == CLAST_GRAINS_CLUMP; // read in metres
+            own = own != NULL ? own : r;
+            other = is_clump || r->unit_m != own->unit_m ? r : other;
+            against = !is_clump && r->unit_m != unit_m ? r : against;
+        } else if (r->has_size) {
+            none = r;
+        }
     }
+    CLX_CHECK(unit_m > 0.0 || none == NULL || other == NULL, CLAST_E_CONFIG,
+              "%s says a unit of length that others do not share, and %s says none: give that with "
+              "--unit",
+              other->name, none->name);
+    CLX_CHECK(unit_m <= 0.0 || none != NULL || against == NULL, CLAST_E_CONFIG,
+              "%s says its unit of length, %g m, and --unit another, %g m, that no file needs: "
+              "leave out --unit",
+              against->name, against->unit_m, unit_m);
+    *is_known = unit_m > 0.0 || (own != NULL && none == NULL);
+done:
+    return status;
+}
+
+clast_status clast_grains_to_metres(clast_grains *grains, double unit_m, bool *in_metres)
+{
+    CLX_ARGUMENTS(grains, in_metres);
+    CLX_ARRAY(grains->record, grains->n);
     for (int64_t i = 0; i < grains->n; ++i) {
+        CLX_ARGUMENTS(grains->record[i].name);
+    }
+    clast_status status = CLAST_OK;
+    bool is_known = false;
+    CLX_CHECK(isfinite(unit_m) && unit_m >= 0.0, CLAST_E_ARGUMENT, "%s: a unit of %g m", __func__,
+              unit_m);
+    CLX_TRY(find_unit(grains, unit_m, &is_known));
+    for (int64_t i = 0; i < grains->n && is_known; ++i) {
         clast_grain_record *record = &grains->record[i];
         if (record->has_size) {
             clast_grain_scale(&record->grain, record->unit_m > 0.0 ? record->unit_m : unit_m);
         }
         record->unit_m = 1.0;
     }
+    *in_metres = is_known;
+done:
+    return status;
 }
 
 /// A number of the grain for the table: offset in clast_grain, power of length, name.

@@ -9,8 +9,17 @@ typedef struct clx_rows {
     int64_t first, n;
 } clx_rows;
 
-clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);
-clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);
+/// Polygons, strips and other cells that join the points are skipped. has_faces, which may be NULL,
+/// becomes true where some have two or three dimensions.
+clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces);
+clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces);
+
+/// clast_cloud_parse that sets has_faces where a VTK file has some.
+clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
+                              const clast_points_options *options, clast_table *table,
+                              bool *has_faces);
 
 /// Grains as `clast export` places them in a .vtu of surfaces (field data) or points: columns x, y,
 /// z, grain, shape, scale, density, orientation_wxyz_0 to _3; names: a row for each shape.

@@ -57,11 +57,10 @@ done:
     return status;
 }
 
-clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
-                               const clast_points_options *options, clast_table *table)
+clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
+                              const clast_points_options *options, clast_table *table,
+                              bool *has_faces)
 {
-    CLX_ARGUMENTS(name, table);
-    CLX_ARRAY(bytes, n);
     const bool is_dump = begins(bytes, n, "ITEM:");
     const clast_status status = clx_points_check_options(name, options, is_dump, false);
     if (status != CLAST_OK) {
@@ -71,10 +70,10 @@ clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
         return clx_points_dump(name, bytes, n, options != NULL ? options->frame : 0, table);
     }
     if (begins(bytes, n, "# vtk DataFile")) {
-        return clx_points_vtk(name, bytes, n, table);
+        return clx_points_vtk(name, bytes, n, table, has_faces);
     }
     if (is_vtk_xml(bytes, n)) {
-        return clx_points_vtx(name, bytes, n, table);
+        return clx_points_vtx(name, bytes, n, table, has_faces);
     }
     if (is_word(bytes, n, "ply")) {
         return clx_points_ply(name, bytes, n, table);
@@ -83,6 +82,14 @@ clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
         return clx_points_xyz(name, bytes, n, table);
     }
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
+}
+
+clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
+                               const clast_points_options *options, clast_table *table)
+{
+    CLX_ARGUMENTS(name, table);
+    CLX_ARRAY(bytes, n);
+    return clx_points_parse(name, bytes, n, options, table, NULL); // a cloud may have faces
 }
 
 clast_status clast_cloud_read(const char *path, const clast_points_options *options,

@@ -15,7 +15,8 @@ typedef struct {
     bool is_binary;
     clast_table table;
     bool has_points, is_point_data;
-    int64_t n_data; ///< tuples of the current section
+    bool *has_faces; ///< NULL: nobody asks
+    int64_t n_data;  ///< tuples of the current section
 } vtk;
 
 static clast_status word_of(vtk *v, const char *what, clx_word *word)
@@ -212,13 +213,16 @@ done:
 }
 
 /// Cells: one list "n size" of ints, or since version 5.1 OFFSETS and CONNECTIVITY.
-static clast_status skip_cells(vtk *v)
+static clast_status skip_cells(vtk *v, bool are_faces)
 {
     clast_status status = CLAST_OK;
     int64_t n[2] = {0};
     clx_word word;
     CLX_TRY(count_of(v, "number of cells", &n[0]));
     CLX_TRY(count_of(v, "size of the cells", &n[1]));
+    if (are_faces && n[1] > 0 && v->has_faces != NULL) {
+        *v->has_faces = true;
+    }
     const clx_text before = v->text;
     if (clx_text_next_line(&v->text) && clx_text_word(&v->text, &word) &&
         clx_word_is(word, "offsets")) {
@@ -260,6 +264,25 @@ done:
     return status;
 }
 
+/// Types of cells: beyond vertices and lines (1 to 4) they have faces.
+static clast_status read_cell_types(vtk *v)
+{
+    enum { POLY_LINE = 4 };
+    clast_status status = CLAST_OK;
+    double *type = NULL;
+    int64_t n = 0;
+    CLX_TRY(count_of(v, "number of cells", &n));
+    CLX_TRY(check_room(v, n, CLX_VTK_I32));
+    CLX_TRY(clx_alloc(&type, n, sizeof *type));
+    CLX_TRY(values(v, n, CLX_VTK_I32, type));
+    for (int64_t i = 0; i < n; ++i) {
+        *v->has_faces = *v->has_faces || type[i] > POLY_LINE;
+    }
+done:
+    clx_free(type);
+    return status;
+}
+
 static clast_status skip_colours(vtk *v)
 {
     clast_status status = CLAST_OK;
@@ -294,8 +317,8 @@ static bool is_one_of(clx_word word, const char *const *names)
 
 static clast_status read_section(vtk *v, clx_word word)
 {
-    static const char *const cells[] = {"vertices",        "lines", "polygons",
-                                        "triangle_strips", "cells", NULL};
+    static const char *const cells[] = {"vertices", "lines", "cells", NULL};
+    static const char *const faces[] = {"polygons", "triangle_strips", NULL};
     static const char *const axes[] = {"dimensions", "metadata", "information",
                                        "data",       "dataset",  NULL};
     char shown[CLX_WORD_SHOWN];
@@ -303,10 +326,13 @@ static clast_status read_section(vtk *v, clx_word word)
         return read_points(v);
     }
     if (is_one_of(word, cells)) {
-        return skip_cells(v);
+        return skip_cells(v, false);
+    }
+    if (is_one_of(word, faces)) {
+        return skip_cells(v, true);
     }
     if (clx_word_is(word, "cell_types")) {
-        return skip_list(v, 1, CLX_VTK_I32);
+        return v->has_faces != NULL ? read_cell_types(v) : skip_list(v, 1, CLX_VTK_I32);
     }
     if (clx_word_is(word, "point_data") || clx_word_is(word, "cell_data")) {
         return begin_data(v, clx_word_is(word, "point_data"));
@@ -357,11 +383,12 @@ done:
     return status;
 }
 
-clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table)
+clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces)
 {
     clast_status status = CLAST_OK;
     clx_word word;
-    vtk v = {.text = clx_text_begin(bytes, n, '\0', false), .name = name};
+    vtk v = {.text = clx_text_begin(bytes, n, '\0', false), .name = name, .has_faces = has_faces};
     CLX_TRY(read_head(&v));
     while (clx_text_any_word(&v.text, &word)) {
         CLX_TRY(read_section(&v, word));

@@ -29,6 +29,7 @@ typedef struct {
     int64_t n_value; ///< numbers of all arrays so far
     clast_table table;
     bool has_points;
+    bool *has_faces; ///< NULL: nobody asks
 } vtx;
 
 static const char *find(stretch s, const char *mark)
@@ -394,6 +395,52 @@ done:
     return status;
 }
 
+/// Types of the n cells of a grid: beyond vertices and lines (1 to 4) they have faces.
+static clast_status read_cell_types(vtx *v, stretch tag, const char *at, int64_t n)
+{
+    enum { POLY_LINE = 4 };
+    clast_status status = CLAST_OK;
+    clx_vtk_number type = CLX_VTK_F32;
+    double *value = NULL;
+    stretch text;
+    const char *last = find((stretch){at, v->xml.end}, "<");
+    CLX_CHECK(last != NULL && attribute(tag, "type", &text) &&
+                  clx_vtk_number_of(text.at, (size_t)(text.end - text.at), &type),
+              CLAST_E_FORMAT, "%s: the array of the cells' types has no end or no type of number",
+              v->name);
+    CLX_TRY(check_room(v, n));
+    CLX_TRY(clx_alloc(&value, n, sizeof *value));
+    CLX_TRY(read_values(v, tag, (stretch){at, last}, type, n, value));
+    for (int64_t i = 0; i < n; ++i) {
+        *v->has_faces = *v->has_faces || value[i] > POLY_LINE;
+    }
+done:
+    clx_free(value);
+    return status;
+}
+
+/// Whether faces join the points of a piece.
+static clast_status find_faces(vtx *v, stretch piece)
+{
+    static const char *const counts[] = {"NumberOfPolys", "NumberOfStrips"};
+    stretch tag;
+    stretch text;
+    int64_t n = 0;
+    for (int k = 0; k < 2; ++k) {
+        const bool is_some = attribute(piece, counts[k], &text) && integer_of(text, &n) && n > 0;
+        *v->has_faces = *v->has_faces || is_some;
+    }
+    const char *at = v->xml.at;
+    const bool has_cells = attribute(piece, "NumberOfCells", &text) && integer_of(text, &n) &&
+                           n > 0 && n < INT64_C(1) << 40 && next_tag(v->xml, "Cells", &at, &tag);
+    while (has_cells && next_tag(v->xml, "DataArray", &at, &tag)) {
+        if (attribute(tag, "Name", &text) && is_word(text, "types")) {
+            return read_cell_types(v, tag, at, n);
+        }
+    }
+    return CLAST_OK;
+}
+
 /// Points and data of one piece as v->table.
 static clast_status read_piece(vtx *v)
 {
@@ -442,11 +489,13 @@ static clast_status read_pieces(vtx *v, clast_table *all)
                       v->n < INT64_C(1) << 40,
                   CLAST_E_FORMAT, "%s: a <Piece> without a number of points", v->name);
         v->xml.at = at;
+        const stretch piece = tag;
         is_more = next_tag(file, "Piece", &at, &tag);
         v->xml.end = is_more ? tag.at : file.end;
         if (v->n == 0 && (is_more || all->n_column > 0)) {
             continue;
         }
+        CLX_TRY(v->has_faces != NULL ? find_faces(v, piece) : CLAST_OK);
         CLX_TRY(read_piece(v));
         if (all->n_column > 0) {
             CLX_TRY(append_piece(v, all));
@@ -459,10 +508,11 @@ done:
     return status;
 }
 
-clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table)
+clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces)
 {
     clast_status status = CLAST_OK;
-    vtx v = {.name = name, .size = (int64_t)n};
+    vtx v = {.name = name, .size = (int64_t)n, .has_faces = has_faces};
     clast_table all = {0};
     const char *text = bytes;
     CLX_TRY(read_head(&v, (stretch){text, text + n}));
@@ -494,6 +544,15 @@ static bool tuples_of(stretch tag, int64_t *n)
            *n < INT64_C(1) << 40;
 }
 
+/// True for the letters of texts, clx_vtk_field_texts.
+static bool is_letters(stretch tag)
+{
+    stretch type;
+    stretch name;
+    return attribute(tag, "type", &type) && is_word(type, "UInt8") &&
+           attribute(tag, "Name", &name) && (is_word(name, "unit") || is_word(name, "shape_names"));
+}
+
 /// Arrays of numbers with as many tuples as the first, as v->table.
 static clast_status read_field(vtx *v)
 {
@@ -505,7 +564,8 @@ static clast_status read_field(vtx *v)
     int64_t n = 0;
     while (next_tag(group, "DataArray", &at, &tag)) {
         const char *last = find((stretch){at, group.end}, "<");
-        if (last == NULL || !tuples_of(tag, &n) || (v->table.n_column > 0 && n != v->n)) {
+        if (last == NULL || is_letters(tag) || !tuples_of(tag, &n) ||
+            (v->table.n_column > 0 && n != v->n)) {
             continue;
         }
         if (v->table.n_column == 0) {
@@ -519,39 +579,55 @@ done:
     return status;
 }
 
+/// The letters of "shape_names": an <Array> of texts, as clast 0.1.0 wrote it, or a <DataArray>.
+static bool find_names(const vtx *v, stretch *letters)
+{
+    static const char *const kinds[] = {"Array", "DataArray"};
+    const stretch group = field_of(v);
+    stretch tag;
+    stretch name;
+    for (int k = 0; k < 2; ++k) {
+        const char *at = group.at;
+        while (next_tag(group, kinds[k], &at, &tag)) {
+            const char *last = find((stretch){at, group.end}, "<");
+            if (last != NULL && attribute(tag, "Name", &name) && is_word(name, "shape_names")) {
+                *letters = (stretch){at, last};
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Texts of the array "shape_names", each letter's code and 0.
 static clast_status read_names(const vtx *v, clast_table *names)
 {
     clast_status status = CLAST_OK;
-    const stretch group = field_of(v);
-    const char *at = group.at;
-    stretch tag;
-    stretch name;
+    stretch codes;
+    char letters[256];
+    size_t used = 0;
+    clx_word word;
+    int64_t code = 0;
     int64_t n = 0;
     CLX_TRY(clast_table_init(names, "shapes", 0));
     CLX_TRY(clast_table_add_text(names, "name"));
-    while (next_tag(group, "Array", &at, &tag)) {
-        const char *last = find((stretch){at, group.end}, "<");
-        if (last == NULL || !attribute(tag, "Name", &name) || !is_word(name, "shape_names") ||
-            !tuples_of(tag, &n)) {
-            continue;
-        }
-        char letters[256];
-        size_t used = 0;
-        clx_text text = clx_text_begin(at, (size_t)(last - at), '\0', false);
-        clx_word word;
-        int64_t code = 0;
-        CLX_CHECK(n <= last - at, CLAST_E_FORMAT, "%s: names of %" PRId64 " shapes are cut short",
-                  v->name, n);
-        CLX_TRY(clast_table_resize(names, n));
-        for (int64_t i = 0;
-             i < n && clx_text_any_word(&text, &word) && clx_word_integer(word, &code);) {
-            letters[used] = (char)(code > 0 && code < 256 ? code : 0);
-            used += code > 0 && used + 1 < sizeof letters ? 1 : 0;
-            if (code <= 0) {
-                CLX_TRY(clast_table_set_text(names, 0, i++, letters));
-                used = 0;
-            }
+    if (!find_names(v, &codes)) {
+        return CLAST_OK;
+    }
+    const clx_text begin = clx_text_begin(codes.at, (size_t)(codes.end - codes.at), '\0', false);
+    clx_text text = begin;
+    while (clx_text_any_word(&text, &word) && clx_word_integer(word, &code)) {
+        n += code <= 0 ? 1 : 0;
+    }
+    CLX_TRY(clast_table_resize(names, n));
+    text = begin;
+    for (int64_t i = 0;
+         i < n && clx_text_any_word(&text, &word) && clx_word_integer(word, &code);) {
+        letters[used] = (char)(code > 0 && code < 256 ? code : 0);
+        used += code > 0 && used + 1 < sizeof letters ? 1 : 0;
+        if (code <= 0) {
+            CLX_TRY(clast_table_set_text(names, 0, i++, letters));
+            used = 0;
         }
     }
 done:
@@ -574,7 +650,7 @@ clast_status clx_vtu_grains(const char *path, clast_table *grains, clast_table *
         *grains = v.table;
         v.table = (clast_table){0};
     } else {
-        CLX_TRY(clx_points_vtx(path, bytes, (size_t)n, grains));
+        CLX_TRY(clx_points_vtx(path, bytes, (size_t)n, grains, NULL));
     }
 done:
     clast_table_free(&v.table);

@@ -2,6 +2,7 @@
 #include "io/spheres_table.h"
 
 #include "base/status.h"
+#include "shape/form_set.h"
 #include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,23 @@ bool clx_column_is(const char *column, const char *wanted, const char *si_unit)
     return strncasecmp(column, wanted, n) == 0 &&
            (column[n] == '_' ? clast_unit_factor(column + n + 1, si_unit, &factor) == CLAST_OK
                              : strchr(" ([", column[n]) != NULL);
+}
+
+const clast_column *clx_column_find(const clast_table *table, const char *name)
+{
+    const int32_t bare = clast_table_find(table, name);
+    for (int32_t c = 0; c < table->n_column && bare < 0; ++c) {
+        if (clx_column_is(table->column[c].name, name, "m")) {
+            return &table->column[c];
+        }
+    }
+    return bare >= 0 ? &table->column[bare] : NULL;
+}
+
+bool clx_points_are_named(const clast_table *table)
+{
+    return clx_column_find(table, "x") != NULL && clx_column_find(table, "y") != NULL &&
+           clx_column_find(table, "z") != NULL && !clx_form_set_is_named(table);
 }
 
 /// A column under the k-th name; the first of a kind counts, and a radius before a diameter.

@@ -10,6 +10,13 @@ bool clx_spheres_are_named(const clast_table *table);
 /// is no "d".
 bool clx_column_is(const char *column, const char *wanted, const char *si_unit);
 
+/// The column "x" of a table, bare or else with a unit of length: "x_mm", "x (um)"; NULL if none.
+const clast_column *clx_column_find(const clast_table *table, const char *name);
+
+/// True when the table's columns are named as those of points, x, y and z, and none as forms: those
+/// are of grains that lie there.
+bool clx_points_are_named(const clast_table *table);
+
 /// The spheres of a table: by the options, by the columns' names, or by place.
 ///
 /// @param options  NULL: the first four columns are x, y, z, radius when none has such a name

@@ -156,11 +156,11 @@ static clast_status put_head(clx_export *e, clx_vtk_array *array, int64_t n_poin
     clast_status status = CLAST_OK;
     clx_vtk_head(&e->file, "UnstructuredGrid");
     (void)clx_file_print(&e->file, "<FieldData>");
-    clx_vtk_field_text(&e->file, "unit", e->unit);
-    clx_vtk_field_texts(&e->file, "shape_names", e->assembly->n_shape, shape_name, e->assembly);
     for (size_t k = 0; has_poses && k < sizeof of_field / sizeof of_field[0]; ++k) {
         CLX_TRY(put_property(e, array, &of_field[k], IN_FIELD));
     }
+    clx_vtk_field_text(&e->file, "unit", e->unit);
+    clx_vtk_field_texts(&e->file, "shape_names", e->assembly->n_shape, shape_name, e->assembly);
     (void)clx_file_print(&e->file, "</FieldData>\n");
     (void)clx_file_print(&e->file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",

@@ -1,11 +1,12 @@
 // Forms of a set of grains from a table's columns; rows that have none are listed, not guessed.
-#include <clast/form.h>
+#include "shape/form_set.h"
 
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
 #include "shape/whole.h"
 #include <clast/field.h>
+#include <clast/form.h>
 #include <clast/table.h>
 #include <ctype.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@
 static const double DISAGREE = 0.006;
 static const double ABOVE_ONE = 1e-9;
 
-enum { N_NAME = 8, NAME_SIZE = 64 };
+enum { N_NAME = 8, NAME_SIZE = 64, UNIT_SIZE = 16 };
 enum { LONG, MIDDLE, SHORT, FLATNESS, ELONGATION, SIZE, N_ROLE };
 
 static const char *const names[N_ROLE][N_NAME] = {
@@ -31,6 +32,7 @@ static const char *const names[N_ROLE][N_NAME] = {
 typedef struct {
     int32_t at[N_ROLE];
     bool by_length;
+    double factor[3]; ///< of L, I and S: from their column's unit into that of S
 } roles;
 
 const char *clast_row_fault_text(clast_row_fault fault)
@@ -40,16 +42,36 @@ const char *clast_row_fault_text(clast_row_fault fault)
     return (unsigned)fault < CLAST_N_ROW_FAULT ? text[fault] : "unknown";
 }
 
+/// Metres in the unit of length that a column or, where it is text or came without units, the end
+/// of its name tells ("L_mm", "L (mm)"); 0 and "" for none.
+static double metres_of(const clast_column *column, char unit[UNIT_SIZE])
+{
+    double metre = 0.0;
+    const char *open = strpbrk(column->name, "([");
+    const char *start = open != NULL ? open : strrchr(column->name, '_');
+    (void)snprintf(unit, UNIT_SIZE, "%s", column->unit != NULL ? column->unit : "");
+    if (clast_unit_factor(unit, "m", &metre) != CLAST_OK && start != NULL) {
+        (void)snprintf(unit, UNIT_SIZE, "%.*s", (int)strcspn(start + 1, ")]"), start + 1);
+        (void)clast_unit_factor(unit, "m", &metre);
+    }
+    if (metre <= 0.0) {
+        unit[0] = '\0';
+    }
+    return metre;
+}
+
 /// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
 static void plain_name(const clast_column *column, char plain[NAME_SIZE])
 {
+    char length[UNIT_SIZE];
     size_t n = strcspn(column->name, "([");
+    const char *told = metres_of(column, length) > 0.0 ? length : column->unit;
     while (n > 0 && (column->name[n - 1] == ' ' || column->name[n - 1] == '_')) {
         --n;
     }
-    const size_t unit = column->unit != NULL ? strlen(column->unit) : 0;
+    const size_t unit = told != NULL ? strlen(told) : 0;
     if (unit > 0 && n > unit + 1 && column->name[n - unit - 1] == '_' &&
-        strncmp(column->name + n - unit, column->unit, unit) == 0) {
+        strncmp(column->name + n - unit, told, unit) == 0) {
         n -= unit + 1;
     }
     n = n < NAME_SIZE - 1 ? n : NAME_SIZE - 1;
@@ -105,23 +127,59 @@ done:
     return status;
 }
 
-static clast_status find_roles(const clast_table *table, const char *columns, roles *r)
+/// Columns by their names; false where they give no form.
+static bool known_roles(const clast_table *table, roles *r)
 {
-    clast_status status = CLAST_OK;
-    for (int k = 0; k < N_ROLE; ++k) {
-        r->at[k] = -1;
-    }
-    if (columns != NULL && columns[0] != '\0') {
-        return named_roles(table, columns, r);
-    }
     for (int k = 0; k < N_ROLE; ++k) {
         r->at[k] = find_role(table, k);
     }
     r->by_length = r->at[LONG] >= 0 && r->at[MIDDLE] >= 0 && r->at[SHORT] >= 0;
-    CLX_CHECK(r->by_length || (r->at[FLATNESS] >= 0 && r->at[ELONGATION] >= 0), CLAST_E_FORMAT,
-              "table %s has neither the columns flatness and elongation nor L, I and S; name them "
-              "with --columns a,b or a,b,c",
-              table->name);
+    return r->by_length || (r->at[FLATNESS] >= 0 && r->at[ELONGATION] >= 0);
+}
+
+bool clx_form_set_is_named(const clast_table *table)
+{
+    roles r;
+    return known_roles(table, &r);
+}
+
+/// Lengths of one row may be in different units; all three columns say theirs, or none does.
+static clast_status find_factors(const clast_table *table, roles *r)
+{
+    clast_status status = CLAST_OK;
+    double metre[3];
+    int n_unit = 0;
+    for (int k = 0; k < 3; ++k) {
+        char unit[UNIT_SIZE];
+        metre[k] = metres_of(&table->column[r->at[LONG + k]], unit);
+        n_unit += metre[k] > 0.0;
+    }
+    CLX_CHECK(n_unit == 0 || n_unit == 3, CLAST_E_FORMAT,
+              "table %s: %d of the 3 columns of L, I and S say their unit of length; give all of "
+              "them one, or none",
+              table->name, n_unit);
+    for (int k = 0; k < 3; ++k) {
+        r->factor[k] = metre[k] == metre[2] ? 1.0 : metre[k] / metre[2];
+    }
+done:
+    return status;
+}
+
+static clast_status find_roles(const clast_table *table, const char *columns, roles *r)
+{
+    clast_status status = CLAST_OK;
+    *r = (roles){.at = {-1, -1, -1, -1, -1, -1}};
+    if (columns != NULL && columns[0] != '\0') {
+        CLX_TRY(named_roles(table, columns, r));
+    } else {
+        CLX_CHECK(known_roles(table, r), CLAST_E_FORMAT,
+                  "table %s has neither the columns flatness and elongation nor L, I and S; name "
+                  "them with --columns a,b or a,b,c",
+                  table->name);
+    }
+    if (r->by_length) {
+        CLX_TRY(find_factors(table, r));
+    }
 done:
     return status;
 }
@@ -179,6 +237,7 @@ static clast_row_fault form_of(const clast_table *table, const roles *r, int64_t
     const int n = r->by_length ? 3 : 2;
     for (int k = 0; k < n && fault == CLAST_N_ROW_FAULT; ++k) {
         v[k] = cell(&table->column[r->at[first + k]], row, &fault);
+        v[k] *= r->by_length ? r->factor[k] : 1.0;
     }
     if (fault != CLAST_N_ROW_FAULT) {
         return fault;
@@ -246,19 +305,28 @@ void clast_form_set_free(clast_form_set *set)
 static void label_size(const clast_table *table, const roles *r, clast_form_set *s)
 {
     char plain[NAME_SIZE] = "";
+    char unit[UNIT_SIZE];
     const int32_t c = r->by_length ? r->at[SHORT] : r->at[SIZE];
     if (c < 0) {
         return;
     }
-    const char *unit = table->column[c].unit;
-    const bool has_unit = unit != NULL && unit[0] != '\0' && strcmp(unit, "-") != 0;
+    const bool has_unit = metres_of(&table->column[c], unit) > 0.0;
     plain_name(&table->column[c], plain);
     if (r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0) {
         (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",
-                       has_unit ? " (" : "", has_unit ? unit : "", has_unit ? ")" : "");
+                       has_unit ? " (" : "", unit, has_unit ? ")" : "");
     } else {
         (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[c].name);
     }
+}
+
+/// The size of a row; NAN where it is missing, infinite or not positive: its form is known all the
+/// same.
+static double size_of(const clast_table *table, const roles *r, int64_t row, double sieve)
+{
+    clast_row_fault fault = CLAST_N_ROW_FAULT;
+    const double size = r->by_length ? sieve : cell(&table->column[r->at[SIZE]], row, &fault);
+    return fault == CLAST_N_ROW_FAULT ? size : (double)NAN;
 }
 
 /// Column of the sizes, with their unit where that is known: "size_mm".
@@ -296,8 +364,7 @@ clast_status clast_form_set_of(const clast_table *table, const char *columns, cl
         }
         CLX_TRY(check_agreement(table, &r, row, s.flatness[s.n], s.elongation[s.n]));
         if (s.size != NULL) {
-            clast_row_fault of_size = CLAST_N_ROW_FAULT;
-            s.size[s.n] = r.by_length ? sieve : cell(&table->column[r.at[SIZE]], row, &of_size);
+            s.size[s.n] = size_of(table, &r, row, sieve);
         }
         s.row[s.n++] = row;
     }

@@ -117,7 +117,7 @@ class Export(Case):
             result = clast("export", STATE, "-o", self.folder / name)
             self.assertIn(f"lengths in {unit}", result.out, name)
         root = xml.etree.ElementTree.parse(self.folder / "c.vtu").getroot()
-        field = root.find("UnstructuredGrid/FieldData/Array")
+        field = root.find("UnstructuredGrid/FieldData/DataArray[@Name='unit']")
         self.assertEqual(bytes(int(code) for code in field.text.split()), b"mm\0")
         self.assert_fails(2, "export", STATE, "-o", self.folder / "d.csv", "--unit", "um", says=["its unit is mm"])
         self.assert_fails(2, "export", STATE, "-o", self.folder / "d.stl", "--unit", "furlong", says=["furlong"])

@@ -29,6 +29,16 @@ class MeshCheck(Case):
         self.assertIn("they close when vertices within", fault["text"])
         self.assertIn("clast mesh repair", fault["text"])
 
+    def test_a_border_without_open_edges_is_no_hole(self):
+        """A facet written twice: \"0 open edges in 1 loop ... `clast mesh repair` fills holes\"."""
+        path = self.folder / "twice.off"
+        path.write_text("OFF\n4 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 1 2 3\n")
+        result = clast("mesh", "check", path, "--json")
+        fault = result.json["faults"][0]
+        self.assertEqual((result.code, result.json["n_open_edge"], fault["code"], fault["blocking"]), (1, 0, "odd_edges", True))
+        self.assertIn("edges of three triangles, or another odd number, form 1 loop", fault["text"])
+        self.assertNotIn("open edge", clast("mesh", "check", path).out)
+
     def test_weld_closes_what_its_tolerance_allows(self):
         result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "within", "--json")
         self.assertEqual(result.code, 0)

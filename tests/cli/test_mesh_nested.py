@@ -89,6 +89,32 @@ class Nested(Case):
         self.assertEqual((done.json["volume"], done.json["changes"]["n_part_dropped"]), (80, 0))
         self.assertNotIn("drops", self.checked(bar)[2]["doubled_parts"])
 
+    def test_a_body_written_twice_with_the_same_vertices_is_told(self):
+        """Volume 128 and convexity 2 without a word; `mesh repair`, whose word was asked for, dropped both copies."""
+        path, out = boxes(self.folder / "twice.off", (4, 0, 1)), self.folder / "out.off"
+        head, *rest = path.read_text().splitlines()[1:]
+        path.write_text("\n".join(["OFF", "8 24 0", *rest, *rest[8:]]) + "\n")
+        self.assertIn("12 superfluous triangles", self.checked(path)[2]["duplicate"])
+        done = clast("mesh", "repair", path, "-o", out, "--json")
+        self.assertEqual((done.code, done.json["volume"], done.json["changes"]["n_duplicate"]), (0, 64, 12), done.err)
+        words = clast("shape", path).err
+        self.assertIn("12 of its triangles repeat another, wound alike; its volume counts twice what they bound; drop them: clast mesh repair", words)
+        self.assertEqual(words.count("\n"), 1)
+        self.assert_fails(3, "aggregate", "--core", path, "--core-size", "100um", "--coat", "sphere", "--size", "20um", "--core-density",
+                          "2500kg/m3", "-q", "-o", self.folder / "run", says=["12 of its triangles repeat another", "--accept-faults"])
+
+    def test_several_bodies_in_a_file_are_told(self):
+        """A crumb far off made a box of convexity 0.3, without a word."""
+        crumb = boxes(self.folder / "crumb.off", (2, 0, 1), (0.1, 9, 1))
+        for options in ((), ("--hull",)):
+            result = clast("shape", crumb, *options)
+            self.assertEqual((result.code, result.err.count("\n")), (0, 1), result.err)
+            self.assertIn("crumb.off: 2 bodies that do not hang together, measured as one grain; clast mesh repair --keep largest", result.err)
+        self.assertIn("2 bodies", clast("shape", crumb, "--json").json["warnings"][0]["text"])
+        out = self.folder / "one.off"
+        self.assertEqual(clast("mesh", "repair", crumb, "--keep", "largest", "-o", out).code, 0)
+        self.assertEqual(clast("shape", out).err, "")
+
     def test_aggregates_refuse_it(self):
         """Core row: porosity -0.125, density 2812 of a material of 2500."""
         options = ("--core-size", "100um", "--coat", "sphere", "--size", "20um", "--core-density", "2500kg/m3", "-q")
@@ -111,11 +137,13 @@ class Nested(Case):
             self.assertIn("clast mesh repair", result.err)
         result = clast("shape", self.overlap)
         self.assertIn("overlap.off: it cuts itself at 6 pairs of triangles; its volume counts overlaps twice", result.err)
-        found = clast("shape", self.overlap, self.doubled, self.island, self.cavity, "--json")
+        found = clast("shape", self.overlap, self.doubled, self.cavity, "--json")
         self.assertEqual([line["text"].split(":")[0] for line in found.json["warnings"]], [str(self.overlap), str(self.doubled)])
         self.assertEqual(found.json["left_out"], [])
         self.assertEqual(clast("shape", self.doubled, "-q").err, "")
-        self.assertEqual(clast("shape", self.island, self.cavity).err, "")
+        self.assertEqual(clast("shape", self.cavity).err, "")
+        island = clast("shape", self.island).err  # counted once, but a body of its own
+        self.assertEqual((island.count("\n"), "2 bodies that do not hang together" in island), (1, True), island)
 
     def test_shape_looks_at_seams_as_it_measures_them(self):
         """Each facet has corners of its own: parts show only once they are merged."""

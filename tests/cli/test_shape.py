@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import pathlib
 import unittest
 
 from clitest import ROOT, Case, clast, shared
@@ -144,6 +145,31 @@ class Shape(Case):
         self.assertTrue(check["closed"])
         self.assertEqual(check["n_triangle"], 320)
 
+    def test_faces_of_vtk_files_are_not_passed_over(self):
+        """A surface in VTK was measured as the hull of its points: an L of convexity 0.71 had 1, without a word."""
+        head = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET {}\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        facets = "4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+        tetra, dots = "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n", "CELLS 2 4\n1 0\n1 1\nCELL_TYPES 2\n1\n1\n"
+        xml = ('<?xml version="1.0"?>\n<VTKFile type="{0}" version="0.1"><{0}><Piece NumberOfPoints="4" {1}><Points>'
+               '<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>{2}</Piece></{0}></VTKFile>\n')
+        cells = ('<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3</DataArray><DataArray type="Int32" Name="offsets" '
+                 'format="ascii">4</DataArray><DataArray type="UInt8" Name="types" format="ascii">{}</DataArray></Cells>')
+        with_faces = [self.put("polygons.vtk", head.format("POLYDATA") + "POLYGONS " + facets),
+                      self.put("strips.vtk", head.format("POLYDATA") + "TRIANGLE_STRIPS 1 5\n4 0 1 2 3\n"),
+                      self.put("cells.vtk", head.format("UNSTRUCTURED_GRID") + tetra),
+                      self.put("polys.vtp", xml.format("PolyData", 'NumberOfPolys="1"', "<Polys></Polys>")),
+                      self.put("cells.vtu", xml.format("UnstructuredGrid", 'NumberOfCells="1"', cells.format(10)))]
+        without = [self.put("lines.vtk", head.format("POLYDATA") + "VERTICES 1 2\n1 0\nLINES 1 3\n2 0 1\nPOLYGONS 0 0\n"),
+                   self.put("dots.vtk", head.format("UNSTRUCTURED_GRID") + dots),
+                   self.put("points.vtp", xml.format("PolyData", 'NumberOfPolys="0"', "")),
+                   self.put("line.vtu", xml.format("UnstructuredGrid", 'NumberOfCells="1"', cells.format(4)))]
+        for path in with_faces:
+            self.assert_fails(3, "shape", path, says=(path.name, "a VTK file with faces", "STL, OBJ, PLY or OFF", "--kind points"))
+            self.assertEqual(clast("shape", path, "--hull").code, 0)
+        for result in (clast("shape", *with_faces, "--kind", "points", "--json"), clast("shape", *without, "--json")):
+            self.assertEqual((result.code, result.err), (0, ""))
+            self.assertEqual({(grain["kind"], round(6.0 * grain["volume"], 12)) for grain in result.json["grains"]}, {("points", 1.0)})
+
     def test_no_surface_takes_the_place_of_another(self):
         """They are named by the file alone: of two g.ply, which one stayed hung on the number of threads."""
         for name in "ab":
@@ -227,6 +253,100 @@ class Shape(Case):
             self.assertAlmostEqual(grain[key], value, delta=1e-6)
         self.assertAlmostEqual(grain["area"], 6.04025, delta=1e-5)
         self.assertAlmostEqual(grain["sphericity"], 0.7251, delta=1e-4)
+
+
+class Units(Case):
+    def setUp(self):
+        super().setUp()
+        for name, text in (("ratios", "flatness,elongation\n0.5,0.8\n"), ("mm", "L_mm,I_mm,S_mm\n30,20,10\n"),
+                           ("um", "L_um,I_um,S_um\n30000,20000,10000\n"), ("clump", "x_mm,y_mm,z_mm,r_mm\n0,0,0,1\n")):
+            (self.folder / f"{name}.csv").write_text(text)
+        (self.folder / "box.off").write_text(BOX)
+
+    def shape(self, text, *options):
+        (self.folder / "t.csv").write_text(text)
+        result = clast("shape", self.folder / "t.csv", *options, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        return result.json["unit"], result.json["grains"][0]
+
+    def test_the_first_file_does_not_decide_on_the_unit(self):
+        """Ratios first: 30 and 30000 in one column, a mean size of 7900 and a deviation of 11000."""
+        for order in (("ratios", "mm", "um"), ("mm", "um", "ratios"), ("um", "ratios", "mm")):
+            found = clast("shape", *[self.folder / f"{name}.csv" for name in order], "--json").json
+            lengths = {pathlib.Path(g["file"]).name: g["L"] for g in found["grains"]}
+            self.assertEqual(found["unit"], "m")
+            self.assertIsNone(lengths["ratios.csv:1"])
+            self.assertAlmostEqual(lengths["mm.csv:1"], 0.03, 15)
+            self.assertAlmostEqual(lengths["um.csv:1"], 0.03, 15)
+
+    def test_known_units_stand_beside_no_unknown_one(self):
+        mm, um, clump, box = (self.folder / name for name in ("mm.csv", "um.csv", "clump.csv", "box.off"))
+        for files in ((mm, um, box), (box, um, mm), (um, box, mm), (clump, box), (box, clump)):
+            self.assert_fails(2, "shape", *files, says=("box.off says none", "--unit"))
+            found = clast("shape", *files, "--unit", "cm", "--json").json
+            self.assertEqual(found["unit"], "m")
+            volume, = (g["volume"] for g in found["grains"] if g["kind"] == "surface")
+            self.assertAlmostEqual(volume * 1e6, 36.0, 12)
+        self.assertEqual(clast("shape", mm, box, "--json").json["unit"], "model")
+
+    def test_a_unit_against_that_of_all_files_is_refused(self):
+        """It was ignored."""
+        mm, um = self.folder / "mm.csv", self.folder / "um.csv"
+        for files in ((mm,), (mm, self.folder / "ratios.csv"), (mm, um)):
+            self.assert_fails(2, "shape", *files, "--unit", "cm", says=("csv:1 says its unit of length", "--unit another, 0.01 m"))
+        self.assertEqual(clast("shape", mm, "--unit", "mm").code, 0)
+        self.assertEqual(clast("shape", self.folder / "clump.csv", "--unit", "mm").code, 0)
+
+    def test_each_column_counts_by_its_own_unit(self):
+        """30 mm, 2 cm and 1 cm were a blade of I/L 0.067."""
+        unit, grain = self.shape("L_mm,I_cm,S_um\n30,2,10000\n")
+        self.assertEqual((unit, grain["zingg"]), ("m", "disc"))
+        for key, value in (("L", 0.03), ("I", 0.02), ("S", 0.01), ("elongation", 2 / 3), ("flatness", 0.5)):
+            self.assertAlmostEqual(grain[key], value, 12)
+        self.assert_fails(3, "shape", self.shape_file("L_mm,I_mm,S\n30,20,10\n"), says=("2 of the 3 columns of L, I and S say their unit",))
+        self.assert_fails(3, "shape", self.shape_file("x_mm,y,z\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n"), says=("1 of the 3 columns x, y, z say",))
+
+    def shape_file(self, text):
+        (self.folder / "bad.csv").write_text(text)
+        return self.folder / "bad.csv"
+
+    def test_points_have_units(self):
+        """x_mm was no point, and with --kind points no millimetre."""
+        corners = [(0, 0, 0), (8, 0, 0), (0, 7, 0), (0, 0, 6)]
+        for names, scale in (("x_mm,y_mm,z_mm", (1, 1, 1)), ("x_mm,y_cm,z_um", (1, 0.1, 1000)), ("X (mm),Y (mm),Z (mm)", (1, 1, 1))):
+            text = "\n".join([names, *(",".join(str(x * s) for x, s in zip(corner, scale)) for corner in corners)]) + "\n"
+            for options in ((), ("--kind", "points")):
+                unit, grain = self.shape(text, *options)
+                self.assertEqual((unit, grain["kind"]), ("m", "points"), names)
+                self.assertAlmostEqual(grain["volume"] * 1e9, 56.0, 9)
+        cubes = "\n".join(["x_mm,y_mm,z_mm", *(f"{x},{y},{z}" for x in range(9) for y in range(8) for z in range(7))]) + "\n"
+        self.assertAlmostEqual(self.shape(cubes, "--spacing", "1")[1]["volume"] / (9 * 8 * 7 * 1e-9), 1.0, delta=0.1)  # in the file's unit
+
+    def test_places_of_grains_that_have_a_form_are_no_points(self):
+        unit, grain = self.shape("x_mm,y_mm,z_mm,L_mm,I_mm,S_mm\n1,2,3,30,20,10\n")
+        self.assertEqual((unit, grain["kind"]), ("m", "table"))
+        self.assertAlmostEqual(grain["L"], 0.03, 15)
+
+    def test_a_bad_size_takes_no_form_away(self):
+        """Lengths of D = -5 were -0.0089, and the statistics left four known forms out."""
+        table = self.folder / "d.csv"
+        table.write_text("flatness,elongation,D_mm\n0.5,0.8,12\n0.6,0.7,\n0.55,0.7,-5\n0.7,0.6,0\n0.8,0.9,inf\n")
+        result = clast("shape", table, "--statistics", self.folder / "forms", "--resamples", 10, "--json")
+        said = "4 of 5 sizes left out: missing, infinite or not positive (first: row 2)"
+        self.assertIn(said, result.err)
+        self.assertIn(said, result.json["left_out"][0]["text"])
+        grains = result.json["grains"]
+        self.assertEqual([round(g["flatness"], 12) for g in grains], [0.5, 0.6, 0.55, 0.7, 0.8])
+        self.assertEqual([[g[key] for key in "LISD"] for g in grains[1:]], [[None] * 4] * 4)
+        self.assertAlmostEqual(grains[0]["D"], 0.012, 15)
+        self.assertEqual(result.json["statistics"]["n"], 5)
+
+    def test_a_diameter_is_no_sieve_size(self):
+        """\"Diameter (mm)\" was one, for it begins with a D."""
+        for name in ("Diameter (mm)", "diameter_mm", "Equivalent Diameter (mm)"):
+            self.assertIsNone(self.shape(f"flatness,elongation,{name}\n0.5,0.8,12\n")[1]["L"])
+        for name in ("D (mm)", "d_mm", "Sieve Size (mm)"):
+            self.assertAlmostEqual(self.shape(f"flatness,elongation,{name}\n0.5,0.8,12\n")[1]["D"], 0.012, 15)
 
 
 class Output(Case):

@@ -101,7 +101,12 @@ static void a_tables_own_unit_counts_before_the_given_one(void **state)
     clast_grains grains = {0};
     CHECK_OK(clast_grains_read(2, path, &options, NULL, &grains));
     const double volume = grains.record[1].grain.volume;
-    clast_grains_to_metres(&grains, 1e-6);
+    bool in_metres = true;
+    CHECK_OK(clast_grains_to_metres(&grains, 0.0, &in_metres));
+    assert_false(in_metres);
+    CHECK_REL(grains.record[1].grain.volume, volume, 0.0);
+    CHECK_OK(clast_grains_to_metres(&grains, 1e-6, &in_metres));
+    assert_true(in_metres);
     CHECK_REL(grains.record[0].grain.axes[CLAST_AXES_ELLIPSOID].lis[0], 3e-3, 1e-12);
     CHECK_REL(grains.record[1].grain.volume, 1e-18 * volume, 1e-12);
     clast_grains_free(&grains);

@@ -275,30 +275,106 @@ static void bad_triangles_go(void **state)
     clast_mesh_free(&mesh);
 }
 
-/* Two boxes with a common wall that both have: the wall goes, front and back. */
+/* Two boxes that share the vertices of a common wall, which both have; n times. */
+static void add_walled_boxes(clast_mesh *mesh, int n)
+{
+    clast_mesh boxes = {0};
+    clast_mesh welded = {0};
+    mesh_add_box(&boxes, 1.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&boxes, 1.0, 0.0, 0.0, 0.0);
+    for (int32_t v = 8; v < 16; ++v) { /* the second is the first's mirror image in x = 1 */
+        boxes.vert[v][0] = 2.0 - boxes.vert[v][0];
+    }
+    for (int32_t t = 12; t < 24; ++t) {
+        mesh_flip(&boxes, t);
+    }
+    CHECK_OK(clast_mesh_weld(&boxes, 0.0, &welded, NULL));
+    CHECK_OK(clast_mesh_alloc(welded.n_vert, 0, mesh));
+    memcpy(mesh->vert, welded.vert, (size_t)welded.n_vert * sizeof *welded.vert);
+    for (int k = 0; k < n; ++k) {
+        mesh_add_triangles(mesh, welded.tri, welded.n_tri);
+    }
+    clast_mesh_free(&welded);
+    clast_mesh_free(&boxes);
+}
+
+/* The wall goes, front and back; its two sides may run alike, of bodies that are wound apart. */
 static void common_wall_goes(void **state)
+{
+    (void)state;
+    for (int is_turned = 0; is_turned < 2; ++is_turned) {
+        clast_mesh mesh = {0};
+        add_walled_boxes(&mesh, 1);
+        for (int32_t t = 12; t < 24 && is_turned; ++t) {
+            mesh_flip(&mesh, t);
+        }
+        const clast_mesh_repair_report r = repair_to(&mesh, 2.0, 1e-14);
+        assert_int_equal(r.n_duplicate, 4);
+        CHECK_REL(r.area_after, 10.0, 1e-14);
+        clast_mesh_free(&mesh);
+    }
+}
+
+/* Both copies went where neighbours were written twice too: the patch of two scans was a hole that
+   was filled flat, a body written twice was gone. */
+static void facets_written_twice_stay_once(void **state)
+{
+    (void)state;
+    for (int is_turned = 0; is_turned < 2; ++is_turned) {
+        clast_mesh mesh = {0};
+        int32_t n_patch = 0;
+        CHECK_OK(clast_mesh_ellipsoid((double[3]){3.0, 2.0, 1.0}, 3, &mesh));
+        const double volume = clast_mesh_volume(&mesh);
+        const int32_t n_tri = mesh.n_tri;
+        for (int32_t t = 0; t < n_tri; ++t) {
+            if (mesh.vert[mesh.tri[t][0]][0] > 0.5) {
+                const int32_t again[1][3] = {{mesh.tri[t][1], mesh.tri[t][2], mesh.tri[t][0]}};
+                mesh_add_triangles(&mesh, again, 1);
+                ++n_patch;
+                if (is_turned) {
+                    mesh_flip(&mesh, mesh.n_tri - 1);
+                }
+            }
+        }
+        const clast_mesh_repair_report r = repair_to(&mesh, volume, 1e-13);
+        assert_int_equal(r.n_duplicate, n_patch);
+        assert_int_equal(r.n_hole_filled, 0);
+        assert_int_equal(mesh.n_tri, n_tri);
+        clast_mesh_free(&mesh);
+    }
+}
+
+static void bodies_written_twice_stay_once(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    mesh_add_box(&mesh, 2.0, 0.0, 0.0, 0.0);
+    mesh_add_box(&mesh, 1.0, 9.0, 0.0, 0.0);
+    int32_t first[12][3];
+    memcpy(first, mesh.tri, sizeof first);
+    mesh_add_triangles(&mesh, first, 12);
+    mesh_add_triangles(&mesh, first, 12);
+    mesh_flip(&mesh, 30); /* one facet of 36 runs backward */
+    assert_int_equal(repair_parts_to(&mesh, 2, 9.0, 1e-14).n_duplicate, 24);
+    clast_mesh_free(&mesh);
+    add_walled_boxes(&mesh, 2);
+    assert_int_equal(repair_parts_to(&mesh, 1, 2.0, 1e-14).n_duplicate, 28);
+    clast_mesh_free(&mesh);
+}
+
+/* A sheet of two sides that touch is no solid. */
+static void both_sides_of_a_sheet_go(void **state)
 {
     (void)state;
     clast_mesh mesh = {0};
     mesh_add_box(&mesh, 1.0, 0.0, 0.0, 0.0);
-    mesh_add_box(&mesh, 1.0, 1.0, 0.0, 0.0);
-    for (int32_t t = 12; t < 24; ++t) { /* the second's x = 1 wall takes the first's triangles */
-        int n_wall = 0;
-        for (int k = 0; k < 3; ++k) {
-            n_wall += mesh.vert[mesh.tri[t][k]][0] == 1.0;
-        }
-        if (n_wall == 3) {
-            mesh_drop(&mesh, t--);
-        }
-        if (t + 1 >= mesh.n_tri) {
-            break;
-        }
-    }
-    const int32_t wall[2][3] = {{1, 5, 3}, {3, 5, 7}}; /* the first's, turned over */
-    mesh_add_triangles(&mesh, wall, 2);
-    const clast_mesh_repair_report r = repair_to(&mesh, 2.0, 1e-14);
-    assert_int_equal(r.n_duplicate, 4);
-    CHECK_REL(r.area_after, 10.0, 1e-14);
+    const double corner[4][3] = {{5, 0, 0}, {6, 0, 0}, {6, 1, 1}, {5, 1, 0}};
+    const int32_t sides[4][3] = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}};
+    clast_mesh sheet = {0};
+    mesh_of(corner, 4, sides, 4, &sheet);
+    CHECK_OK(clast_mesh_append(&mesh, &sheet));
+    assert_int_equal(repair_parts_to(&mesh, 1, 1.0, 1e-14).n_duplicate, 4);
+    clast_mesh_free(&sheet);
     clast_mesh_free(&mesh);
 }
 
@@ -476,6 +552,9 @@ static void repair_survives_refused_memory(void **state)
     mesh_add_box(&nested, 2.0, 1.0, 1.0, 1.0);
     support_refuse_each_allocation(make_repair, &nested);
     clast_mesh_free(&nested);
+    add_walled_boxes(&nested, 2);
+    support_refuse_each_allocation(make_repair, &nested);
+    clast_mesh_free(&nested);
     clast_mesh_free(&cracked);
     clast_mesh_free(&mesh);
 }
@@ -496,6 +575,9 @@ int main(void)
         cmocka_unit_test(parts_that_bound_nothing_go),
         cmocka_unit_test(bad_triangles_go),
         cmocka_unit_test(common_wall_goes),
+        cmocka_unit_test(facets_written_twice_stay_once),
+        cmocka_unit_test(bodies_written_twice_stay_once),
+        cmocka_unit_test(both_sides_of_a_sheet_go),
         cmocka_unit_test(tjunctions_are_split),
         cmocka_unit_test(touching_bodies_are_parted),
         cmocka_unit_test(loose_triangles_go_and_nothing_left_is_an_error),
