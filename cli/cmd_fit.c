@@ -2,6 +2,7 @@
 #include "command.h"
 #include "idle.h"
 #include "json.h"
+#include "predict_words.h"
 #include "results.h"
 #include "study_grains.h"
 
@@ -75,13 +76,12 @@ static bool has_forms(const config *c, const clast_table *beds)
 static clast_status gather(const config *c, const char *path, job *j)
 {
     clast_idle rules[CLAST_N_IDLE];
-    CLI_GUARD(
-        cli_idle_check(fields, c, clast_porosity_fit_idle(&c->fit, c->grains[0] != '\0', rules)));
     CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
     int32_t what = c->features;
     if (what == AUTO) {
         what = c->grains[0] != '\0' ? MIXTURE : has_forms(c, &j->beds) ? FORM : COLUMNS;
     }
+    CLI_GUARD(cli_idle_check(fields, c, clast_porosity_fit_idle(&c->fit, what != FORM, rules)));
     if ((what == MIXTURE) != (c->grains[0] != '\0')) {
         return cli_fail(
             CLAST_E_USAGE,
@@ -170,6 +170,7 @@ static void print_words(const config *chosen, const job *j)
     const clast_porosity_model *m = &j->fit.model;
     const clast_table *rank = &j->fit.ranking;
     const clast_table *terms = &j->fit.terms;
+    const clast_column *const units = &terms->column[clast_table_find(terms, "unit")];
     const double *const c = clast_table_numbers(terms, "coefficient");
     const double *const e = clast_table_numbers(terms, "standard_error");
     const double *const vif = clast_table_numbers(terms, "vif");
@@ -185,7 +186,9 @@ static void print_words(const config *chosen, const job *j)
     }
     (void)printf("\n%-44s %12s %12s %8s\n", "model", "coefficient", "std. error", "VIF");
     for (int64_t k = 0; k < terms->n_row; ++k) {
-        (void)printf("%-44s %12.6g %12.3g", terms->column[0].text[k], c[k], e[k]);
+        char name[128];
+        cli_feature_name(terms->column[0].text[k], units->text[k], sizeof name, name);
+        (void)printf("%-44s %12.6g %12.3g", name, c[k], e[k]);
         (void)(k > 0 ? printf(" %8.3g\n", vif[k]) : printf("\n"));
     }
     (void)printf("\nR2 %.4f, residual deviation %.3g, condition %.3g\n", m->r2, m->deviation,
@@ -256,19 +259,65 @@ static void tell_left_out(const job *j)
     }
 }
 
+/// Whether candidates are all columns of a table, be it a study's: none was named.
+static bool is_open(const config *c, const job *j)
+{
+    return j->data.kind == CLAST_MODEL_COLUMNS && c->fit.columns[0] == '\0' &&
+           c->fit.use[0] == '\0';
+}
+
+/// Place of the last column that was varied in a study, and one; 0: the table is no study's.
+static int32_t end_of_varied(const clast_table *t)
+{
+    const int32_t code = clast_table_find(t, "exit_code");
+    return clast_table_find(t, "run") == 0 && code > 0 ? code : 0;
+}
+
+/// Whether a column's numbers are those of the rows, from 1 or from 0.
+static bool counts_rows(const clast_table *beds, const char *name)
+{
+    const double *const x = clast_table_numbers(beds, name);
+    const double *const row = clast_table_numbers(beds, "row");
+    bool counts = x[0] == row[0] || x[0] == row[0] - 1.0;
+    for (int64_t i = 1; i < beds->n_row && counts; ++i) {
+        counts = x[i] - row[i] == x[0] - row[0];
+    }
+    return counts;
+}
+
+/// The column that names the bed is no candidate; a feature that counts the rows fits well if they
+/// are sorted.
+static void tell_numbers(const config *c, const job *j)
+{
+    const clast_porosity_model *m = &j->fit.model;
+    if (!is_open(c, j) || end_of_varied(&j->beds) > 0) {
+        return;
+    }
+    if (clast_table_numbers(&j->beds, c->fit.group) != NULL) {
+        (void)fprintf(stderr, "clast fit: %s: column '%s' names the bed and is no candidate\n",
+                      cli_name(j->beds.name), cli_name(c->fit.group));
+    }
+    for (int32_t k = 0; k < m->n_term; ++k) {
+        if (counts_rows(&j->data.beds, m->term[k].feature)) {
+            (void)fprintf(stderr,
+                          "clast fit: %s: feature '%s' counts the rows; if it says nothing of a "
+                          "bed, name the candidates with --columns\n",
+                          cli_name(j->beds.name), cli_name(m->term[k].feature));
+        }
+    }
+}
+
 /// Columns of words where a fit of columns looks for candidates: what they say is lost to it.
 static void tell_words(const config *c, const job *j)
 {
     char names[512] = "";
     int n = 0;
     const clast_table *t = &j->beds;
-    const int32_t code = clast_table_find(t, "exit_code");
-    const bool is_study = clast_table_find(t, "run") == 0 && code > 0;
-    const bool is_named = c->fit.columns[0] != '\0' || c->fit.use[0] != '\0';
-    if (j->data.kind != CLAST_MODEL_COLUMNS || is_named) {
+    const int32_t n_varied = end_of_varied(t);
+    if (!is_open(c, j)) {
         return;
     }
-    for (int32_t k = 0; k < (is_study ? code : t->n_column); ++k) {
+    for (int32_t k = 0; k < (n_varied > 0 ? n_varied : t->n_column); ++k) {
         const char *name = t->column[k].name;
         if (t->column[k].text != NULL && clast_table_find(&j->data.beds, name) < 0) {
             const size_t used = strlen(names);
@@ -339,6 +388,7 @@ static clast_status run(const cli_common *common, void *values)
     (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(), j.beds.name);
     CLI_TRY(clast_porosity_fit_data(&j.data, c->name, source, &c->fit, &j.fit));
     tell_few(c, &j);
+    tell_numbers(c, &j);
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &j, folder));
     }

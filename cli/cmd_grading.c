@@ -9,6 +9,7 @@
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct {
     int32_t spread;
@@ -175,13 +176,28 @@ static void classes_json(json_t *o, const answer *a)
     (void)json_object_set_new(o, "classes", list);
 }
 
+/// What a list's rows count by, and what of it was not looked at.
+static void list_json(json_t *o, const clast_grading_list *list)
+{
+    json_t *set = json_object();
+    cli_json_count(set, "n_row", list->n_row);
+    cli_json_text(set, "column", list->column);
+    cli_json_number(set, "total", list->total);
+    cli_json_text(set, "ignored", list->ignored);
+    (void)json_object_set_new(o, "list", set);
+}
+
 static json_t *answer_json(const answer *a)
 {
     json_t *o = json_object();
     double low = 0.0;
     double high = 0.0;
+    const clast_grading_list list = clast_grading_list_of(a->grading);
     clast_grading_range(a->grading, &low, &high);
     cli_json_text(o, "curve", a->text);
+    if (list.n_row > 0) {
+        list_json(o, &list);
+    }
     cli_json_number(o, "low", low);
     cli_json_number(o, "high", high);
     sizes_json(o, "drawn_by_mass", clast_grading_mass_size, a->grading);
@@ -241,10 +257,29 @@ static void class_words(const answer *a)
     }
 }
 
+/// "40 rows, counted by column 'number': 820 in all".
+static void list_words(const answer *a, const clast_grading_list *list)
+{
+    const bool by_mass = strncmp(a->text, "masses:", 7) == 0;
+    (void)printf("  %lld row%s, ", (long long)list->n_row, list->n_row > 1 ? "s" : "");
+    if (list->column[0] == '\0') {
+        (void)printf("one grain a row");
+    } else {
+        (void)printf("%s by column '%s': %.6g in all", by_mass ? "weighed" : "counted",
+                     cli_name(list->column), list->total);
+    }
+    (void)(list->ignored[0] != '\0' ? printf("; not looked at: %s\n", cli_name(list->ignored))
+                                    : printf("\n"));
+}
+
 static void answer_words(const answer *a)
 {
     const clast_grading *g = a->grading;
+    const clast_grading_list list = clast_grading_list_of(g);
     (void)printf("%s\n", a->text);
+    if (list.n_row > 0) {
+        list_words(a, &list);
+    }
     if (a->curve.n_class > 0) {
         class_words(a);
         size_words("curve, by mass", clast_curve_size(&a->curve, 0.1),
@@ -340,13 +375,17 @@ const cli_command cli_grading = {
         "masses:FILE or one size (\"11 mm\").\n"
         "A file has a column sieve, size, diameter or phi with its unit (sieve_mm) and a column "
         "retained (on\n"
-        "this sieve), cumulative retained (on this and all coarser ones) or passing (% or share).\n"
+        "this sieve), cumulative retained (on this and all coarser ones) or passing (% or share); "
+        "% and\n"
+        "shares are all of it, within 1 %.\n"
         "Numbers follow from masses by equations 8 and 9 of the paper; the curve is straight over "
         "log\n"
         "size between sieves. Definitions: docs/theory/grading.md.\n"
         "list:FILE has sizes and a column count, n or n_grains (none: one grain a row), "
         "masses:FILE a\n"
-        "column mass, retained or mass_g; weight, frequency and fraction are either.\n"
+        "column mass, retained or mass_g; weight, frequency and fraction are either. Which column "
+        "counts\n"
+        "and which are not looked at is told.\n"
         "A draw depends on the seed and the grain's number alone.",
     .fields = grading_fields,
     .config_size = sizeof(grading_config),

@@ -66,6 +66,7 @@ static clast_status check_used(const config *c, bool has_table, bool takes_colum
 static clast_status predict_columns(const config *c, cli_prediction *j)
 {
     CLI_GUARD(check_used(c, true, true));
+    CLI_GUARD(clast_porosity_model_check_units(&j->model, &j->table));
     CLI_GUARD(clast_porosity_predict_columns(&j->model, &j->table, &j->beds));
     if (j->beds.n_row < j->table.n_row) {
         (void)fprintf(

@@ -95,6 +95,12 @@ json_t *cli_prediction_json(const cli_prediction *j)
     return out;
 }
 
+void cli_feature_name(const char *name, const char *unit, size_t size, char *text)
+{
+    (void)(unit == NULL || strcmp(unit, "-") == 0 ? snprintf(text, size, "%s", name)
+                                                  : snprintf(text, size, "%s (%s)", name, unit));
+}
+
 static void print_formula(const clast_porosity_model *m)
 {
     (void)printf("model      %s (%s)\n           porosity = %.6g", m->name, m->source,
@@ -103,8 +109,10 @@ static void print_formula(const clast_porosity_model *m)
         if (m->term[k].coefficient == 0.0) {
             continue; // of eq. 23, which has no fourth term
         }
+        char name[256];
+        cli_feature_name(m->term[k].feature, m->term[k].unit, sizeof name, name);
         (void)printf(" %c %.6g %s", m->term[k].coefficient < 0.0 ? '-' : '+',
-                     fabs(m->term[k].coefficient), m->term[k].feature);
+                     fabs(m->term[k].coefficient), name);
     }
     (void)printf("\n");
 }

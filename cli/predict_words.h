@@ -15,4 +15,8 @@ typedef struct cli_prediction {
 } cli_prediction;
 
 json_t *cli_prediction_json(const cli_prediction *prediction);
+
+/// "d50 (m)" of a column whose cells have a unit; the name alone of plain numbers (unit "-" or
+/// NULL).
+void cli_feature_name(const char *name, const char *unit, size_t size, char *text);
 void cli_prediction_print(const cli_prediction *prediction);

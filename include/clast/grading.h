@@ -173,18 +173,19 @@ CLAST_API clast_status clast_grading_compare(const clast_grading *grading, const
 /// phi). A second column holds either
 ///
 /// - retained, mass, weight or fraction: what stays on this sieve and passes the next larger one,
-///   in any unit; 0 on the largest sieve;
+///   in any unit; 0 on the largest sieve; in % or shares (by its name) all of it;
 /// - cumulative retained: what stays on this sieve and all coarser ones, in %, as a share of 1 or
 ///   (unit g, kg) as a mass; 0 on the largest sieve, all on the smallest; or
 /// - passing, finer or undersize: what passes this sieve, in %, as a share of 1 or (unit g, kg) as
 ///   a mass; 0 at the smallest sieve, all at the largest.
 ///
-/// A pan may be a row of size 0 if nothing is in it.
+/// All of it is 100 % or 1 within 1 %, for rounded entries and grains lost in sieving. A pan may be
+/// a row of size 0 if nothing is in it.
 ///
 /// @return CLAST_E_FORMAT with the row and what to do: no such columns, a word in the column's name
 ///         that is not understood (mass above), cells that are not finite, sieves that repeat,
 ///         negative masses, passing that falls as sieves grow, mass that is finer or coarser than
-///         all sieves
+///         all sieves, % or shares that miss the whole
 CLAST_API clast_status clast_curve_read(const char *path, clast_curve *curve);
 
 /// The same from memory; `name` stands for the path in messages.
@@ -202,6 +203,18 @@ CLAST_API clast_status clast_grading_load(const char *text, clast_grading_spread
                                           clast_grading_count count, clast_curve *curve,
                                           clast_grading **grading);
 
+/// What a grading's list held: how its rows are counted or weighed.
+typedef struct clast_grading_list {
+    int64_t n_row;       ///< 0: it was loaded from no list
+    double total;        ///< sum of the column, n_row without one
+    const char *column;  ///< that counts or weighs the rows, borrowed; "": one grain a row
+    const char *ignored; ///< columns that were not looked at, ", " between them, borrowed
+} clast_grading_list;
+
+/// The list that clast_grading_load read, by "list:FILE" or "masses:FILE"; its texts live as long
+/// as the grading.
+CLAST_API clast_grading_list clast_grading_list_of(const clast_grading *grading);
+
 /// Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle). NULL of
 /// NULL rules.
 ///
@@ -210,12 +223,14 @@ CLAST_API const clast_idle *clast_grading_idle(const clast_curve *curve,
                                                clast_grading_spread spread, clast_idle *rules);
 
 /// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
-/// blanks; '#' starts a comment; a first line that is no number names the columns).
+/// blanks; '#' starts a comment; a first line that is no number names the columns; a word may stand
+/// in quotes).
 ///
 /// A column `count`, `n`, `number` or `n_grains` counts the row's particles, else `weight`,
 /// `frequency` or `fraction`, else `mass` or `retained` (mass_g) weighs them; columns that begin
-/// with `low` and `high` are the ends of a bin; `density` (kg/m^3 unless its name ends in another
-/// unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
+/// with `low` and `high` are the ends of a bin, each in its own unit; `density` (kg/m^3 unless its
+/// name ends in another unit, density_g/cm3) is that of the row's particles. In phi units a size is
+/// 2^-phi mm.
 ///
 /// @param column  name of the size column; "": the first
 /// @param unit    um, mm, m, phi, ..., as the column's name ends in if it does (d_eq_um); "": that

@@ -66,6 +66,8 @@ CLAST_API clast_status clast_form_inputs_from_moments(const double mean[2],
 typedef struct clast_model_term {
     char *feature; ///< owned
     double coefficient;
+    char *unit; ///< owned; SI unit of a table's own column whose cells have one ("5mm": m), "-" of
+                ///< plain numbers; NULL: not known
 } clast_model_term;
 
 /// A range that the model's data covered.
@@ -148,9 +150,18 @@ CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *m
                                                    const clast_form_set *set, clast_table *beds);
 
 /// One row a bed of a table with the columns that a model of kind CLAST_MODEL_COLUMNS names;
-/// columns as above. Rows with a cell that is not finite are left out.
+/// columns as above. Rows with a cell that is not finite are left out. Plain numbers are SI.
+///
+/// @return CLAST_E_FORMAT without such a column, or for one of another unit than the model's
 CLAST_API clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
                                                       const clast_table *table, clast_table *beds);
+
+/// Whether a table that a person wrote has the units of such a model: of what the model has in
+/// metres plain numbers may be anything.
+///
+/// @return CLAST_E_FORMAT names the column that has no unit, or another one
+CLAST_API clast_status clast_porosity_model_check_units(const clast_porosity_model *model,
+                                                        const clast_table *table);
 
 /// What a prediction is asked for with, of which some options look at none.
 typedef struct clast_predict_given {
@@ -209,7 +220,8 @@ typedef enum {
 typedef struct clast_porosity_fit_config {
     char *target;             ///< column with the measured porosity
     char *columns;            ///< columns of the form, as clast_form_set_of takes them
-    char *group;              ///< column that names the bed, in both tables of a mixture
+    char *group;              ///< column that names the bed, in both tables of a mixture; of a
+                              ///< table's own columns it is no candidate
     int32_t n_term;           ///< features of the model
     char *use;                ///< "a,b": these features, nothing is selected
     double correlation_limit; ///< features with a greater |r| to a chosen one are removed
@@ -225,10 +237,10 @@ extern CLAST_API const clast_field clast_porosity_fit_fields[];
 
 /// The fields that a fit by the others does not look at (clast_fields_idle). NULL of a NULL.
 ///
-/// @param has_grains  whether there is a second table, of the beds' grains
+/// @param has_group  whether it looks at the column that names the bed: with a second table, of the
+///                   beds' grains, and where candidates are a table's own columns
 CLAST_API const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_config *config,
-                                                    bool has_grains,
-                                                    clast_idle rules[CLAST_N_IDLE]);
+                                                    bool has_group, clast_idle rules[CLAST_N_IDLE]);
 
 /// Beds with their candidate features.
 typedef struct clast_fit_data {
@@ -251,12 +263,13 @@ CLAST_API clast_status clast_fit_data_mixture(const clast_table *beds, const cla
                                               clast_fit_data *data);
 
 /// Any other table: candidates are the columns of numbers that `columns` names; without names all
-/// but the target, and in the results of a study (columns run, ..., exit_code, ...) those between
-/// run and exit_code but the seed, that is what was varied, and those that `use` names. Texts that
-/// are all numbers with a unit of one dimension are SI numbers; with `use` only the named ones and
-/// the target cost a row.
+/// but the target and `group`, and in the results of a study (columns run, ..., exit_code, ...)
+/// those between run and exit_code but the seed, that is what was varied, and those that `use`
+/// names. Texts that are all numbers with a unit of one dimension are SI numbers; with `use` only
+/// the named ones and the target cost a row.
 ///
-/// @return CLAST_E_FORMAT for a name without a column of numbers, or when there is no candidate
+/// @return CLAST_E_FORMAT for a name without a column of numbers, a `group` other than the default
+///         without a column, or when there is no candidate
 CLAST_API clast_status clast_fit_data_columns(const clast_table *beds,
                                               const clast_porosity_fit_config *config,
                                               clast_fit_data *data);
@@ -266,8 +279,9 @@ typedef struct clast_porosity_fit {
     clast_porosity_model model; ///< with covariance, ranges and scores
     clast_table ranking;        ///< feature, r, p, state, p_family: every candidate by falling |r|
     clast_table trials;         ///< step, feature, cv_mean_error, cv_median_error, r2
-    clast_table terms;  ///< term, coefficient, standard_error, t, p, vif, low, high; p is NaN after
-                        ///< a selection (but for the published validation): it knows nothing of it
+    clast_table terms;  ///< term, coefficient, standard_error, t, p, vif, low, high, unit; p is NaN
+                        ///< after a selection (but for the published validation): it knows nothing
+                        ///< of it; unit is that of the term's own values ("-": none)
     clast_table rows;   ///< row, porosity, fitted, residual, held_out, leverage, studentised, cook
     int32_t n_removed;  ///< candidates removed by the correlation limit
     double condition;   ///< of the scaled design matrix

@@ -25,12 +25,13 @@ Moments = float | str | Sequence[float] | NDArray[Any]
 class Model(Fixed):
     """porosity = intercept + sum of coefficient times feature; from a name ("single_form_U1") or a file of `clast fit`."""
 
-    _FIXED = ("name", "source", "kind", "intercept", "coefficients", "ranges")
+    _FIXED = ("name", "source", "kind", "intercept", "coefficients", "units", "ranges")
     name: str
     source: str
     kind: str
     intercept: float
     coefficients: Mapping[str, float]
+    units: Mapping[str, str]  #: of the features whose cells have one ("5mm": m)
     ranges: Mapping[str, tuple[float, float]]
 
     def __init__(self, name: Path) -> None:
@@ -51,6 +52,7 @@ class Model(Fixed):
         vars(self).update(name=struct.name.decode(), source=struct.source.decode(), kind=call("clast_model_kind_name")(struct.kind).decode(),
                           intercept=struct.intercept,
                           coefficients=MappingProxyType({t.feature.decode(): t.coefficient for t in struct.term[:struct.n_term]}),
+                          units=MappingProxyType({t.feature.decode(): t.unit.decode() for t in struct.term[:struct.n_term] if t.unit not in (None, b"-")}),
                           ranges=MappingProxyType({r.feature.decode(): (r.low, r.high) for r in struct.range[:struct.n_range]}))
 
     def write(self, path: Path) -> None:
@@ -62,7 +64,9 @@ class Model(Fixed):
         return f"<clast.Model {self.name}>"
 
     def _repr_html_(self) -> str:
-        return html_table([(self.name, ""), ("intercept", self.intercept), *self.coefficients.items()], ("term", "coefficient"), self.source)
+        return html_table([(self.name, ""), ("intercept", self.intercept),
+                           *((f"{name} ({self.units[name]})" if name in self.units else name, value) for name, value in self.coefficients.items())],
+                          ("term", "coefficient"), self.source)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,6 +196,8 @@ def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str
     given = _settled(model, True, grading=grading, columns=columns, each=True)
     chosen = _choose(model, given["grading"], False)
     if chosen.kind == "columns":
+        if isinstance(table, (str, os.PathLike)):  # numbers of an array are SI, those of a file may be anything
+            check(call("clast_porosity_model_check_units")(ctypes.byref(chosen._model), ctypes.byref(rows.struct)))
         check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
         if beds.struct.n_row < rows.struct.n_row:
             warn(f"{rows.struct.n_row - beds.struct.n_row} of {rows.struct.n_row} rows left out: missing or infinite")
@@ -249,9 +255,9 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     data, made = Owner(c.clast_fit_data(), "clast_fit_data_free"), Owner(c.clast_porosity_fit(), "clast_porosity_fit_free")
     choice("features", features, c.KEYS["fit"]["features"][5] or "")
     with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
-        refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), grains is not None)
         what = features if features != "auto" else "mixture" if grains is not None else \
             "form" if _has_forms(beds, config.struct.columns) else "columns"
+        refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), what != "form")
         if (what == "mixture") != (grains is not None):
             raise refuse("features: 'mixture' and grains belong together: the features are means and deviations over the grains")
         ends = (ctypes.byref(config.struct), ctypes.byref(data.struct))
@@ -261,7 +267,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
             check(call("clast_fit_data_mixture")(ctypes.byref(beds.struct), ctypes.byref(rows.struct), *ends))
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
-        use, columns, n_term = config.struct.use.decode(), config.struct.columns.decode(), config.struct.n_term
+        use, columns, group, n_term = (*(getattr(config.struct, key).decode() for key in ("use", "columns", "group")), config.struct.n_term)
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
         check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source),
                                               ctypes.byref(config.struct), ctypes.byref(made.struct)))
@@ -273,6 +279,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     if use == "":
         _warn_of_words(table_of(beds), found, columns)
         _warn_of_few(found, n_term)
+        _warn_of_numbers(table_of(beds), found, columns, group)
     return found
 
 
@@ -284,6 +291,19 @@ def _warn_of_words(beds: Table, found: Fit, columns: str) -> None:
     words = [name for name in names if beds[name].dtype.kind != "f" and name not in found.features.columns]
     if found.model.kind == "columns" and columns == "" and words:
         warn(f"{len(words)} {'columns of words are no candidates' if len(words) > 1 else 'column of words is no candidate'}: {', '.join(words)}")
+
+
+def _warn_of_numbers(beds: Table, found: Fit, columns: str, group: str) -> None:
+    """The column that names the bed is no candidate; a feature that counts the rows fits well if they are sorted."""
+    names = list(beds.columns)
+    if found.model.kind != "columns" or columns != "" or (names[:1] == ["run"] and "exit_code" in names):
+        return
+    if group in names and beds[group].dtype.kind == "f":
+        warn(f"column '{group}' names the bed and is no candidate")
+    for name in found.model.coefficients:
+        places = found.features[name] - found.features["row"]
+        if places[0] in (0, -1) and np.all(places == places[0]):
+            warn(f"feature '{name}' counts the rows; if it says nothing of a bed, name the candidates (columns=)")
 
 
 def _warn_of_few(found: Fit, n_term: int) -> None:

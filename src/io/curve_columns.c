@@ -37,6 +37,8 @@ static int32_t find_called(const clast_table *table, const char *const *words, i
 static const char *const size_words[] = {"sieve", "size", "diameter", "opening", "d", "phi", NULL};
 static const char *const retained_words[] = {"retained", "mass", "weight", "fraction", NULL};
 static const char *const passing_words[] = {"passing", "finer", "undersize", NULL};
+static const char *const percent_words[] = {"pct", "percent", "percentage", NULL};
+static const char *const share_words[] = {"share", "fraction", NULL};
 static const char *const cumulative_words[] = {"cumulative", "cum",         "cumul",
                                                "cumulated",  "accumulated", NULL};
 /// Say nothing of what the values are: that is the words above, and the unit.
@@ -114,6 +116,17 @@ done:
     return status;
 }
 
+/// "retained (%)", "pct retained", "mass_fraction", but no "fraction (g)".
+static double whole_of(const clast_column *column)
+{
+    const bool is_plain = strcmp(column->unit, "-") == 0;
+    if (strcmp(column->unit, "%") == 0 || (is_plain && (strchr(column->name, '%') != NULL ||
+                                                        has_word(column->name, percent_words)))) {
+        return 100.0;
+    }
+    return is_plain && has_word(column->name, share_words) ? 1.0 : 0.0;
+}
+
 /// Columns with one of the words anywhere in their name, where none begins with one: "% passing".
 static int32_t find_inside(const clast_table *table, int32_t size, const char *const *words,
                            int32_t *n_found)
@@ -147,6 +160,7 @@ static clast_status find_value(const char *file, const clast_table *table,
               "or undersize; a sieve curve has one of them",
               file, n_retained, n_passing);
     columns->value = n_passing == 1 ? passing : retained;
+    columns->whole = whole_of(&table->column[columns->value]);
     CLX_TRY(kind_of(file, table->column[columns->value].name, &columns->kind));
 done:
     return status;

@@ -12,6 +12,7 @@ typedef enum clx_curve_kind {
 typedef struct clx_curve_columns {
     int32_t size, value; ///< of numbers
     clx_curve_kind kind; ///< of the values
+    double whole;        ///< what all grains are by the name: 100 of "%", 1 of "share"; 0: not told
 } clx_curve_columns;
 
 /// Finds the two columns. CLAST_E_FORMAT, with the name of the file, when there are none or

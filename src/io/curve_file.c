@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "io/curve_columns.h"
 #include "io/size_columns.h"
+#include "shape/curve.h"
 #include <clast/field.h>
 #include <clast/table.h>
 #include <math.h>
@@ -15,6 +16,9 @@
 
 enum { SIEVE_LIMIT = 10000 };
 static const int64_t BYTE_LIMIT = (int64_t)1 << 24;
+/// A sheet in % or shares may miss the whole by this much of it: rounded entries, and the grains
+/// lost in sieving, of which EN 933-1 allows as much.
+static const double MISSED = 0.01;
 
 /// One sieve of the file: what stays on it, or what passes it.
 typedef struct {
@@ -28,7 +32,8 @@ typedef struct {
     sieve_row *row;   ///< [n] ascending
     int32_t n;
     clx_curve_kind kind;
-    char unit[32]; ///< of the values
+    const clast_column *value;
+    double whole; ///< by the column's name, 0: not told
     double *sieve, *mass;
 } curve_reader;
 
@@ -74,7 +79,8 @@ static clast_status take_rows(curve_reader *r, const clast_table *table)
     const clast_column *size = &table->column[columns.size];
     const clast_column *value = &table->column[columns.value];
     r->kind = columns.kind;
-    (void)snprintf(r->unit, sizeof r->unit, "%s", value->unit);
+    r->value = value;
+    r->whole = columns.whole;
     CLX_CHECK(table->n_row >= 2 && table->n_row <= SIEVE_LIMIT, CLAST_E_FORMAT,
               "%s: %lld sieves; a curve has 2 to %d", r->name, (long long)table->n_row,
               SIEVE_LIMIT);
@@ -101,6 +107,7 @@ done:
 /// A pan (size 0) may be there if nothing is in it: its grains would have no smallest size.
 static clast_status drop_pan(curve_reader *r)
 {
+    CLAST_ASSERT(r->row != NULL && r->n > 0);
     clast_status status = CLAST_OK;
     if (r->row[0].size <= 0.0) {
         const double above = r->kind == CLX_CURVE_CUMULATIVE && r->n > 1 ? r->row[1].value : 0.0;
@@ -130,23 +137,39 @@ static clast_status check_largest(const curve_reader *r)
     return CLAST_OK;
 }
 
-static clast_status retained_masses(curve_reader *r)
+static bool is_whole(double total, double whole)
 {
-    CLX_GUARD(check_largest(r));
-    for (int32_t i = 0; i + 1 < r->n; ++i) {
-        r->mass[i] = r->row[i].value;
-    }
-    return CLAST_OK;
+    return fabs(total - whole) <= MISSED * whole * (1.0 + 1e-9);
 }
 
-/// What all grains together are in the unit of the column, whose greatest value is `most`.
+/// Masses in any unit; in % or shares, of which all have to be there.
+static clast_status retained_masses(curve_reader *r)
+{
+    clast_status status = CLAST_OK;
+    double sum = 0.0;
+    CLX_TRY(check_largest(r));
+    for (int32_t i = 0; i + 1 < r->n; ++i) {
+        r->mass[i] = r->row[i].value;
+        sum += r->mass[i];
+    }
+    CLX_CHECK(
+        r->whole == 0.0 || is_whole(sum, r->whole) || (r->whole == 1.0 && is_whole(sum, 100.0)),
+        CLAST_E_FORMAT,
+        "%s: column '%s' sums to %g, not %g; is the pan missing (give it a smallest size), or are "
+        "these masses (retained_g)?",
+        r->name, r->value->name, sum, r->whole);
+done:
+    return status;
+}
+
+/// What all grains together are in the unit of a cumulative column, whose greatest value is `most`.
 static double all_of(const curve_reader *r, double most)
 {
-    if (strcmp(r->unit, "%") == 0) {
+    if (strcmp(r->value->unit, "%") == 0) {
         return 100.0;
     }
-    if (strcmp(r->unit, "-") == 0) {
-        return most <= 1.0 + 1e-9 ? 1.0 : 100.0;
+    if (strcmp(r->value->unit, "-") == 0) {
+        return most <= 1.0 + MISSED ? 1.0 : 100.0;
     }
     return most;
 }
@@ -157,7 +180,7 @@ static clast_status cumulative_masses(curve_reader *r)
     const sieve_row *first = &r->row[0];
     const double all = all_of(r, first->value);
     CLX_TRY(check_largest(r));
-    CLX_CHECK(fabs(first->value - all) <= 1e-9 * all, CLAST_E_FORMAT,
+    CLX_CHECK(is_whole(first->value, all), CLAST_E_FORMAT,
               "%s: row %lld: %g of %g stay on %g mm and coarser; add the size that nothing passes "
               "(masses: with their unit, cumulative retained_g)",
               r->name, (long long)first->row, first->value, all, 1e3 * first->size);
@@ -181,7 +204,7 @@ static clast_status passing_masses(curve_reader *r)
               "%s: row %lld: %g pass the smallest sieve of %g mm; add the size that nothing passes",
               r->name, (long long)r->row[0].row, r->row[0].value, 1e3 * r->row[0].size);
     CLX_CHECK(
-        fabs(last->value - all) <= 1e-9 * all, CLAST_E_FORMAT,
+        is_whole(last->value, all), CLAST_E_FORMAT,
         "%s: row %lld: %g of %g pass the largest sieve of %g mm; add the size that all passes",
         r->name, (long long)last->row, last->value, all, 1e3 * last->size);
     for (int32_t i = 0; i + 1 < r->n; ++i) {
@@ -292,18 +315,37 @@ done:
     return status;
 }
 
+/// What the list held, for those who tell it.
+static clast_status note_list(const clast_sizes *sizes, const clx_sizes_columns *columns,
+                              clast_grading *grading)
+{
+    clast_grading_list list = {
+        .n_row = sizes->n, .column = columns->count, .ignored = columns->ignored};
+    for (int64_t i = 0; i < sizes->n; ++i) {
+        list.total += sizes->count[i];
+    }
+    return clx_grading_note_list(&list, grading);
+}
+
 static clast_status load_list(const char *path, bool by_mass, clast_grading **grading)
 {
     clast_status status = CLAST_OK;
     clast_sizes sizes = {0};
+    clast_grading *made = NULL;
+    clx_sizes_columns columns;
     const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
                                by_mass ? "take list:FILE" : "take masses:FILE", ""};
-    CLX_TRY(clx_sizes_read_for(&use, path, "", "", &sizes));
-    status = clast_grading_of_sizes(&sizes, by_mass, grading);
+    CLX_TRY(clx_sizes_read_for(&use, path, "", "", &columns, &sizes));
+    status = clast_grading_of_sizes(&sizes, by_mass, &made);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", path);
+        goto done;
     }
+    CLX_TRY(note_list(&sizes, &columns, made));
+    *grading = made;
+    made = NULL;
 done:
+    clast_grading_destroy(made);
     clast_sizes_free(&sizes);
     return status;
 }

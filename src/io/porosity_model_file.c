@@ -1,7 +1,8 @@
 // Porosity models as JSON files.
 //
 //   {"format": "clast porosity model", "version": 1, "name": "...", "source": "...",
-//    "kind": "single_form", "intercept": 0.28, "terms": [{"feature": "...", "coefficient": ...}],
+//    "kind": "single_form", "intercept": 0.28, "terms": [{"feature": "...", "coefficient": ...,
+//    "unit": "m"}],
 //    "ranges": [{"feature": "...", "low": ..., "high": ...}], "covariance": [[...]],
 //    "rounding": 0, "deviation": 0.005, "n_bed": 63, "r2": ..., "cv_mean_error": ...,
 //    "cv_median_error": ..., "leverage_limit": ..., "provenance": {...}}
@@ -134,6 +135,19 @@ done:
     return status;
 }
 
+/// Files of before have none.
+static clast_status read_unit(const reader *r, const json_t *entry, char **unit)
+{
+    clast_status status = CLAST_OK;
+    const char *name = "";
+    if (json_object_get(entry, "unit") != NULL) {
+        CLX_TRY(text(r, entry, "unit", &name));
+        CLX_TRY(clx_alloc_text(unit, name));
+    }
+done:
+    return status;
+}
+
 static clast_status read_terms(const reader *r, clast_porosity_model *m)
 {
     clast_status status = CLAST_OK;
@@ -143,6 +157,7 @@ static clast_status read_terms(const reader *r, clast_porosity_model *m)
         const json_t *entry = json_array_get(terms, (size_t)k);
         CLX_TRY(read_feature(r, m->kind, entry, &m->term[k].feature));
         CLX_TRY(number(r, entry, "coefficient", true, 0.0, &m->term[k].coefficient));
+        CLX_TRY(read_unit(r, entry, &m->term[k].unit));
     }
     for (int32_t k = 0; k < m->n_range; ++k) {
         const json_t *entry = json_array_get(ranges, (size_t)k);
@@ -286,6 +301,9 @@ static json_t *write_terms(const clast_porosity_model *m)
         json_t *entry = json_object();
         (void)json_object_set_new(entry, "feature", json_string(m->term[k].feature));
         (void)json_object_set_new(entry, "coefficient", real_or_null(m->term[k].coefficient));
+        if (m->term[k].unit != NULL) {
+            (void)json_object_set_new(entry, "unit", plain(m->term[k].unit));
+        }
         (void)json_array_append_new(terms, entry);
     }
     return terms;

@@ -21,6 +21,14 @@ typedef struct clx_sizes_use {
     const char *unit_instead; ///< where else a unit may be given: " or give size_unit (um, ...)"
 } clx_sizes_use;
 
+/// Which columns of a list were taken; without names they are called by their numbers, from 1.
+typedef struct clx_sizes_columns {
+    char count[128];    ///< counts or weighs the rows; "": one grain a row
+    char ignored[1024]; ///< not looked at, ", " between them
+} clx_sizes_columns;
+
 /// As clast_sizes_read. CLAST_E_CONFIG if the list holds masses for numbers or the other way round.
+///
+/// @param columns  may be NULL
 clast_status clx_sizes_read_for(const clx_sizes_use *use, const char *path, const char *column,
-                                const char *unit, clast_sizes *sizes);
+                                const char *unit, clx_sizes_columns *columns, clast_sizes *sizes);

@@ -25,9 +25,11 @@ typedef struct {
     int32_t density;          ///< column, or -1
     double density_factor;
     int32_t n_column;
-    char unit[16];
-    bool is_phi;
-    double factor;
+    const char *asked; ///< unit, "" for that in the columns' names
+    char unit[2][16];  ///< of low and high
+    bool is_phi[2];
+    double factor[2];
+    clx_sizes_columns columns;
     clast_sizes sizes; ///< as far as read
     int64_t low_room, high_room, count_room, density_room;
 } reader;
@@ -69,14 +71,48 @@ static const char *word_end(const char *at, const char *end, bool has_marks)
     return last;
 }
 
+/// Reads a word in quotes, within which "" is one [RFC 4180]. Returns its end; NULL without a
+/// closing quote before a separator, or for a word that is too long.
+static const char *read_quoted(const char *at, const char *end, char word[WORD_LIMIT])
+{
+    int n = 0;
+    for (++at; at < end && n < WORD_LIMIT; ++at) {
+        if (*at == '"' && !(at + 1 < end && at[1] == '"')) {
+            word[n] = '\0';
+            ++at;
+            return at == end || is_separator(*at) || *at == '#' ? at : NULL;
+        }
+        at += *at == '"' ? 1 : 0;
+        word[n++] = *at;
+    }
+    return NULL;
+}
+
+/// The same of a word without quotes.
+static const char *read_plain(const char *at, const char *end, bool has_marks,
+                              char word[WORD_LIMIT])
+{
+    const char *last = word_end(at, end, has_marks);
+    const int n = snprintf(word, WORD_LIMIT, "%.*s", (int)(last - at), at);
+    return n < WORD_LIMIT ? last : NULL;
+}
+
+static bool has_any_mark(const char *at, const char *end)
+{
+    bool in_quotes = false;
+    bool has_marks = false;
+    for (; at < end; ++at) {
+        in_quotes = in_quotes != (*at == '"');
+        has_marks = has_marks || (!in_quotes && is_mark(*at));
+    }
+    return has_marks;
+}
+
 /// Cuts [at, end) into words: runs of blanks are one separator, commas and semicolons each one.
 static clast_status split(reader *r, const char *at, const char *end)
 {
     clast_status status = CLAST_OK;
-    bool has_marks = false;
-    for (const char *c = at; c < end; ++c) {
-        has_marks = has_marks || is_mark(*c);
-    }
+    const bool has_marks = has_any_mark(at, end);
     r->n_word = 0;
     while (at < end) {
         while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
@@ -85,12 +121,13 @@ static clast_status split(reader *r, const char *at, const char *end)
         if (at == end || *at == '#') {
             break;
         }
-        const char *word = at;
-        at = word_end(at, end, has_marks);
-        CLX_CHECK(r->n_word < COLUMN_LIMIT && at - word < WORD_LIMIT, CLAST_E_FORMAT,
-                  "%s:%lld: more than %d columns, or a word of more than %d letters", r->name,
-                  (long long)r->line, COLUMN_LIMIT, WORD_LIMIT - 1);
-        (void)snprintf(r->word[r->n_word++], WORD_LIMIT, "%.*s", (int)(at - word), word);
+        CLX_CHECK(r->n_word < COLUMN_LIMIT, CLAST_E_FORMAT, "%s:%lld: more than %d columns",
+                  r->name, (long long)r->line, COLUMN_LIMIT);
+        char *word = r->word[r->n_word++];
+        at = *at == '"' ? read_quoted(at, end, word) : read_plain(at, end, has_marks, word);
+        CLX_CHECK(at != NULL, CLAST_E_FORMAT,
+                  "%s:%lld: a word of more than %d letters, or quotes that do not end with it",
+                  r->name, (long long)r->line, WORD_LIMIT - 1);
         while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
             ++at;
         }
@@ -273,25 +310,38 @@ static clast_status check_second(const reader *r, const char *asked)
                     r->name, r->word[other]);
 }
 
-/// The unit of the sizes: the one given, which is that in the column's name if there is one.
-static clast_status find_unit(reader *r)
+/// The unit of a column of sizes: the one asked for, which is that in the column's name if there is
+/// one.
+static clast_status find_unit(const reader *r, int32_t column, char unit[16])
 {
     clast_status status = CLAST_OK;
-    char own[16];
     double factor[2] = {0.0, 0.0};
-    unit_of(r->word[r->low], own);
-    if (r->unit[0] == '\0') {
-        memcpy(r->unit, own, sizeof own);
-    }
-    if (own[0] == '\0' || strcmp(own, r->unit) == 0) {
+    unit_of(r->word[column], unit);
+    if (r->asked[0] == '\0' || strcmp(unit, r->asked) == 0) {
         return CLAST_OK;
     }
-    const bool is_same = clast_unit_factor(own, "m", &factor[0]) == CLAST_OK &&
-                         clast_unit_factor(r->unit, "m", &factor[1]) == CLAST_OK &&
+    const bool is_same = clast_unit_factor(unit, "m", &factor[0]) == CLAST_OK &&
+                         clast_unit_factor(r->asked, "m", &factor[1]) == CLAST_OK &&
                          factor[0] == factor[1];
-    CLX_CHECK(is_same, CLAST_E_CONFIG,
+    CLX_CHECK(unit[0] == '\0' || is_same, CLAST_E_CONFIG,
               "%s: column '%s' is in %s by its name, the unit asked for is %s", r->name,
-              r->word[r->low], own, r->unit);
+              r->word[column], unit, r->asked);
+    (void)snprintf(unit, 16, "%s", r->asked);
+done:
+    return status;
+}
+
+/// Units of both ends of a bin; an end whose column names none has that of the other.
+static clast_status find_units(reader *r)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(find_unit(r, r->low, r->unit[0]));
+    CLX_TRY(find_unit(r, r->high, r->unit[1]));
+    for (int k = 0; k < 2; ++k) {
+        if (r->unit[k][0] == '\0') {
+            memcpy(r->unit[k], r->unit[1 - k], sizeof r->unit[k]);
+        }
+    }
 done:
     return status;
 }
@@ -332,7 +382,41 @@ static clast_status read_header(reader *r, const char *column)
     CLX_CHECK(r->low != r->count, CLAST_E_FORMAT, "%s:%lld: column %s cannot be size and count",
               r->name, (long long)r->line, r->word[r->low]);
     CLX_TRY(check_second(r, column));
-    CLX_TRY(find_unit(r));
+    CLX_TRY(find_units(r));
+done:
+    return status;
+}
+
+/// Which column counts, and which are not looked at.
+static void note_columns(reader *r, bool is_header)
+{
+    clx_sizes_columns *c = &r->columns;
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        char number[16];
+        (void)snprintf(number, sizeof number, "%d", i + 1);
+        const char *name = is_header && r->word[i][0] != '\0' ? r->word[i] : number;
+        if (i == r->count) {
+            (void)snprintf(c->count, sizeof c->count, "%s", name);
+        } else if (i != r->low && i != r->high && i != r->density) {
+            const size_t n = strlen(c->ignored);
+            (void)snprintf(c->ignored + n, sizeof c->ignored - n, "%s%s", n > 0 ? ", " : "", name);
+        }
+    }
+}
+
+static clast_status set_units(reader *r)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(r->unit[0][0] != '\0', CLAST_E_CONFIG,
+              "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
+              "(mm), phi)%s",
+              r->name, r->use->unit_instead);
+    for (int k = 0; k < 2; ++k) {
+        r->is_phi[k] = strcmp(r->unit[k], "phi") == 0;
+        if (!r->is_phi[k]) {
+            CLX_TRY(clast_unit_factor(r->unit[k], "m", &r->factor[k]));
+        }
+    }
 done:
     return status;
 }
@@ -352,29 +436,27 @@ static clast_status begin(reader *r, const char *column, bool *is_header)
         r->count = r->n_word > 1 ? 1 : -1;
         CLX_CHECK(r->count >= 0 || r->use->wanted != CLX_SIZE_COLUMN_MASS, CLAST_E_CONFIG,
                   "%s: no column of masses: it has sizes alone", r->name);
+        for (int k = 0; k < 2; ++k) {
+            (void)snprintf(r->unit[k], sizeof r->unit[k], "%s", r->asked);
+        }
     }
-    CLX_CHECK(r->unit[0] != '\0', CLAST_E_CONFIG,
-              "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
-              "(mm), phi)%s",
-              r->name, r->use->unit_instead);
-    r->is_phi = strcmp(r->unit, "phi") == 0;
-    if (!r->is_phi) {
-        CLX_TRY(clast_unit_factor(r->unit, "m", &r->factor));
-    }
+    note_columns(r, *is_header);
+    CLX_TRY(set_units(r));
 done:
     return status;
 }
 
-static clast_status size_at(const reader *r, int32_t column, double *size)
+/// Size at the lower (0) or upper (1) end of the row.
+static clast_status size_at(const reader *r, int end, double *size)
 {
     clast_status status = CLAST_OK;
-    const char *word = r->word[column];
+    const char *word = r->word[end == 0 ? r->low : r->high];
     CLX_CHECK(is_number(word), CLAST_E_FORMAT, "%s:%lld: '%s' is not a number", r->name,
               (long long)r->line, word);
     const double number = clx_number_read(word, NULL);
     CLX_CHECK(isfinite(number), CLAST_E_FORMAT, "%s:%lld: the size '%s' is not finite", r->name,
               (long long)r->line, word);
-    *size = r->is_phi ? 1e-3 * exp2(-number) : number * r->factor;
+    *size = r->is_phi[end] ? 1e-3 * exp2(-number) : number * r->factor[end];
     CLX_CHECK(*size > 0.0 && isfinite(*size), CLAST_E_FORMAT, "%s:%lld: the size %s is not above 0",
               r->name, (long long)r->line, word);
 done:
@@ -431,9 +513,9 @@ static clast_status read_row(reader *r)
     double count = 1.0;
     CLX_CHECK(r->n_word == r->n_column, CLAST_E_FORMAT, "%s:%lld: %d columns, expected %d", r->name,
               (long long)r->line, r->n_word, r->n_column);
-    CLX_TRY(size_at(r, r->low, &low));
-    CLX_TRY(size_at(r, r->high, &high));
-    CLX_CHECK(low <= high || r->is_phi, CLAST_E_FORMAT,
+    CLX_TRY(size_at(r, 0, &low));
+    CLX_TRY(size_at(r, 1, &high));
+    CLX_CHECK(low <= high || r->is_phi[0], CLAST_E_FORMAT,
               "%s:%lld: the size low, %s, is above high, %s", r->name, (long long)r->line,
               r->word[r->low], r->word[r->high]);
     if (r->count >= 0) {
@@ -481,7 +563,8 @@ done:
 }
 
 static clast_status parse(const clx_sizes_use *use, const char *name, const char *text,
-                          const char *const column_unit[2], clast_sizes *sizes)
+                          const char *const column_unit[2], clx_sizes_columns *columns,
+                          clast_sizes *sizes)
 {
     clast_status status = CLAST_OK;
     reader *r = NULL;
@@ -489,11 +572,14 @@ static clast_status parse(const clx_sizes_use *use, const char *name, const char
     CLX_TRY(clx_alloc(&r, 1, sizeof *r));
     r->use = use;
     r->name = name;
-    (void)snprintf(r->unit, sizeof r->unit, "%s", column_unit[1]);
+    r->asked = column_unit[1];
     CLX_TRY(read_lines(r, text + (marked ? 3 : 0), column_unit[0]));
     CLX_CHECK(r->sizes.n > 0, CLAST_E_FORMAT, "%s: no sizes in it", name);
     *sizes = r->sizes;
     r->sizes = (clast_sizes){0};
+    if (columns != NULL) {
+        *columns = r->columns;
+    }
 done:
     if (r != NULL) {
         clast_sizes_free(&r->sizes);
@@ -509,11 +595,11 @@ clast_status clast_sizes_parse(const char *name, const char *text, const char *c
                                const char *unit, clast_sizes *sizes)
 {
     CLX_ARGUMENTS(name, text, column, unit, sizes);
-    return parse(&as_written, name, text, (const char *const[2]){column, unit}, sizes);
+    return parse(&as_written, name, text, (const char *const[2]){column, unit}, NULL, sizes);
 }
 
 clast_status clx_sizes_read_for(const clx_sizes_use *use, const char *path, const char *column,
-                                const char *unit, clast_sizes *sizes)
+                                const char *unit, clx_sizes_columns *columns, clast_sizes *sizes)
 {
     clast_status status = CLAST_OK;
     char *bytes = NULL;
@@ -521,7 +607,7 @@ clast_status clx_sizes_read_for(const clx_sizes_use *use, const char *path, cons
     CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
     CLX_CHECK(strlen(bytes) == (size_t)n, CLAST_E_FORMAT, "%s: a zero byte at %zu; not a text",
               path, strlen(bytes));
-    CLX_TRY(parse(use, path, bytes, (const char *const[2]){column, unit}, sizes));
+    CLX_TRY(parse(use, path, bytes, (const char *const[2]){column, unit}, columns, sizes));
 done:
     clx_free(bytes);
     return status;
@@ -531,5 +617,5 @@ clast_status clast_sizes_read(const char *path, const char *column, const char *
                               clast_sizes *sizes)
 {
     CLX_ARGUMENTS(path, column, unit, sizes);
-    return clx_sizes_read_for(&as_written, path, column, unit, sizes);
+    return clx_sizes_read_for(&as_written, path, column, unit, NULL, sizes);
 }

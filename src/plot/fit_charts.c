@@ -56,8 +56,10 @@ static clast_status draw_feature(const clast_fit_data *data, const clast_porosit
     const double r = copysign(sqrt(fmax(ls.r2, 0.0)), ls.b[1]);
     (void)clx_number_print(label, sizeof label, "%.4g %s %.4g %s (r = %.3f)", ls.b[0],
                            ls.b[1] < 0.0 ? "\342\210\222" : "+", fabs(ls.b[1]), name, r);
-    (void)snprintf(axis, sizeof axis, "%s%s", name,
-                   fit->model.kind == CLAST_MODEL_COLUMNS ? "" : " (-)");
+    const char *unit = fit->model.term[0].unit; // of a table's column; "-": its name may have one
+    (void)(unit != NULL && strcmp(unit, "-") == 0
+               ? snprintf(axis, sizeof axis, "%s", name)
+               : snprintf(axis, sizeof axis, "%s (%s)", name, unit != NULL ? unit : "-"));
     const clast_series series[2] = {
         {.kind = CLAST_SERIES_POINTS, .label = "beds", .x = x, .y = y, .n = n},
         {.kind = CLAST_SERIES_LINE, .label = label, .x = span, .y = line, .n = 2, .colour = 1}};

@@ -19,8 +19,8 @@ const clast_field clast_porosity_fit_fields[] = {
      "columns: the candidates",
      "", .common = true},
     {FIELD(CLAST_FIELD_TEXT, group), 0, 0, 0, "-",
-     "column that names the bed, in the table of beds and in that of the grains", "bed",
-     .common = true},
+     "column that names the bed, in the table of beds and in that of the grains; it is no feature",
+     "bed", .common = true},
     {FIELD(CLAST_FIELD_I32, n_term), 2, 1, 20, "-", "features of the model", NULL, .common = true,
      .group = "model"},
     {FIELD(CLAST_FIELD_TEXT, use), 0, 0, 0, "-",
@@ -325,9 +325,10 @@ done:
     return status;
 }
 
-/// Candidates: those of `columns`; else those of `use` with all but the target, in a study's table
-/// with what was varied: its runs' other results, from exit_code on, are measured with the
-/// porosity, not known before, and the seed of random numbers says nothing of a bed.
+/// Candidates: those of `columns`; else those of `use` with all but the target and the column that
+/// names the bed, in a study's table with what was varied: its runs' other results, from exit_code
+/// on, are measured with the porosity, not known before, and the seed of random numbers says
+/// nothing of a bed.
 static bool is_candidate(const clast_table *beds, int32_t c,
                          const clast_porosity_fit_config *config)
 {
@@ -341,8 +342,11 @@ static bool is_candidate(const clast_table *beds, int32_t c,
     if (config->columns[0] != '\0') {
         return is_listed(config->columns, column->name);
     }
-    return is_listed(config->use, column->name) || !is_study ||
-           (c > run && c < code && strcmp(column->name, "seed") != 0);
+    if (is_listed(config->use, column->name)) {
+        return true;
+    }
+    return is_study ? c > run && c < code && strcmp(column->name, "seed") != 0
+                    : strcmp(column->name, config->group) != 0;
 }
 
 /// Whether a row without a value in this column is left out: with features named, theirs alone.
@@ -403,6 +407,13 @@ done:
     return status;
 }
 
+/// A table of columns need not name its beds, but has the column that was asked for.
+static clast_status check_group(const clast_table *beds, const char *name)
+{
+    const clast_column *unused = NULL;
+    return strcmp(name, "bed") == 0 ? CLAST_OK : group_column(beds, name, &unused);
+}
+
 clast_status clast_fit_data_columns(const clast_table *beds,
                                     const clast_porosity_fit_config *config, clast_fit_data *data)
 {
@@ -414,6 +425,7 @@ clast_status clast_fit_data_columns(const clast_table *beds,
     clx_unit_columns columns = {0};
     const double *porosity = NULL;
     CLX_TRY(target_of(beds, config->target, &porosity));
+    CLX_TRY(check_group(beds, config->group));
     CLX_TRY(clx_unit_columns_read(beds, &columns));
     CLX_TRY(check_list(&columns.table, config->columns));
     CLX_TRY(begin(CLAST_MODEL_COLUMNS, beds->n_row, &d));

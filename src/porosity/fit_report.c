@@ -6,6 +6,7 @@
 #include "math/least_squares.h"
 #include "math/special.h"
 #include "porosity/model.h"
+#include "porosity/unit_columns.h"
 #include <clast/field.h>
 #include <clast/porosity_model.h>
 #include <clast/table.h>
@@ -130,6 +131,7 @@ static clast_status report_terms(const clx_fit *f, const clx_least_squares *ls, 
     const bool is_selected =
         f->config->use[0] == '\0' && f->config->validation == CLAST_VALIDATION_NESTED;
     CLX_TRY(start_table(t, "terms", ls->p, "term", number, 7));
+    CLX_TRY(clast_table_add_text(t, "unit"));
     for (int32_t j = 0; j < ls->p; ++j) {
         const double error = sqrt(ls->covariance[j * (ls->p + 1)]);
         const double ratio = error > 0.0 ? ls->b[j] / error : HUGE_VAL;
@@ -142,8 +144,10 @@ static clast_status report_terms(const clx_fit *f, const clx_least_squares *ls, 
             CLX_TRY(inflation(f, ls->p, j, &value[4]));
             bounds(c->number, f->n, &value[5], &value[6]);
             CLX_TRY(clast_table_set_text(t, 0, j, c->name));
+            CLX_TRY(clast_table_set_text(t, 8, j, clx_own_unit(c)));
         } else {
             CLX_TRY(clast_table_set_text(t, 0, j, "intercept"));
+            CLX_TRY(clast_table_set_text(t, 8, j, "-"));
         }
         for (int k = 0; k < 7; ++k) {
             t->column[1 + k].number[j] = value[k];
@@ -193,6 +197,21 @@ static int32_t landmark(const clx_fit *f, clast_model_kind kind, int k)
     return -1;
 }
 
+/// Term k of the model; a column of the table with its unit.
+static clast_status report_term(const clx_fit *f, clast_model_kind kind, int32_t k,
+                                double coefficient, clast_model_term *term)
+{
+    clast_status status = CLAST_OK;
+    const clast_column *c = &f->candidate[f->chosen[k]];
+    term->coefficient = coefficient;
+    CLX_TRY(clx_alloc_text(&term->feature, c->name));
+    if (kind == CLAST_MODEL_COLUMNS) {
+        CLX_TRY(clx_alloc_text(&term->unit, clx_own_unit(c)));
+    }
+done:
+    return status;
+}
+
 static clast_status report_model(const clx_fit *f, clast_model_kind kind,
                                  const clx_least_squares *ls, clast_porosity_model *m)
 {
@@ -217,8 +236,7 @@ static clast_status report_model(const clx_fit *f, clast_model_kind kind,
         bounds(f->candidate[j].number, f->n, &m->range[n].low, &m->range[n].high);
         ++n;
         if (k < f->n_chosen) {
-            CLX_TRY(clx_alloc_text(&m->term[k].feature, f->candidate[j].name));
-            m->term[k].coefficient = ls->b[1 + k];
+            CLX_TRY(report_term(f, kind, k, ls->b[1 + k], &m->term[k]));
         }
     }
     m->n_range = n;

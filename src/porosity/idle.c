@@ -4,7 +4,7 @@
 #include "base/field.h"
 #include <string.h>
 
-const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_config *c, bool has_grains,
+const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_config *c, bool has_group,
                                           clast_idle rules[CLAST_N_IDLE])
 {
     if (c == NULL || c->use == NULL || rules == NULL) {
@@ -12,7 +12,7 @@ const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_config *c, bo
     }
     const clast_idle made[CLAST_N_IDLE] = {
         {c->use[0] != '\0', "n_term|score", "with --use: features are named, none is selected"},
-        {!has_grains, "group", "without --grains"}};
+        {!has_group, "group", "without --grains, where beds are of one form each"}};
     return clx_idle_copy(made, rules);
 }
 

@@ -65,6 +65,7 @@ void clast_porosity_model_free(clast_porosity_model *model)
     }
     for (int32_t k = 0; model->term != NULL && k < model->n_term; ++k) {
         clx_free(model->term[k].feature);
+        clx_free(model->term[k].unit);
     }
     for (int32_t k = 0; model->range != NULL && k < model->n_range; ++k) {
         clx_free(model->range[k].feature);

@@ -7,6 +7,7 @@
 #include "porosity/unit_columns.h"
 #include "porosity/whole.h"
 #include <math.h>
+#include <string.h>
 
 static clast_status find_columns(const clast_porosity_model *model, const clast_table *table,
                                  const double **column)
@@ -21,6 +22,47 @@ static clast_status find_columns(const clast_porosity_model *model, const clast_
                   model->name);
     }
 done:
+    return status;
+}
+
+/// A column of another unit than the model's is refused; plain numbers too, unless they are SI.
+static clast_status check_units(const clast_porosity_model *model, const clast_table *table,
+                                bool plain_is_si)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t k = 0; k < model->n_term; ++k) {
+        const char *name = model->term[k].feature;
+        const char *wanted = model->term[k].unit;
+        const int32_t c = clast_table_find(table, name);
+        if (wanted == NULL || c < 0 || table->column[c].number == NULL) {
+            continue;
+        }
+        const char *unit = clx_own_unit(&table->column[c]);
+        const bool is_plain = strcmp(unit, "-") == 0;
+        CLX_CHECK(strcmp(unit, wanted) == 0 || is_plain, CLAST_E_FORMAT,
+                  "table %s: column '%s' is in %s, model %s takes %s", table->name, name, unit,
+                  model->name, strcmp(wanted, "-") == 0 ? "plain numbers" : wanted);
+        CLX_CHECK(strcmp(unit, wanted) == 0 || plain_is_si, CLAST_E_FORMAT,
+                  "table %s: column '%s' has no unit, model %s takes it in %s; write it with each "
+                  "number, as in 1%s",
+                  table->name, name, model->name, wanted, wanted);
+    }
+done:
+    return status;
+}
+
+clast_status clast_porosity_model_check_units(const clast_porosity_model *model,
+                                              const clast_table *table)
+{
+    CLX_ARGUMENTS(model, table);
+    CLX_WHOLE(porosity_model, model);
+    CLX_WHOLE(table, table);
+    clast_status status = CLAST_OK;
+    clx_unit_columns columns = {0};
+    CLX_TRY(clx_unit_columns_read(table, &columns));
+    CLX_TRY(check_units(model, &columns.table, false));
+done:
+    clx_unit_columns_free(&columns);
     return status;
 }
 
@@ -54,6 +96,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
     CLX_TRY(clx_alloc(&value, m, sizeof *value));
     CLX_TRY(clx_unit_columns_read(table, &columns));
     CLX_TRY(find_columns(model, &columns.table, column));
+    CLX_TRY(check_units(model, &columns.table, true));
     CLX_TRY(start(table->n_row, &t));
     for (int64_t i = 0; i < table->n_row; ++i) {
         clast_prediction p = {0};

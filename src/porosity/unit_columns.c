@@ -80,6 +80,17 @@ done:
     return status;
 }
 
+const char *clx_own_unit(const clast_column *column)
+{
+    const char *name = column->name;
+    const size_t n_unit = strlen(column->unit);
+    size_t n = strlen(name);
+    n -= n > 0 && (name[n - 1] == ')' || name[n - 1] == ']') ? 1 : 0;
+    const bool is_named = n > n_unit && strchr("_([", name[n - n_unit - 1]) != NULL &&
+                          memcmp(name + n - n_unit, column->unit, n_unit) == 0;
+    return is_named ? "-" : column->unit;
+}
+
 clast_status clx_unit_columns_read(const clast_table *from, clx_unit_columns *columns)
 {
     clast_status status = CLAST_OK;

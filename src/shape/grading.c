@@ -43,12 +43,17 @@ struct clast_grading {
     double mu, sigma; ///< log-normal: mean and deviation of ln D
     double cut_part;  ///< log-normal: probability between the limits
     double mean_cube; ///< m^3
+    int64_t n_row;    ///< of the list that it was loaded from, or 0
+    double total;
+    char *column, *ignored; ///< of that list, or NULL
 };
 
 void clast_grading_destroy(clast_grading *grading)
 {
     if (grading != NULL) {
         clx_free(grading->item);
+        clx_free(grading->column);
+        clx_free(grading->ignored);
         clx_free(grading);
     }
 }
@@ -422,6 +427,25 @@ void clast_grading_range(const clast_grading *grading, double *low, double *high
     }
     *low = grading->low;
     *high = grading->high;
+}
+
+clast_status clx_grading_note_list(const clast_grading_list *list, clast_grading *grading)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc_text(&grading->column, list->column));
+    CLX_TRY(clx_alloc_text(&grading->ignored, list->ignored));
+    grading->n_row = list->n_row;
+    grading->total = list->total;
+done:
+    return status;
+}
+
+clast_grading_list clast_grading_list_of(const clast_grading *grading)
+{
+    const bool is_list = grading != NULL && grading->n_row > 0;
+    return is_list ? (clast_grading_list){grading->n_row, grading->total, grading->column,
+                                          grading->ignored}
+                   : (clast_grading_list){.column = "", .ignored = ""};
 }
 
 double clast_grading_mean_cube(const clast_grading *grading)

@@ -151,10 +151,59 @@ class Fit(Case):
         self.assertNotIn("words", fit.err)  # candidates were named
         none = self.assert_fails(3, "fit", self.study(["1mm", "2s", "3mm", "4mm"]), "--target", "porosity_bulk", says=("no column of numbers",))
         self.assertIn("--columns", none.err)
-        rows = "porosity,site,layer,a\n" + "".join(f"{0.3 + 0.01 * math.sin(3 * k)!r},x{k},top,{k}\n" for k in range(20))
+        rows = "porosity,site,layer,a\n" + "".join(f"{0.3 + 0.01 * math.sin(3 * k)!r},x{k},top,{2 * k}\n" for k in range(20))
         path = self.write(rows)
         fit = clast("fit", path, "--n-term", 1)
         self.assertEqual(fit.err, f"clast fit: {path}: 2 columns of words are no candidates: site, layer\n")
+
+    def test_the_beds_number_is_no_feature(self):
+        """Of noise sorted by porosity and numbered "bed 0.9760 chosen", R2 0.96, p 0.005, also with --group bed."""
+        porosity = sorted(0.35 + 0.02 * math.sin(1e4 * math.sin(k)) for k in range(30))
+        rows = "".join(f"{k + 1},{math.sin(3 * k * k)!r},{math.cos(k * k)!r},{p!r}\n" for k, p in enumerate(porosity))
+        path = self.write(f"bed,size_m,depth_m,porosity\n{rows}")
+        for words in ((), ("--group", "bed")):
+            fit = clast("fit", path, "--n-permutation", 0, *words, "--json")
+            self.assertEqual(fit.code, 0, fit.err)
+            self.assertEqual({r["feature"] for r in fit.json["ranking"]}, {"size_m", "depth_m"})
+            self.assertEqual(fit.err, f"clast fit: {path}: column 'bed' names the bed and is no candidate\n")
+        for words in (("--columns", "bed,size_m"), ("--use", "bed")):
+            fit = clast("fit", path, "--n-permutation", 0, "--n-term", 1, *words) if words[0] == "--columns" else clast("fit", path, "--n-permutation", 0, *words)
+            self.assertEqual((fit.code, fit.err), (0, ""))
+            self.assertRegex(fit.out, "bed +0.9[0-9]+ +chosen")
+        # another name: named by --group, or told when it is chosen
+        path = self.write(f"Sample,size_m,depth_m,porosity\n{rows}")
+        fit = clast("fit", path, "--group", "Sample", "--n-permutation", 0)
+        self.assertEqual((fit.code, fit.err), (0, f"clast fit: {path}: column 'Sample' names the bed and is no candidate\n"))
+        fit = clast("fit", path, "--n-term", 1, "--n-permutation", 0)
+        self.assertIn(f"{path}: feature 'Sample' counts the rows;", fit.err)
+        self.assertEqual(clast("fit", path, "--n-term", 1, "--n-permutation", 0, "--columns", "Sample,size_m").err, "")
+        self.assert_fails(3, "fit", path, "--group", "sample", says=("no column 'sample' that names the bed",))
+        self.assert_fails(2, "fit", self.write(beds()), "--group", "flatness", says=("--group does nothing without --grains",))
+
+    def test_coefficients_keep_their_unit(self):
+        """Cells "5.1mm" gave a coefficient in 1/m without a word of it, and a 10 of a table to predict was 10 m."""
+        run, model = self.folder / "run", self.folder / "run/model.json"
+        path = self.write("d50,x_mm,porosity\n" + "".join(f"{d!r}mm,{k % 7},{0.45 - 0.002 * d + 0.001 * math.sin(k * k)!r}\n" for k, d in (
+            (k, 5 + 3 * math.sin(k)) for k in range(30))))
+        fit = clast("fit", path, "--n-permutation", 0, "-o", run)
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertRegex(fit.out, r"\nd50 \(m\) +-[12]\.[0-9]+ ")
+        self.assertIn("\nx_mm ", fit.out)  # its name says it
+        self.assertEqual({t["feature"]: t["unit"] for t in json.loads(model.read_text())["terms"]}, {"d50": "m", "x_mm": "-"})
+        with open(run / "terms.csv", newline="") as file:
+            self.assertEqual({r["term"]: r["unit"] for r in csv.DictReader(file)}, {"intercept": "-", "d50": "m", "x_mm": "-"})
+        got = clast("predict", self.write("d50,x_mm\n5mm,3\n", "new.csv"), "--model", model)
+        self.assertIn(" d50 (m)", got.out)
+        for rows, says in (("5,3", "column 'd50' has no unit, model fitted takes it in m"), ("0.005,3", "has no unit"), ("5kg,3", "column 'd50' is in kg, model fitted takes m"),
+                           ("5mm,3mm", "column 'x_mm' is in m, model fitted takes plain numbers")):
+            self.assert_fails(3, "predict", self.write(f"d50,x_mm\n{rows}\n", "new.csv"), "--model", model, says=(says,))
+        # files of before have no units
+        old = json.loads(model.read_text())
+        for term in old["terms"]:
+            del term["unit"]
+        for rows in ("5mm,3", "0.005,3"):
+            again = clast("predict", self.write(f"d50,x_mm\n{rows}\n", "new.csv"), "--model", self.write(json.dumps(old), "old.json"))
+            self.assertEqual((again.code, again.out.splitlines()[2:]), (0, got.out.splitlines()[2:]), again.err)
 
     def test_only_features_in_use_cost_a_row(self):
         # periodic beds have no wall_ratio: they were left out though it was not used
@@ -184,7 +233,7 @@ class Fit(Case):
         self.assertEqual(len(fit.json["terms"]), 2)
         self.assertEqual(fit.err, "clast fit: 1 of 3 features: no candidate is left of 3 (1 like a chosen one, 1 constant or not finite in some row)\n")
         few = self.write("porosity,a,b,c\n" + "".join(
-            f"{0.3 + 0.01 * math.sin(3 * k)!r},{k},{math.sin(k)!r},{math.cos(2 * k)!r}\n" for k in range(6)), "few.csv")
+            f"{0.3 + 0.01 * math.sin(3 * k)!r},{2 * k},{math.sin(k)!r},{math.cos(2 * k)!r}\n" for k in range(6)), "few.csv")
         fit = clast("fit", few, "--n-term", 3, "--n-fold", 3, "--correlation-limit", 1, "--validation", "published", "--n-permutation", 0)
         self.assertEqual(fit.err, "")
         fit = clast("fit", few, "--n-term", 3, "--n-fold", 2, "--correlation-limit", 1, "--validation", "published", "--n-permutation", 0)

@@ -126,6 +126,61 @@ class Grading(Case):
         file.write_text("sieve_mm,mass above\n4,0\n2,70\n1,100\n")
         self.assert_fails(3, "grading", file, says=["'above' is not understood", "cumulative retained"])
 
+    def test_percent_and_shares_are_all_of_it(self):
+        """Retained percents were scaled to 100 from any sum: 95 with the pan forgotten, 200 of cumulative ones; passing 99.9 was refused."""
+        file = self.folder / "sheet.csv"
+        for name, values, total in (("retained_%", (0, 60, 90, 50), "200, not 100"), ("pct retained", (0, 30, 40, 25), "95, not 100"),
+                                    ("retained_share", (0, .1, .2, .1), "0.4, not 1"), ("mass_fraction", (0, 30, 40, 25), "95, not 1")):
+            file.write_text(f"sieve_mm,{name}\n" + "".join(f"{d},{v}\n" for d, v in zip((16, 8, 4, 2), values)))
+            self.assert_fails(3, "grading", file, says=(f"column '{name}' sums to {total}", "pan"))
+        masses = []
+        for name, values in (("retained_%", (0, 29.9, 40, 30)), ("cumulative retained_%", (0, 29.9, 69.9, 99.9)), ("passing_%", (99.9, 70, 30, 0)),
+                             ("retained_g", (0, 59.8, 80, 60)), ("retained", (0, 59.8, 80, 60)), ("fraction", (0, .299, .4, .3))):
+            file.write_text(f"sieve_mm,{name}\n" + "".join(f"{d},{v}\n" for d, v in zip((16, 8, 4, 2), values)))
+            got = clast("grading", file, "--json")
+            self.assertEqual(got.code, 0, got.err)
+            masses.append([one["mass"] for one in got.json["classes"]])
+        for other in masses[1:]:
+            for a, b in zip(masses[0], other):
+                self.assertAlmostEqual(a, b, 12)
+        file.write_text("sieve_mm,passing_%\n8,98.9\n4,30\n2,0\n")
+        self.assert_fails(3, "grading", file, says=("98.9 of 100 pass the largest sieve",))
+
+    def test_ends_of_a_bin_have_their_own_units(self):
+        """low_mm,high_cm: both in mm, bins of 1 to 2 and 2 to 4 mm for 1 to 20 and 20 to 40."""
+        one = clast(*self.grades("list", "low_mm,high_cm,count\n1,2,5\n20,4,7\n")).json
+        two = clast(*self.grades("list", "low_mm,high_mm,count\n1,20,5\n20,40,7\n")).json
+        self.assertEqual(one["drawn_by_number"], two["drawn_by_number"])
+        self.assertEqual(clast(*self.grades("list", "low_mm,high,count\n1,20,5\n20,40,7\n")).json["drawn_by_number"], two["drawn_by_number"])
+        self.assert_fails(2, *self.grades("list", "low_mm,high_cm,count\n1,2,5\n2,4,7\n"), says=("overlap",))
+        self.assert_fails(3, *self.grades("list", "low_cm,high_mm,count\n1,2,5\n"), says=("size low, 1, is above high, 2",))
+
+    def test_a_list_tells_what_it_counted(self):
+        """Running numbers were counts, and columns that say counts in words of their own were left out, both without a line."""
+        rows = "".join(f"{k},{20 - 0.1 * k}\n" for k in range(1, 41))
+        for text, words, told in ((f"number,size_mm\n{rows}", "  40 rows, counted by column 'number': 820 in all\n", (40, "number", 820, "")),
+                                  (f"id,size_mm\n{rows}", "  40 rows, one grain a row; not looked at: id\n", (40, "", 40, "id")),
+                                  ("size_mm,nr,who\n10,300,a\n5,2,b\n", "  2 rows, one grain a row; not looked at: nr, who\n", (2, "", 2, "nr, who")),
+                                  ("size_mm,count,density_kg/m^3\n10,3,2650\n5,2,2650\n", "  2 rows, counted by column 'count': 5 in all\n", (2, "count", 5, ""))):
+            asked = self.grades("list", text)
+            self.assertIn(words, clast(*asked[:-1]).out)
+            found = clast(*asked).json["list"]
+            self.assertEqual((found["n_row"], found["column"], found["total"], found["ignored"]), told)
+        self.assertIn("  2 rows, weighed by column 'mass_g': 5 in all; not looked at: count\n",
+                      clast(*self.grades("masses", "size_mm,count,mass_g\n10,1,3\n5,2,2\n")[:-1]).out)
+        self.assertNotIn("list", clast("grading", "U3", "--json").json)
+
+    def test_words_in_quotes_are_words(self):
+        """Column '"count"' was not understood."""
+        plain = clast(*self.grades("list", "size_mm,count\n10,3\n5,2\n")).json
+        for text in ('"size_mm","count"\n10,3\n5,2\n', '"size_mm";"count"\r\n"10";"3"\r\n"5";"2"\r\n', '"size_mm" "count"\n10 3\n5 2\n',
+                     '"size, as ""sieved"" (mm)",count # "none\n10,3\n5,2\n'):
+            got = clast(*self.grades("list", text))
+            self.assertEqual(got.code, 0, got.err)
+            self.assertEqual(got.json["drawn_by_number"], plain["drawn_by_number"])
+        for text in ('"size_mm,count\n10,3\n', '"size_mm"x,count\n10,3\n', f'"{"x" * 200}",size_mm\n1,10\n'):
+            self.assert_fails(3, *self.grades("list", text), says=(":1: ", "quotes"))
+
     def test_laws_need_no_classes(self):
         got = clast("grading", "lognormal:8mm,2mm", "--mass", "1", "--json").json
         self.assertNotIn("classes", got)

@@ -31,6 +31,9 @@ class Messages(Case):
         beds, model = self.folder / "beds.csv", self.folder / "model"
         beds.write_text("width,porosity\n" + "".join(f"{k},{0.3 + 0.01 * k + 0.001 * (k * k % 7)}\n" for k in range(1, 13)))
         fit = ("fit", beds)
+        forms = self.folder / "forms.csv"
+        forms.write_text("flatness,elongation,porosity\n" + "".join(f"{0.3 + 0.05 * k},{0.9 - 0.03 * (k * k % 7)},{0.3 + 0.01 * k}\n" for k in range(1, 13)))
+        of_forms = ("fit", forms)
         self.assertEqual(clast(*fit, "-o", model).code, 0)
         by_columns = ("predict", beds, "--model", model / "model.json")
         stl, flat, points = (("export", ROOT / "data/state/schema1.h5", "-o", self.folder / name) for name in ("g.stl", "g.csv", "g.vtu"))
@@ -53,7 +56,7 @@ class Messages(Case):
                 ((*means, "--model", "single_form_U1"), ("--grading", "U7"), "with this --model, which has its own"),
                 (by_columns, ("--grading", "U7"), "with this --model"), (by_columns, ("--resamples", "9"), "with a model of a table's own columns"),
                 ((*fit, "--use", "width"), ("--n-term", "5"), "with --use"), ((*fit, "--use", "width"), ("--score", "median"), "with --use"),
-                (fit, ("--group", "name"), "without --grains"),
+                (of_forms, ("--group", "name"), "without --grains, where beds are of one form each"),
                 (stl, ("--colour", "size"), "but in a .ply"), (flat, ("--level", "2"), "in a file without surfaces"),
                 ((*points, "--points"), ("--level", "2"), "with --points"),
                 *(((*flat, "--table", "history"), option, "with --table") for option in (("--level", "2"), ("--colour", "size"), ("--unit", "mm")))):

@@ -102,6 +102,9 @@ class Predict(Case):
         self.assertEqual(len(out["beds"]), 2)
         self.assertAlmostEqual(out["beds"][1]["porosity"], 0.217 + 0.014 - 0.006, places=14)
         self.assertFalse(out["beds"][1]["in_range"])
+        units = self.answer(self.table("L_mm,I_cm,S_um\n4,0.3,2000\n4,0.4,4000\n"), "--each", "--grading", "B50")  # were refused: porosity 1.058
+        for one, two in zip(out["beds"], units["beds"]):
+            self.assertAlmostEqual(one["porosity"], two["porosity"], places=12)
 
     def test_refusals(self):
         self.assertIn("table of grains", self.refusal(2))

@@ -625,6 +625,9 @@ static void bad_files_are_refused(void **state)
     CHECK_REFUSED(parse("sieve_mm,passing\n1,0\n2,60\n3,50\n4,100\n", &c), "less than the 60");
     CHECK_REFUSED(parse("sieve_mm,passing\n1,10\n2,60\n4,100\n", &c), "pass the smallest");
     CHECK_REFUSED(parse("sieve_mm,passing\n1,0\n2,60\n4,95\n", &c), "pass the largest");
+    CHECK_REFUSED(parse("sieve_mm,retained_%\n1,0\n2,60\n4,35\n8,0\n", &c), "sums to 95, not 100");
+    CHECK_REFUSED(parse("sieve_mm,share\n1,0.2\n2,0.2\n8,0\n", &c), "columns are called");
+    CHECK_REFUSED(parse("sieve_mm,mass share\n1,0.2\n2,0.2\n8,0\n", &c), "sums to 0.4, not 1");
     assert_int_equal(c.n_class, 0);
 }
 
@@ -684,6 +687,11 @@ static void lists_are_files_of_counts_or_masses(void **state)
         (void)snprintf(text, sizeof text, "%s:%s", kind[k], path);
         CHECK_OK(clast_grading_load(text, 0, 0, &curve, &g));
         CHECK_REL(clast_grading_share(g, 1.5e-3), share[k], 1e-14);
+        const clast_grading_list list = clast_grading_list_of(g);
+        assert_int_equal(list.n_row, 2);
+        assert_string_equal(list.column, column[k]);
+        assert_string_equal(list.ignored, "");
+        CHECK_REL(list.total, 4.0, 0.0);
         clast_grading_destroy(g);
         g = NULL;
         write_list(path, column[1 - k]);

@@ -642,8 +642,9 @@ static void columns_with_units_predict(void **state)
     static const char text[] =
         "porosity,size\n0.31,1mm\n0.322,2mm\n0.33,3mm\n0.341,4mm\n0.35,5mm\n";
     static const char fresh[] = "size\n2500um\n0.25 cm\n";
+    static const char plain[] = "size\n0.0025\n";
     clast_porosity_fit_config c = usual();
-    clast_table t[3] = {{0}};
+    clast_table t[5] = {{0}};
     clast_fit_data d = {0};
     clast_porosity_fit f = {0};
     c.n_term = 1;
@@ -657,9 +658,17 @@ static void columns_with_units_predict(void **state)
     const double expected = f.model.intercept + 2.5e-3 * f.model.term[0].coefficient;
     CHECK_REL(clast_table_numbers(&t[2], "porosity")[0], expected, 1e-14);
     CHECK_REL(clast_table_numbers(&t[2], "porosity")[1], expected, 1e-14);
+    // numbers of a caller are SI; of those that a person wrote nobody knows
+    assert_string_equal(f.model.term[0].unit, "m");
+    assert_string_equal(f.terms.column[8].text[1], "m");
+    CHECK_OK(clast_table_parse_csv("plain", plain, sizeof plain - 1, NULL, &t[3], NULL));
+    CHECK_OK(clast_porosity_predict_columns(&f.model, &t[3], &t[4]));
+    CHECK_REL(clast_table_numbers(&t[4], "porosity")[0], expected, 1e-14);
+    CHECK_OK(clast_porosity_model_check_units(&f.model, &t[1]));
+    CHECK_STATUS(clast_porosity_model_check_units(&f.model, &t[3]), CLAST_E_FORMAT);
     clast_porosity_fit_free(&f);
     clast_fit_data_free(&d);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 5; ++k) {
         clast_table_free(&t[k]);
     }
     clast_fields_free(clast_porosity_fit_fields, &c);
@@ -679,6 +688,9 @@ static clast_status fit_all(void *context)
     clast_status status = clast_fit_data_columns(&j->beds, &j->config, &d);
     if (status == CLAST_OK) {
         status = clast_porosity_fit_data(&d, "m", "test", &j->config, &f);
+    }
+    if (status == CLAST_OK) {
+        status = clast_porosity_model_check_units(&f.model, &j->beds);
     }
     if (status == CLAST_OK) {
         status = clast_porosity_predict_columns(&f.model, &j->beds, &predicted);

@@ -125,6 +125,7 @@ static void tables_of_every_kind_are_understood(void **state)
         {"Major Axis Length (um),Middle Axis Length (um),Minor Axis Length (um)\n10,8,4\n", 1, 0,
          0.5, 0.8, 6.324555320336759},
         {"flatness,elongation,L,I,S\n0.50,0.80,10,8,4\n", 1, 0, 0.5, 0.8, 6.324555320336759},
+        {"L_mm,I_cm,S (um)\n10,0.8,4000\n", 1, 0, 0.5, 0.8, 6324.555320336759},
         {"elongation,flatness,diameter\n0.8,0.5,3\n", 1, 0, 0.5, 0.8, 3.0},
         {"flatness,elongation\n0.5,0.8\nbroken,0.8\nNA,0.7\n", 1, 2, 0.5, 0.8, 0.0},
         {"flatness,elongation\n1.0000000001,1\n", 1, 0, 1.0, 1.0, 0.0},
@@ -150,8 +151,11 @@ static void tables_of_every_kind_are_understood(void **state)
 static void tables_without_forms_are_refused(void **state)
 {
     (void)state;
-    static const char *const bad[] = {"a,b\n1,2\n", "flatness\n0.5\n", "flatness,elongation\n2,3\n",
+    static const char *const bad[] = {"a,b\n1,2\n",
+                                      "flatness\n0.5\n",
+                                      "flatness,elongation\n2,3\n",
                                       "flatness,elongation\n",
+                                      "L_mm,I_mm,S\n10,8,4\n",
                                       "flatness,elongation,L,I,S\n0.8,0.5,10,8,4\n"};
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
         clast_table t = {0};
@@ -496,6 +500,8 @@ static void damaged_model_files_are_refused(void **state)
         HEAD KIND BODY "\"terms\": [3], " RANGE "}",
         HEAD KIND BODY "\"terms\": [{\"feature\": \"beauty\", \"coefficient\": 1}], " RANGE "}",
         HEAD KIND BODY "\"terms\": [{\"feature\": \"equancy\"}], " RANGE "}",
+        HEAD KIND BODY
+        "\"terms\": [{\"feature\": \"equancy\", \"coefficient\": 1, \"unit\": 3}], " RANGE "}",
         HEAD KIND BODY TERM "\"ranges\": [{\"feature\": \"equancy\", \"low\": 2, \"high\": 1}]}",
         HEAD KIND BODY TERM RANGE ", \"covariance\": [[1]]}",
         HEAD KIND BODY TERM RANGE ", \"covariance\": [[1, 2], [3, 4]]}",
@@ -505,6 +511,7 @@ static void damaged_model_files_are_refused(void **state)
     clast_porosity_model m = {0};
     CHECK_OK(clast_porosity_model_parse("good", GOOD, strlen(GOOD), &m));
     CHECK_REL(m.term[0].coefficient, -0.1, 0.0);
+    assert_null(m.term[0].unit); // a file of before
     clast_porosity_model_free(&m);
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
         CHECK_STATUS(clast_porosity_model_parse("bad", bad[k], strlen(bad[k]), &m), CLAST_E_FORMAT);
