@@ -6,17 +6,27 @@
 #include "json.h"
 #include "resume.h"
 #include <stdio.h>
-#include <unistd.h>
+
+/// "smallest feature 12 um, resolved", and what that does not tell of.
+static void print_feature(const clast_printable_report *report)
+{
+    double factor = 1.0;
+    const char *unit = clast_unit_for(report->smallest_feature, "m", &factor);
+    (void)printf("smallest feature %.4g %s%s, ", factor * report->smallest_feature, unit,
+                 report->knows_walls ? "" : " (walls of the grains not measured)");
+    if (report->lost > 0.0) {
+        (void)printf("not resolved: %.2g %% of the grains' volume is lost\n", 100.0 * report->lost);
+    } else {
+        (void)puts(report->resolved ? "resolved" : "below two spacings, may be lost");
+    }
+}
 
 static clast_status print_printable(const cli_common *common, const char *folder,
                                     const clast_printable_report *report)
 {
     if (!common->json) {
-        double factor = 1.0;
-        const char *unit = clast_unit_for(report->smallest_feature, "m", &factor);
         (void)printf("surfaces in %s, in mm: printable.3mf, printable.stl\n", cli_name(folder));
-        (void)printf("smallest feature %.4g %s, %s\n", factor * report->smallest_feature, unit,
-                     report->resolved ? "resolved" : "below two spacings, may be lost");
+        print_feature(report);
         return CLAST_OK;
     }
     json_t *object = json_object();
@@ -24,6 +34,8 @@ static clast_status print_printable(const cli_common *common, const char *folder
     cli_json_number(object, "spacing", report->spacing);
     cli_json_number(object, "smallest_feature", report->smallest_feature);
     cli_json_bool(object, "resolved", report->resolved);
+    cli_json_bool(object, "walls_measured", report->knows_walls);
+    cli_json_number(object, "lost", report->lost);
     cli_json_count(object, "n_void_filled", report->n_void);
     cli_json_number(object, "solid_volume", report->solid_volume);
     cli_json_number(object, "volume", report->volume);
@@ -80,18 +92,19 @@ done:
 
 /// The surfaces of a run's folder with their unit, what to print first. `is_asked`: a printable
 /// body was, so that nothing need be said about it when it is not there.
-static void print_surfaces(const cli_common *common, const char *folder, bool is_asked)
+static void print_surfaces(const cli_common *common, const clast_aggregate_report *report,
+                           bool is_asked)
 {
-    char path[4096];
-    if (folder == NULL || common->json) {
+    if (report->folder == NULL || common->json) {
         return;
     }
-    (void)snprintf(path, sizeof path, "%s/printable.3mf", folder);
-    const bool is_printable = access(path, F_OK) == 0; // a resumed run's own option is not here
-    (void)printf("surfaces in %s, in mm:%s aggregate.stl%s\n", folder,
-                 is_printable ? " printable.3mf, printable.stl," : "",
-                 is_printable || is_asked ? ""
-                                          : "; for printing, --printable adds one closed body");
+    (void)printf(
+        "surfaces in %s, in mm:%s aggregate.stl%s\n", report->folder,
+        report->is_printable ? " printable.3mf, printable.stl," : "",
+        report->is_printable || is_asked ? "" : "; for printing, --printable adds one closed body");
+    if (report->is_printable) {
+        print_feature(&report->printable);
+    }
 }
 
 static clast_status run(const cli_common *common, void *context)
@@ -113,7 +126,7 @@ static clast_status run(const cli_common *common, void *context)
     if (report.n > 0) { // of a run that stopped or failed too
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;
-        print_surfaces(common, report.folder, status != CLAST_OK);
+        print_surfaces(common, &report, status != CLAST_OK);
     }
     clast_aggregate_report_free(&report);
     return status;
@@ -135,12 +148,15 @@ static const char details[] =
     "manifest.json,\n"
     "charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and the page\n"
     "report.html. Of several repeats the first is the one in structure.csv, radial.csv,\n"
-    "aggregate.stl and picture.png. Of several clusters the largest is the one in all numbers,\n"
+    "aggregate.stl and picture.png; history.csv counts them from 0: repeat 0 is state.h5, repeat "
+    "1\n"
+    "state-0002.h5. Of several clusters the largest is the one in all numbers,\n"
     "structure.csv and radial.csv; aggregate.stl and picture.png show all, side by side.\n"
     "--printable adds one closed body for printers: printable.3mf (names its unit, mm),\n"
     "printable.stl (mm) and its smallest feature (printable.json). When it cannot be made, the "
     "run\n"
-    "is whole all the same (exit code 5); --resume RUN --printable --spacing S makes it then.\n"
+    "is whole all the same (exit code 5; 130, 143 where it was stopped); --resume RUN --printable\n"
+    "--spacing S makes it then.\n"
     "A folder that holds a run is refused: go on with --resume RUN if it has not ended, or "
     "replace\n"
     "it with --force (the new run is made in RUN.new and takes its place when it has succeeded).";

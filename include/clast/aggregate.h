@@ -259,17 +259,22 @@ typedef struct clast_interval {
 CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, double confidence);
 
 /// Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, ...
-/// particles, from the histories of several repeats one below the other.
+/// particles, from the histories of several repeats one below the other, n rising in each.
+///
+/// Ends at the last n that all n_repeat (a column) have reached: beyond it the mean would be of
+/// those that a stop criterion has left, which are not like the others.
 ///
 /// @return CLAST_E_ARGUMENT for a confidence that is not above 0 and below 1; CLAST_E_USAGE without
 /// a column n
 CLAST_API clast_status clast_aggregate_band(const clast_table *history, double confidence,
                                             clast_table *band);
 
-/// Sizes wanted beside those placed: a row for each distinct size or bin of the list, or for each
-/// of 12 classes of a law over what it drew. Columns low_m, high_m, wanted, placed (particles of
-/// one aggregate, mean over the repeats) and the shares by number up to there, wanted_finer and
-/// placed_finer.
+/// Sizes wanted beside those placed: a row for each distinct size or bin of the list (one for bins
+/// that overlap), or for each of 12 classes of a law over what it drew (one where that is one
+/// size). Columns low_m, high_m, wanted, placed (particles of one aggregate, mean over the repeats)
+/// and the shares by number up to high_m, wanted_finer and placed_finer. The first and last class
+/// of a law want all that is finer and coarser too; wanted_finer is the law's, cut at size_low and
+/// size_high.
 ///
 /// @param sizes  NULL when a law draws them    @param table  empty
 /// @return CLAST_E_USAGE when `history` has no particle of a law, or no columns n and size_m

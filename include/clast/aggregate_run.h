@@ -70,13 +70,16 @@ typedef struct clast_aggregate_report {
     clast_aggregate_result *result; ///< [n]
     double confidence;              ///< of intervals over repeats
     char *folder;                   ///< where the run lies now; NULL: nowhere
+    bool is_printable;              ///< a printable body was made
+    clast_printable_report printable;
 } clast_aggregate_report;
 
 /// Frees what clast_aggregate_run filled; may be called twice.
 CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);
 
 /// The report as one JSON object: means over repeats under the names of DESIGN section 7, each
-/// repeat under `repeats`, intervals under `interval` when there are several.
+/// repeat under `repeats`, intervals under `interval` when there are several, the printable body
+/// under `printable` when one was made.
 ///
 /// @param times  with the clocks (wall_s, contact_s, envelope_s), which differ from run to run
 /// @param text   free it with clast_text_free
@@ -102,7 +105,8 @@ CLAST_API const char *clast_aggregate_report_scope(const clast_aggregate_report 
 ///
 /// @param folder   NULL for no files    @param comm  NULL for one rank
 /// @param monitor  may be NULL          @param report  filled on rank 0 only
-/// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
+/// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty; or, in
+///         the printable body, the run is whole without it and report filled;
 ///         CLAST_E_CONVERGE when a stop criterion was not reached, or the printable body could not
 ///         be made (the run is whole all the same, and the report filled); CLAST_E_CONFIG for a
 ///         printable body that cannot be;
@@ -114,9 +118,12 @@ CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config,
 
 /// Makes the printable body of a whole run from its state.h5, anew or for the first time:
 /// printable.3mf, printable.stl (mm) and printable.json, which manifest.json then lists. The body
-/// is that of the first repeat, of clusters left apart the largest. Nothing else changes.
+/// is that of the first repeat, of clusters left apart the largest. Nothing else changes: neck and
+/// spacing of the body are in printable.json, the manifest has the run's own.
 ///
-/// @param monitor  may be NULL    @param report  may be NULL
+/// An earlier body stays whole until the new one is, and when none can be made.
+///
+/// @param monitor  may stop it; may be NULL    @param report  may be NULL
 /// @return CLAST_E_IO when the folder holds no whole run, CLAST_E_USAGE when it is one of another
 ///         command, CLAST_E_CONFIG for a neck below two spacings; as clast_assembly_printable
 CLAST_API clast_status clast_aggregate_make_printable(const char *folder,

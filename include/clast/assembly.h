@@ -174,15 +174,18 @@ typedef struct clast_printable_config {
 /// What was made.
 typedef struct clast_printable_report {
     double neck, spacing;    ///< as used [m]
-    double smallest_feature; ///< thinner of neck and thinnest grain [m]; below 2 spacing it may be
-                             ///< lost
-    bool resolved;           ///< smallest_feature is 2 spacings or more
-    int32_t n_part;          ///< connected pieces; 1 on success
-    int32_t n_void;          ///< closed voids found
-    double void_volume;      ///< their volume, filled unless keep_voids [m^3]
-    double solid_volume;     ///< sum of the grains' volumes [m^3]
-    double volume;           ///< enclosed by the surface [m^3]
+    double smallest_feature; ///< thinner of neck and thinnest grain [m], a surface or a clump as
+                             ///< its ellipsoid of equal moments; below 2 spacing it may be lost
+    bool resolved;              ///< smallest_feature is 2 spacings or more, and nothing is `lost`
+    int32_t n_part;             ///< connected pieces; 1 on success
+    int32_t n_void;             ///< closed voids found
+    double void_volume;         ///< their volume, filled unless keep_voids [m^3]
+    double solid_volume;        ///< sum of the grains' volumes [m^3]
+    double volume;              ///< enclosed by the surface [m^3]
     double n_triangle_expected; ///< by the grains' surface and the spacing, before any work
+    bool knows_walls; ///< all grains are spheres or ellipsoids; walls of others are not measured
+    double lost; ///< share of the grains' volume (of their union, where they overlap) that is not
+                 ///< there, when that is beyond the error of the grid; else 0
 } clast_printable_report;
 
 /// What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and
@@ -202,7 +205,8 @@ CLAST_API clast_status clast_assembly_printable_plan(const clast_assembly *assem
 /// @param assembly  its contacts must be known (n_contact > 0 unless it has one grain)
 /// @return CLAST_E_GEOMETRY when the union falls into several pieces at this spacing (neck too
 /// thin, contacts
-///         missing): the message counts them; CLAST_E_LIMIT when the grid would pass 2^31 nodes
+///         missing): the message counts them; CLAST_E_LIMIT when the grid would pass 2^31 nodes;
+///         CLAST_E_STOPPED when the monitor asks
 /// @note O(extent^3 / spacing^3) memory (4 bytes a node) and time; the same bytes for any thread
 /// count
 CLAST_API clast_status clast_assembly_printable(const clast_assembly *assembly,

@@ -15,8 +15,9 @@ enum { LAW_CLASSES = 12, LOW = 0, HIGH, WANTED, PLACED, WANTED_FINER, PLACED_FIN
 /// A class of sizes: one size, a bin of the histogram, or a stretch of a law.
 typedef struct {
     double low, high;
-    double wanted; ///< particles of one aggregate
-    double placed; ///< the same, mean over repeats
+    double wanted;       ///< particles of one aggregate
+    double wanted_finer; ///< share of them up to `high`
+    double placed;       ///< as wanted, mean over repeats
 } size_class;
 
 static int by_size(const void *a, const void *b)
@@ -47,27 +48,45 @@ static double law_share(const clast_aggregate_params *c, double size)
     }
 }
 
-/// Classes even in the logarithm over what was placed; the law's share of each.
+/// The same of the law as it is cut.
+static double law_finer(const clast_aggregate_params *c, double size)
+{
+    const double least = law_share(c, fmax(c->size_low, 0.0));
+    const double most = c->size_high > 0.0 ? law_share(c, c->size_high) : 1.0;
+    return most > least ? fmin(1.0, fmax(0.0, (law_share(c, size) - least) / (most - least))) : 1.0;
+}
+
+/// Classes even in the logarithm over what was placed; the first and the last are open, so that all
+/// particles are wanted.
 static clast_status law_classes(const clast_aggregate_params *c, const double range[2],
                                 size_class **list, int64_t *n)
 {
     clast_status status = CLAST_OK;
-    const double least = law_share(c, fmax(c->size_low, 0.0));
-    const double most = c->size_high > 0.0 ? law_share(c, c->size_high) : 1.0;
-    const double all = (double)c->n_particle * c->replicate / (most - least);
-    CLX_TRY(clx_alloc(list, LAW_CLASSES, sizeof **list));
-    for (int k = 0; k < LAW_CLASSES; ++k) {
+    const int n_class = range[0] < range[1] ? LAW_CLASSES : 1;
+    double finer = 0.0; // than the class
+    CLX_TRY(clx_alloc(list, n_class, sizeof **list));
+    for (int k = 0; k < n_class; ++k) {
         size_class *one = &(*list)[k];
-        one->low = range[0] * pow(range[1] / range[0], (double)k / LAW_CLASSES);
-        one->high = range[0] * pow(range[1] / range[0], (k + 1.0) / LAW_CLASSES);
-        one->wanted = all * (law_share(c, one->high) - law_share(c, one->low));
+        one->low = range[0] * pow(range[1] / range[0], (double)k / n_class);
+        one->high = range[0] * pow(range[1] / range[0], (k + 1.0) / n_class);
+        one->wanted_finer = law_finer(c, one->high);
+        const double up_to = k + 1 < n_class ? one->wanted_finer : 1.0;
+        one->wanted = (double)c->n_particle * c->replicate * (up_to - finer);
+        finer = up_to;
     }
-    *n = LAW_CLASSES;
+    *n = n_class;
 done:
     return status;
 }
 
-/// The distinct sizes or bins of a list.
+/// Whether two sizes or bins of a sorted list have sizes in common, beyond an edge: nothing tells
+/// which of them such a size was drawn from.
+static bool overlap(const size_class *finer, const size_class *coarser)
+{
+    return by_size(finer, coarser) == 0 || coarser->low < finer->high * (1.0 - 1e-9);
+}
+
+/// The distinct sizes or bins of a list; bins that overlap are one class.
 static clast_status list_classes(const clast_aggregate_params *c, const clast_sizes *sizes,
                                  size_class **list, int64_t *n)
 {
@@ -78,7 +97,8 @@ static clast_status list_classes(const clast_aggregate_params *c, const clast_si
     for (int64_t i = 0; i < sizes->n; ++i) {
         const double middle = sqrt(sizes->low[i] * sizes->high[i]);
         const double share = c->size_by_mass ? 1.0 / (middle * middle * middle) : 1.0;
-        (*list)[i] = (size_class){sizes->low[i], sizes->high[i], share * sizes->count[i], 0.0};
+        (*list)[i] = (size_class){
+            .low = sizes->low[i], .high = sizes->high[i], .wanted = share * sizes->count[i]};
         total += (*list)[i].wanted;
     }
     qsort(*list, (size_t)sizes->n, sizeof **list, by_size);
@@ -86,8 +106,9 @@ static clast_status list_classes(const clast_aggregate_params *c, const clast_si
         c->size_draw ? (double)c->n_particle * c->replicate / total : (double)c->replicate;
     for (int64_t i = 0; i < sizes->n; ++i) {
         const size_class one = (*list)[i];
-        if (kept > 0 && by_size(&(*list)[kept - 1], &one) == 0) {
+        if (kept > 0 && overlap(&(*list)[kept - 1], &one)) {
             (*list)[kept - 1].wanted += times * one.wanted;
+            (*list)[kept - 1].high = fmax((*list)[kept - 1].high, one.high);
         } else {
             (*list)[kept] = one;
             (*list)[kept++].wanted = times * one.wanted;
@@ -96,6 +117,20 @@ static clast_status list_classes(const clast_aggregate_params *c, const clast_si
     *n = kept;
 done:
     return status;
+}
+
+/// Shares of a list's particles up to each class.
+static void cumulate(size_class *list, int64_t n)
+{
+    double sum = 0.0;
+    double total = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        total += list[i].wanted;
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        sum += list[i].wanted;
+        list[i].wanted_finer = sum / total;
+    }
 }
 
 /// Class of a placed size: the first that holds it; the nearest where rounding leaves it outside of
@@ -122,25 +157,23 @@ static clast_status make_table(const size_class *list, int64_t n, clast_table *t
                                                     {"wanted_finer", "-"}, {"placed_finer", "-"}};
     clast_status status = CLAST_OK;
     clast_table made = {0};
-    double sum[2] = {0.0, 0.0};
-    double total[2] = {0.0, 0.0};
+    double sum = 0.0;
+    double total = 0.0;
     CLX_TRY(clast_table_init(&made, "sizes", n));
     for (int k = 0; k < N_COLUMN; ++k) {
         CLX_TRY(clast_table_add_number(&made, column[k][0], column[k][1], NULL));
     }
     for (int64_t i = 0; i < n; ++i) {
-        total[0] += list[i].wanted;
-        total[1] += list[i].placed;
+        total += list[i].placed;
     }
     for (int64_t i = 0; i < n; ++i) {
-        sum[0] += list[i].wanted;
-        sum[1] += list[i].placed;
+        sum += list[i].placed;
         made.column[LOW].number[i] = list[i].low;
         made.column[HIGH].number[i] = list[i].high;
         made.column[WANTED].number[i] = list[i].wanted;
         made.column[PLACED].number[i] = list[i].placed;
-        made.column[WANTED_FINER].number[i] = sum[0] / total[0];
-        made.column[PLACED_FINER].number[i] = total[1] > 0.0 ? sum[1] / total[1] : (double)NAN;
+        made.column[WANTED_FINER].number[i] = list[i].wanted_finer;
+        made.column[PLACED_FINER].number[i] = total > 0.0 ? sum / total : (double)NAN;
     }
     *table = made;
     made = (clast_table){0};
@@ -179,6 +212,7 @@ clast_status clast_aggregate_achieved(const clast_aggregate_params *params,
     } else {
         CLX_CHECK(sizes != NULL && sizes->n > 0, CLAST_E_USAGE, "the list of sizes is missing");
         CLX_TRY(list_classes(params, sizes, &list, &n_class));
+        cumulate(list, n_class);
     }
     for (int64_t i = 0; i < history->n_row; ++i) {
         if (n[i] > 0.0) {

@@ -1,6 +1,7 @@
 // Histories of several repeats as one: mean and interval of each quantity after n particles.
 #include <clast/aggregate.h>
 
+#include "aggregate/history.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include <clast/table.h>
@@ -16,14 +17,17 @@ static bool is_banded(const clast_column *column)
             strncmp(name, "density_", 8) == 0 || strcmp(name, "radius_of_gyration_m") == 0);
 }
 
-/// The greatest number of particles; a billion for more, which no memory holds.
-static int64_t greatest(const double *n, int64_t n_row)
+int64_t clx_history_common(const double *n, int64_t n_row, int32_t *n_repeat)
 {
-    double best = 0.0;
+    double least = n_row > 0 ? 1e9 : 0.0;
+    *n_repeat = 0;
     for (int64_t i = 0; i < n_row; ++i) {
-        best = fmax(best, n[i]);
+        if (i + 1 == n_row || n[i + 1] <= n[i]) { // the next row is another repeat's first
+            least = fmin(least, n[i]);
+            ++*n_repeat;
+        }
     }
-    return (int64_t)fmin(best, 1e9);
+    return (int64_t)fmax(least, 0.0);
 }
 
 /// Values of all repeats after `wanted` particles; rows that were not measured are left out.
@@ -32,7 +36,7 @@ static int32_t collect(const double *n, const double *value, int64_t n_row, int6
 {
     int32_t count = 0;
     for (int64_t i = 0; i < n_row; ++i) {
-        if ((int64_t)n[i] == wanted && isfinite(value[i])) {
+        if (n[i] == (double)wanted && isfinite(value[i])) {
             found[count++] = value[i];
         }
     }
@@ -55,7 +59,7 @@ done:
 static void fill(const clast_table *history, const double *n, double confidence, double *found,
                  clast_table *band)
 {
-    int32_t at = 1;
+    int32_t at = 2;
     for (int32_t c = 0; c < history->n_column; ++c) {
         if (!is_banded(&history->column[c])) {
             continue;
@@ -63,7 +67,6 @@ static void fill(const clast_table *history, const double *n, double confidence,
         for (int64_t row = 0; row < band->n_row; ++row) {
             const int32_t count = collect(n, history->column[c].number, history->n_row, row, found);
             const clast_interval i = clast_interval_of(count, found, confidence);
-            band->column[0].number[row] = (double)row;
             band->column[at].number[row] = count > 0 ? i.mean : (double)NAN;
             band->column[at + 1].number[row] = count > 1 ? i.low : (double)NAN;
             band->column[at + 2].number[row] = count > 1 ? i.high : (double)NAN;
@@ -79,14 +82,21 @@ clast_status clast_aggregate_band(const clast_table *history, double confidence,
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double *found = NULL;
+    double *repeats = NULL;
+    int32_t n_repeat = 0;
     const double *n = clast_table_numbers(history, "n");
     CLX_CHECK(confidence > 0.0 && confidence < 1.0, CLAST_E_ARGUMENT,
               "%s: a confidence of %g; give one above 0 and below 1, as 0.95", __func__,
               confidence);
     CLX_CHECK(n != NULL, CLAST_E_USAGE, "%s has no column n", history->name);
     CLX_TRY(clx_alloc(&found, history->n_row, sizeof *found));
-    CLX_TRY(clast_table_init(&made, "band", greatest(n, history->n_row) + 1));
+    CLX_TRY(clast_table_init(&made, "band", clx_history_common(n, history->n_row, &n_repeat) + 1));
     CLX_TRY(clast_table_add_number(&made, "n", "-", NULL));
+    CLX_TRY(clast_table_add_number(&made, "n_repeat", "-", &repeats));
+    for (int64_t row = 0; row < made.n_row; ++row) {
+        made.column[0].number[row] = (double)row;
+        repeats[row] = n_repeat;
+    }
     for (int32_t c = 0; c < history->n_column; ++c) {
         if (is_banded(&history->column[c])) {
             CLX_TRY(add_three(&made, &history->column[c]));

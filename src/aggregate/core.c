@@ -126,11 +126,29 @@ done:
     return status;
 }
 
+/// Refuses a size or porosity that the core, measured in its row, has: growth would stop at once.
+static clast_status check_stop(const clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const double *core = &a->history.value[CLX_HISTORY_FIXED];
+    const double size = a->params->stop_size;
+    const double porosity = a->params->stop_porosity;
+    CLX_CHECK(size == 0.0 || size > core[0], CLAST_E_CONFIG,
+              "stop_size: the core alone has a d_agg of %s, not below %s",
+              clx_unit_text(core[0], "m"), clx_unit_text(size, "m"));
+    CLX_CHECK(porosity == 0.0 || porosity > core[2], CLAST_E_CONFIG,
+              "stop_porosity: the core alone has a porosity of %.3g, not below %.3g", core[2],
+              porosity);
+done:
+    return status;
+}
+
 clast_status clx_aggregate_begin_core(clast_aggregate *a)
 {
     CLAST_ASSERT(a->assembly.n_grain == 0 && a->n_placed == 0);
-    const clast_status status = place_core(a);
-    return status == CLAST_OK ? check_sizes(a) : status;
+    clast_status status = place_core(a);
+    status = status == CLAST_OK ? check_sizes(a) : status;
+    return status == CLAST_OK ? check_stop(a) : status;
 }
 
 clx_measured clx_aggregate_measured_core(const clast_aggregate *a)

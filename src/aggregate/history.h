@@ -48,3 +48,8 @@ clast_status clx_history_table(const clx_history *history, clast_table *table);
 ///
 /// @return CLAST_E_FORMAT naming a column that is missing
 clast_status clx_history_read(clx_history *history, const clast_table *table);
+
+/// The last number of particles that all repeats have reached, whose rows n lie one below the
+/// other, and how many they are. Beyond it a mean would be of those that a stop criterion has left.
+/// No more than a billion.
+CLX_SHARED int64_t clx_history_common(const double *n, int64_t n_row, int32_t *n_repeat);

@@ -71,6 +71,9 @@ clast_status clx_aggregate_open_row(clast_aggregate *a, double **row)
     made[CLX_HISTORY_GRAINS] = a->assembly.n_grain;
     made[CLX_HISTORY_SHAPE] = -1.0;
     made[CLX_HISTORY_TOUCHED] = -1.0;
+    if (a->params->contact == CLAST_CONTACT_MARCH) { // which does not look for it
+        made[CLX_HISTORY_OVERLAP] = (double)NAN;
+    }
     made[CLX_HISTORY_MASS] = a->mass;
     made[CLX_HISTORY_SOLID] = a->volume;
     made[CLX_HISTORY_GYRATION] = clx_aggregate_gyration(a);

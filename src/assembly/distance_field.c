@@ -4,13 +4,14 @@
 #include "assembly/distance_field.h"
 
 #include "base/alloc.h"
+#include "base/monitor.h"
 #include "base/parallel.h"
 #include "geom/isosurface.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/shape.h>
 
-enum { LAYERS_A_BLOCK = 4 };
+enum { LAYERS_A_BLOCK = 4, BLOCKS_A_LOOK = 4 }; // of each worker
 
 clast_status clx_distance_field_init(const clast_assembly *assembly, clx_distance_field *field)
 {
@@ -174,12 +175,13 @@ static void sample_grain(const clx_distance_field *field, clx_grid *g, int32_t g
 typedef struct {
     const clx_distance_field *field;
     clx_grid *grid;
+    int64_t first; ///< layer
 } sample_context;
 
 static void sample_layers(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const sample_context *c = context;
-    const int64_t layers[2] = {begin, end};
+    const int64_t layers[2] = {c->first + begin, c->first + end};
     (void)worker;
     for (int32_t grain = 0; grain < c->field->assembly->n_grain; ++grain) {
         sample_grain(c->field, c->grid, grain, layers);
@@ -188,8 +190,24 @@ static void sample_layers(int64_t begin, int64_t end, int32_t worker, void *cont
 
 void clx_distance_field_sample(const clx_distance_field *field, clx_grid *grid)
 {
-    sample_context context = {field, grid};
-    clx_parallel_for(grid->n[2], LAYERS_A_BLOCK, sample_layers, &context);
+    (void)clx_distance_field_sample_watched(field, NULL, grid);
+}
+
+clast_status clx_distance_field_sample_watched(const clx_distance_field *field,
+                                               const clast_monitor *monitor, clx_grid *grid)
+{
+    const int64_t n = grid->n[2];
+    const int64_t look = (int64_t)LAYERS_A_BLOCK * BLOCKS_A_LOOK * clx_parallel_workers();
+    const int64_t part = monitor != NULL && look < n ? look : n;
+    for (int64_t first = 0; first < n; first += part) {
+        sample_context context = {field, grid, first};
+        if (clx_monitor_stops(monitor)) {
+            return clx_fail(CLAST_E_STOPPED, "stopped");
+        }
+        clx_parallel_for(part < n - first ? part : n - first, LAYERS_A_BLOCK, sample_layers,
+                         &context);
+    }
+    return CLAST_OK;
 }
 
 void clx_distance_field_balls(const double (*centre)[3], int32_t n, double radius, clx_grid *grid)

@@ -21,5 +21,9 @@ void clx_distance_field_free(clx_distance_field *field);
 /// @note parallel over layers of the grid, the same bytes for any thread count
 void clx_distance_field_sample(const clx_distance_field *field, clx_grid *grid);
 
+/// The same, which a monitor may stop: CLAST_E_STOPPED, with values in a part of the grid.
+clast_status clx_distance_field_sample_watched(const clx_distance_field *field,
+                                               const clast_monitor *monitor, clx_grid *grid);
+
 /// The same for balls [n].
 void clx_distance_field_balls(const double (*centre)[3], int32_t n, double radius, clx_grid *grid);

@@ -3,7 +3,6 @@
 
 #include "assembly/ball_cut.h"
 #include "assembly/whole.h"
-#include "base/alloc.h"
 #include "base/status.h"
 #include "math/special.h"
 #include "math/vec3.h"

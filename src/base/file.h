@@ -67,7 +67,7 @@ CLX_SHARED clast_status clx_file_read_all(const char *path, int64_t limit, char 
 CLX_SHARED clast_status clx_folder_make(const char *path);
 
 /// Makes renames in a folder durable.
-clast_status clx_folder_sync(const char *path);
+CLX_SHARED clast_status clx_folder_sync(const char *path);
 
 #ifdef CLAST_ALLOC_INJECT
 /// Test hook: the k-th disk operation (open, write, sync, rename, folder sync) from now fails with

@@ -2,7 +2,6 @@
 // CVODE [Cohen1996; Hindmarsh2005], where this build has it. docs/adr/0005-sundials.md
 #include "cloud/sectional.h"
 
-#include "base/alloc.h"
 #include "base/monitor.h"
 #include <math.h>
 

@@ -194,6 +194,21 @@ static void add_totals(const clast_aggregate_report *report, bool times, json_t 
     }
 }
 
+static json_t *printable_json(const clast_printable_report *r)
+{
+    json_t *object = json_object();
+    set_number(object, "neck", r->neck);
+    set_number(object, "spacing", r->spacing);
+    set_number(object, "smallest_feature", r->smallest_feature);
+    (void)json_object_set_new(object, "resolved", json_boolean(r->resolved));
+    (void)json_object_set_new(object, "walls_measured", json_boolean(r->knows_walls));
+    set_number(object, "lost", r->lost);
+    (void)json_object_set_new(object, "n_void_filled", json_integer(r->n_void));
+    set_number(object, "solid_volume", r->solid_volume);
+    set_number(object, "volume", r->volume);
+    return object;
+}
+
 static json_t *whole(const clast_aggregate_report *report, bool times, double *value)
 {
     json_t *object = json_object();
@@ -216,6 +231,9 @@ static json_t *whole(const clast_aggregate_report *report, bool times, double *v
         (void)json_object_set_new(object, "interval", intervals(report, value));
     }
     (void)json_object_set_new(object, "repeats", repeats);
+    if (report->is_printable) {
+        (void)json_object_set_new(object, "printable", printable_json(&report->printable));
+    }
     return object;
 }
 

@@ -5,6 +5,7 @@
 // page of several megabytes.
 #include "plot/aggregate_charts.h"
 
+#include "aggregate/history.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/sort.h"
@@ -173,8 +174,9 @@ static void add_group(const pair *p, int64_t n, line *l)
     l->has_band = l->has_band || n > 1;
 }
 
-/// The line through the means of y at each x.
-static clast_status mean_line(const double *x, const double *y, int64_t n_row, line *out)
+/// The line through the means of y at each x up to `last`.
+static clast_status mean_line(const double *x, const double *y, int64_t n_row, double last,
+                              line *out)
 {
     clast_status status = CLAST_OK;
     line l = {0};
@@ -183,7 +185,7 @@ static clast_status mean_line(const double *x, const double *y, int64_t n_row, l
     CLX_TRY(clx_alloc(&p, n_row, sizeof *p));
     CLX_TRY(room(&l, n_row));
     for (int64_t i = 0; i < n_row; ++i) {
-        if (isfinite(x[i]) && isfinite(y[i])) {
+        if (isfinite(x[i]) && isfinite(y[i]) && x[i] <= last) {
             p[n++] = (pair){x[i], y[i]};
         }
     }
@@ -223,13 +225,17 @@ static clast_status lines_of_table(clast_aggregate_chart chart, const clast_tabl
 {
     clast_status status = CLAST_OK;
     const double *x = clast_table_numbers(table, x_column(chart));
+    int32_t n_repeat = 0;
+    const double last = chart == CLAST_AGGREGATE_CHART_RADIAL
+                            ? HUGE_VAL
+                            : (double)clx_history_common(x, table->n_row, &n_repeat);
     for (int32_t c = 0; c < table->n_column && d->n_line < MAX_SERIES; ++c) {
         const clast_column *column = &table->column[c];
         if (!is_wanted(chart, column) || count_finite(x, column->number, table->n_row) < 2) {
             continue;
         }
         line *l = &d->lines[d->n_line];
-        CLX_TRY(mean_line(x, column->number, table->n_row, l));
+        CLX_TRY(mean_line(x, column->number, table->n_row, last, l));
         ++d->n_line;
         l->is_step = chart == CLAST_AGGREGATE_CHART_RADIAL;
         label_of(chart, column->name, l->label);

@@ -57,17 +57,19 @@ clast_status clx_folder_write_pictures(const char *folder, const clx_folder_resu
 clast_status clx_folder_largest(const clast_assembly *all, const clast_table *members,
                                 clast_assembly *largest, int32_t *n_cluster);
 
-/// Where files go, and the name of that folder in messages: where the run will be.
-typedef struct clx_folder_place {
-    const char *folder, *name;
-} clx_folder_place;
-
-/// printable.3mf, printable.stl and printable.json. Where no body can be made those of an earlier
-/// one stay, and the message says what to type.
-clast_status clx_folder_write_printable(const clx_folder_place *place, const clast_assembly *body,
+/// printable.3mf, printable.stl and printable.json of a whole run, all or none. Where no body can
+/// be made those of an earlier one stay, and the message says what to type.
+///
+/// @return as clast_assembly_printable, CLAST_E_STOPPED when the monitor asked, CLAST_E_DISK
+clast_status clx_folder_write_printable(const char *folder, const clast_assembly *body,
                                         const clast_printable_config *config,
                                         const clast_monitor *monitor,
                                         clast_printable_report *report);
+
+/// Adds the body's files to the manifest's list of outputs, which tells whose they are when the run
+/// is replaced. All else in it is about the run itself and stays as it is. A manifest without a
+/// list (of older versions) needs none.
+clast_status clx_folder_list_printable(const char *folder);
 
 /// Says that the printable body is the largest of several clusters.
 void clx_folder_note_largest(const clast_monitor *monitor, const clast_assembly *body,

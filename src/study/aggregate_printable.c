@@ -6,6 +6,8 @@
 #include "assembly/pieces.h"
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/lock.h"
+#include "base/monitor.h"
 #include "base/number.h"
 #include "base/path.h"
 #include "geom/check.h"
@@ -16,10 +18,18 @@
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-static const char *const FILES[] = {"printable.3mf", "printable.stl", "printable.json"};
-enum { N_FILE = sizeof FILES / sizeof FILES[0] };
+enum { STL, THREEMF, JSON, N_FILE };
+static const char *const FILES[] = {
+    [STL] = "printable.stl", [THREEMF] = "printable.3mf", [JSON] = "printable.json"};
+
+/// Before the names of files that are not yet all there; a run sweeps such names.
+#define STAGED ".clast-"
+
+/// For as long as another process may take to write those of its body [s].
+static const double PATIENCE = 60.0;
 
 clast_status clx_folder_largest(const clast_assembly *all, const clast_table *members,
                                 clast_assembly *largest, int32_t *n_cluster)
@@ -74,19 +84,18 @@ done:
 }
 
 /// printable.json: what the body can and cannot show.
-static clast_status write_report(const char *folder, const clast_printable_report *r,
+static clast_status write_report(const char *path, const clast_printable_report *r,
                                  int64_t n_triangle)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PATH_LIMIT];
     clx_file file = {0};
-    CLX_TRY(clx_path_join(path, folder, "printable.json"));
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_file_print(&file,
                            "{\n  \"smallest_feature\": %.17g,\n  \"resolved\": %s,\n"
+                           "  \"walls_measured\": %s,\n  \"lost\": %.17g,\n"
                            "  \"neck\": %.17g,\n  \"spacing\": %.17g,\n",
-                           r->smallest_feature, r->resolved ? "true" : "false", r->neck,
-                           r->spacing));
+                           r->smallest_feature, r->resolved ? "true" : "false",
+                           r->knows_walls ? "true" : "false", r->lost, r->neck, r->spacing));
     CLX_TRY(clx_file_print(&file,
                            "  \"n_part\": %d,\n  \"n_void_filled\": %d,\n"
                            "  \"void_volume\": %.17g,\n  \"solid_volume\": %.17g,\n"
@@ -126,38 +135,103 @@ done:
     return status;
 }
 
-static void remove_files(const char *folder)
+/// FOLDER/.clast-printable.stl and so on.
+static clast_status stage(char path[CLX_PATH_LIMIT], const char *folder, int file)
 {
-    char path[CLX_PATH_LIMIT];
-    for (int k = 0; k < N_FILE; ++k) {
-        if (clx_path_join(path, folder, FILES[k]) == CLAST_OK) {
-            (void)unlink(path);
-        }
-    }
+    char name[64];
+    (void)snprintf(name, sizeof name, STAGED "%s", FILES[file]);
+    return clx_path_join(path, folder, name);
 }
 
-/// The files of a body, whose coordinates become millimetres; none of them stays when one cannot be
-/// written, or is no printable surface.
-static clast_status write_files(const char *folder, const clast_printable_report *report,
-                                clast_mesh *mesh)
+/// All files of a body side by side with those of an earlier one.
+static clast_status write_staged(const char *folder, const clast_printable_report *report,
+                                 const clast_mesh *mesh, const clast_monitor *monitor)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
     const clast_mesh_write_options options = {.unit = "mm", .name = "printable"};
+    for (int k = 0; k < N_FILE; ++k) {
+        CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED, "stopped");
+        CLX_TRY(stage(path, folder, k));
+        CLX_TRY(k == JSON ? write_report(path, report, mesh->n_tri)
+                          : clast_mesh_write(mesh, path, &options));
+        if (k == STL) {
+            CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED, "stopped");
+            CLX_TRY(verify(path));
+        }
+    }
+done:
+    return status;
+}
+
+/// Puts them in the place of the earlier ones.
+static clast_status rename_staged(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    char from[CLX_PATH_LIMIT];
+    char to[CLX_PATH_LIMIT];
+    struct stat there;
+    for (int k = 0; k < N_FILE; ++k) { // a folder of that name is all that could be in the way
+        CLX_TRY(clx_path_join(to, folder, FILES[k]));
+        CLX_CHECK(stat(to, &there) != 0 || !S_ISDIR(there.st_mode), CLAST_E_DISK,
+                  "cannot write %s: it is a folder", to);
+    }
+    for (int k = 0; k < N_FILE; ++k) {
+        CLX_TRY(stage(from, folder, k));
+        CLX_TRY(clx_path_join(to, folder, FILES[k]));
+        CLX_CHECK(rename(from, to) == 0, CLAST_E_DISK, "cannot write %s: %s", to, clx_errno_text());
+    }
+    CLX_TRY(clx_folder_sync(folder));
+done:
+    return status;
+}
+
+/// The files of a body, whose coordinates become millimetres, all or none: those of an earlier body
+/// stay when one cannot be written, or is no printable surface.
+static clast_status write_files(const char *folder, const clast_printable_report *report,
+                                const clast_monitor *monitor, clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    clx_lock lock = {0};
+    bool is_busy = false;
+    CLX_TRY(clx_path_join(path, folder, STAGED "printable"));
+    CLX_TRY(clx_lock_take(path, PATIENCE, &lock, &is_busy));
     clast_mesh_transform(mesh, 1e3, unturned, none);
-    CLX_TRY(clx_path_join(path, folder, "printable.stl"));
-    CLX_TRY(clast_mesh_write(mesh, path, &options));
-    CLX_TRY(verify(path));
-    CLX_TRY(clx_path_join(path, folder, "printable.3mf"));
-    CLX_TRY(clast_mesh_write(mesh, path, &options));
-    CLX_TRY(write_report(folder, report, mesh->n_tri));
+    CLX_TRY(write_staged(folder, report, mesh, monitor));
+    CLX_TRY(rename_staged(folder));
 done:
-    if (status != CLAST_OK) {
-        remove_files(folder);
+    for (int k = 0; k < N_FILE && lock.path != NULL; ++k) {
+        if (stage(path, folder, k) == CLAST_OK) {
+            (void)unlink(path); // what was not renamed
+        }
     }
+    clx_lock_release(&lock);
     return status;
+}
+
+/// What the printed body does not show, in one line.
+static void note_unresolved(const clast_monitor *monitor, const clast_printable_report *r)
+{
+    char text[200];
+    double factor = 1.0;
+    const char *unit = clast_unit_for(r->smallest_feature, "m", &factor);
+    if (r->lost > 0.0) {
+        (void)clx_number_print(
+            text, sizeof text,
+            "printable.stl: not resolved: %.2g %% of the grains' volume is lost, "
+            "thin walls of them; take a finer --spacing",
+            100.0 * r->lost);
+        note(monitor, text);
+    } else if (!r->resolved) {
+        (void)clx_number_print(text, sizeof text,
+                               "printable.stl: not resolved: the smallest feature, %.4g %s, is "
+                               "below two spacings and may be lost; take a finer --spacing",
+                               factor * r->smallest_feature, unit);
+        note(monitor, text);
+    }
 }
 
 static clast_status write_body(const char *folder, const clast_assembly *body,
@@ -168,7 +242,8 @@ static clast_status write_body(const char *folder, const clast_assembly *body,
     clast_mesh mesh = {0};
     CLX_TRY(announce(body, config, monitor));
     CLX_TRY(clast_assembly_printable(body, config, monitor, &mesh, report));
-    CLX_TRY(write_files(folder, report, &mesh));
+    CLX_TRY(write_files(folder, report, monitor, &mesh));
+    note_unresolved(monitor, report);
 done:
     clast_mesh_free(&mesh);
     return status;
@@ -184,12 +259,14 @@ static const char *typed(double length, char text[32])
 }
 
 /// What to type for a body that could not be made, after what went wrong: a finer spacing where it
-/// is in pieces, the spacing of its own choice where the grid is too large; "" where none helps.
+/// is in pieces, the spacing of its own choice where the grid is too large, the same where it was
+/// stopped or the disk full; "" where none helps.
 static void find_cure(const char *name, const clast_assembly *body,
                       const clast_printable_config *config, clast_status why, char text[512])
 {
     clast_printable_report plan = {0};
     const bool is_pieces = why == CLAST_E_GEOMETRY;
+    const bool is_same = why == CLAST_E_STOPPED || why == CLAST_E_DISK;
     char neck[48] = "";
     char spacing[48] = "";
     char length[32];
@@ -205,9 +282,11 @@ static void find_cure(const char *name, const clast_assembly *body,
         const double third = plan.neck / 3.0;
         const double finer = third < plan.spacing ? third : 0.5 * plan.spacing;
         (void)snprintf(spacing, sizeof spacing, " --spacing %s", typed(finer, length));
+    } else if (is_same && config->spacing > 0.0) {
+        (void)snprintf(spacing, sizeof spacing, " --spacing %s", typed(config->spacing, length));
     }
     (void)snprintf(text, 512, "; clast aggregate --resume %.300s --printable%s%s %s", name, neck,
-                   spacing, why == CLAST_E_DISK ? "makes it" : "tries that");
+                   spacing, is_same ? "makes it" : "tries that");
 }
 
 /// Whether contacts join all grains, without which no spacing helps.
@@ -221,20 +300,20 @@ static bool is_one_group(const clast_assembly *body)
     return status == CLAST_OK && n_piece == 1;
 }
 
-clast_status clx_folder_write_printable(const clx_folder_place *place, const clast_assembly *body,
+clast_status clx_folder_write_printable(const char *folder, const clast_assembly *body,
                                         const clast_printable_config *config,
                                         const clast_monitor *monitor,
                                         clast_printable_report *report)
 {
     char why[1024];
     char cure[512] = "";
-    const clast_status status = write_body(place->folder, body, config, monitor, report);
+    const clast_status status = write_body(folder, body, config, monitor, report);
     if (status == CLAST_OK) {
         return CLAST_OK;
     }
     (void)snprintf(why, sizeof why, "%s", clast_error_detail());
     if (is_one_group(body)) {
-        find_cure(place->name, body, config, status, cure);
+        find_cure(folder, body, config, status, cure);
     }
     return clx_fail(status, "%s%s", why, cure);
 }
@@ -251,10 +330,29 @@ void clx_folder_note_largest(const clast_monitor *monitor, const clast_assembly 
     }
 }
 
-/// Adds the body's files to the list of outputs, which tells whose they are when the run is
-/// replaced. All else in the manifest is about the run itself and stays as it is. A manifest
-/// without a list (of older versions) needs none.
-static clast_status list_outputs(const char *folder)
+/// What a manifest says of a run under way becomes what it says of a whole one: earlier versions
+/// left it so when they were ended within the body.
+static void set_done(char *manifest)
+{
+    static const char running[] = "\"outcome\": \"running\"";
+    static const char done[] = "\"outcome\": \"done\"";
+    static const char *const passing[] = {"\n  \"process\": ", "\n  \"progress\": "};
+    char *at = strstr(manifest, running);
+    if (at == NULL) {
+        return;
+    }
+    memcpy(at, done, sizeof done - 1);
+    memmove(at + sizeof done - 1, at + sizeof running - 1, strlen(at + sizeof running - 1) + 1);
+    for (size_t k = 0; k < sizeof passing / sizeof *passing; ++k) {
+        char *line = strstr(manifest, passing[k]);
+        const char *next = line != NULL ? strchr(line + 1, '\n') : NULL;
+        if (next != NULL) {
+            memmove(line, next, strlen(next) + 1);
+        }
+    }
+}
+
+clast_status clx_folder_list_printable(const char *folder)
 {
     enum { LIMIT = 64 << 20 };
     static const char key[] = "\"outputs\": [";
@@ -265,21 +363,19 @@ static clast_status list_outputs(const char *folder)
     clx_file file = {0};
     CLX_TRY(clx_path_join(path, folder, "manifest.json"));
     CLX_TRY(clx_file_read_all(path, LIMIT, &text, &n));
-    const char *at = strstr(text, key);
-    const char *end = at != NULL ? strchr(at, ']') : NULL;
-    if (end == NULL) {
-        goto done;
-    }
-    at += sizeof key - 1;
+    set_done(text);
+    const char *list = strstr(text, key);
+    const char *end = list != NULL ? strchr(list, ']') : NULL;
+    const char *at = end != NULL ? list + sizeof key - 1 : text;
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_file_write(&file, text, (size_t)(at - text)));
-    for (int k = 0; k < N_FILE; ++k) {
+    for (int k = 0; k < N_FILE && end != NULL; ++k) {
         const char *listed = strstr(at, FILES[k]);
         if (listed == NULL || listed > end) {
             CLX_TRY(clx_file_print(&file, "\"%s\", ", FILES[k]));
         }
     }
-    CLX_TRY(clx_file_write(&file, at, (size_t)(text + n - at)));
+    CLX_TRY(clx_file_write(&file, at, strlen(at)));
     CLX_TRY(clx_file_commit(&file));
 done:
     clx_file_abandon(&file);
@@ -313,7 +409,6 @@ clast_status clast_aggregate_make_printable(const char *folder,
     clast_assembly largest = {0};
     clast_printable_report made = {0};
     int32_t n_cluster = 1;
-    const clx_folder_place place = {folder, folder};
     CLX_TRY(clx_aggregate_check_printable(
         &(clast_aggregate_config){.printable = true,
                                   .neck = config->neck,
@@ -328,8 +423,8 @@ clast_status clast_aggregate_make_printable(const char *folder,
     }
     const clast_assembly *body = n_cluster > 1 ? &largest : all;
     clx_folder_note_largest(monitor, body, all->n_grain, n_cluster);
-    CLX_TRY(clx_folder_write_printable(&place, body, config, monitor, &made));
-    CLX_TRY(list_outputs(folder));
+    CLX_TRY(clx_folder_write_printable(folder, body, config, monitor, &made));
+    CLX_TRY(clx_folder_list_printable(folder));
     if (report != NULL) {
         *report = made;
     }

@@ -269,51 +269,49 @@ static const clast_assembly *body_of(const run *r)
     return r->largest.n_grain > 0 ? &r->largest : &r->first;
 }
 
-/// The printable body, which a run is whole without: what goes wrong with it is kept in `why`.
-static clast_status add_printable(const run *r, char why[CLX_DETAIL_SIZE])
+/// The printable body, which a run is whole without.
+static clast_status add_printable(run *r)
 {
+    clast_status status = CLAST_OK;
     const clast_aggregate_config *c = r->config;
-    const clx_folder_place place = {r->folder, clx_run_folder_place(r->own)};
+    const char *folder = clast_run_folder_path(r->own);
     const clast_printable_config config = {.neck = c->neck, .spacing = c->spacing};
-    clast_printable_report report;
-    why[0] = '\0';
-    if (!c->printable) {
-        return CLAST_OK;
-    }
     clx_folder_note_largest(r->monitor, body_of(r), r->first.n_grain,
                             r->report.result[0].n_cluster);
-    const clast_status status =
-        clx_folder_write_printable(&place, body_of(r), &config, r->monitor, &report);
-    if (status != CLAST_OK) {
-        (void)snprintf(why, CLX_DETAIL_SIZE, "%s", clast_error_detail());
-    }
+    CLX_TRY(
+        clx_folder_write_printable(folder, body_of(r), &config, r->monitor, &r->report.printable));
+    r->report.is_printable = true;
+    CLX_TRY(clx_folder_list_printable(folder));
+done:
     return status;
 }
 
 /// The outcome of a whole run: a body that cannot be printed and a criterion that is not met are
-/// told as one kind of end, which a study keeps; a full disk and too little memory stay what they
-/// are.
-static clast_status tell_outcome(const run *r, clast_status printed, const char *why)
+/// told as one kind of end, which a study keeps; a full disk, too little memory and a stop stay
+/// what they are.
+static clast_status tell_outcome(const run *r, clast_status printed)
 {
+    char why[CLX_DETAIL_SIZE];
+    char stop[CLX_DETAIL_SIZE] = "";
+    (void)snprintf(why, sizeof why, "%s", clast_error_detail());
     const clast_status status = check_stop(r);
-    const char *place = clast_run_folder_path(r->own);
     if (printed == CLAST_OK) {
         return status;
     }
-    char stop[CLX_DETAIL_SIZE] = "";
     if (status != CLAST_OK) {
         (void)snprintf(stop, sizeof stop, "%s; ", clast_error_detail());
     }
-    const bool is_machine = printed == CLAST_E_MEMORY || printed == CLAST_E_DISK;
-    return clx_fail(is_machine ? printed : CLAST_E_CONVERGE,
-                    "%s%s holds the whole run but no printable body: %s", stop, place, why);
+    const bool is_itself =
+        printed == CLAST_E_MEMORY || printed == CLAST_E_DISK || printed == CLAST_E_STOPPED;
+    return clx_fail(is_itself ? printed : CLAST_E_CONVERGE,
+                    "%s%s holds the whole run but no printable body: %s", stop,
+                    clast_run_folder_path(r->own), why);
 }
 
-/// Rank 0: all files of a run that went well, and the end of the manifest.
+/// Rank 0: all files of a run that went well, and the end of the manifest; the body after it, so
+/// that the run is whole whatever ends the process then.
 static clast_status finish(run *r, clast_status status)
 {
-    clast_status printed = CLAST_OK;
-    char why[CLX_DETAIL_SIZE] = "";
     if (status == CLAST_OK && r->has_folder) {
         const clx_folder_results results = {.config = r->config,
                                             .report = &r->report,
@@ -323,7 +321,6 @@ static clast_status finish(run *r, clast_status status)
                                             .body = body_of(r),
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
-        printed = status == CLAST_OK ? add_printable(r, why) : CLAST_OK;
         status = status == CLAST_OK ? clx_run_folder_seal(r->own) : status;
         status = status == CLAST_OK
                      ? clast_report_write_run(r->folder, clx_run_folder_place(r->own))
@@ -334,7 +331,10 @@ static clast_status finish(run *r, clast_status status)
         status = clx_alloc_text(&r->report.folder, clast_run_folder_path(r->own));
     }
     r->is_whole = status == CLAST_OK;
-    return status == CLAST_OK ? tell_outcome(r, printed, why) : status;
+    if (r->is_whole) {
+        status = tell_outcome(r, r->config->printable ? add_printable(r) : CLAST_OK);
+    }
+    return status;
 }
 
 /// Refuses ranks that read other options or files than rank 0.

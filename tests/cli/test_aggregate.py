@@ -1,6 +1,7 @@
 """clast aggregate: does it do what its help says, and does it refuse what it must?"""
 import csv
 import json
+import math
 import os
 import re
 import signal
@@ -219,6 +220,54 @@ class Results(Case):
         short = clast(*SPHERES, "--replicate", 5, "--stop-size", "1mm", "--json")
         self.assertEqual(short.code, 5)
         self.assertIn("replicate", short.err)
+        # One particle was placed, and the run had reached what its core alone fulfils.
+        self.assert_fails(2, *SPHERES, "--replicate", 5, "--stop-size", "1um", says=("stop_size: the core alone has a d_agg of 10", "not below 1 um"))
+        run = self.folder / "run"
+        self.assertEqual(clast(*SPHERES, "--replicate", 30, *QUICK, "-o", run).code, 0)
+        self.assert_fails(2, "aggregate", "--core", run / "state.h5", "--coat", "sphere", "--size", "5um", "--stop-porosity", "0.2",
+                          says=("stop_porosity: the core alone has a porosity of 0.", "not below 0.2"))
+
+    def test_a_band_ends_where_the_first_repeat_does(self):
+        """Beyond it the mean was of those that the criterion had left: it fell while every aggregate grew looser."""
+        words = ("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--size", "40um", "--replicate", 60, "--repeats", 5, *QUICK)
+        rows = {}
+        for name, more in (("stopped", ("--stop-porosity", "0.3")), ("whole", ())):
+            self.assertEqual(clast(*words, *more, "-o", self.folder / name).code, 0)
+            for file in ("history", "history_band"):
+                with open(self.folder / name / f"{file}.csv", newline="") as text:
+                    rows[name, file] = list(csv.DictReader(text))
+        ends = [0] * 5
+        for row in rows["stopped", "history"]:
+            ends[int(row["repeat"])] = int(row["n"])
+        self.assertLess(min(ends), max(ends))
+        self.assertEqual(len(rows["stopped", "history_band"]), min(ends) + 1)
+        self.assertEqual(rows["stopped", "history_band"], rows["whole", "history_band"][:min(ends) + 1])
+        self.assertEqual({row["n_repeat"] for row in rows["whole", "history_band"]}, {"5"})
+        self.assertEqual(len(rows["whole", "history_band"]), 61)
+
+    def test_sizes_of_a_law_are_wanted_by_the_law(self):
+        """wanted_finer was 1 at 50 um, of which the law cut at 0 has 0.446 finer; of 5 particles 1.5 were wanted."""
+        core = ("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", *QUICK)
+        for name, law in (("normal", ("--size-law", "normal", "--size-mean", "50um", "--size-deviation", "40um", "--n-particle", 5)),
+                          ("one", ("--size-law", "lognormal", "--size-mean", "50um", "--size-shape", "0.4", "--n-particle", 1)),
+                          ("equal", ("--size-law", "uniform", "--size-low", "50um", "--size-high", "50um", "--n-particle", 3))):
+            self.assertEqual(clast(*core, *law, "-o", self.folder / name).code, 0)
+            with open(self.folder / name / "sizes.csv", newline="") as file:
+                rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+            self.assertEqual(len(rows), 12 if name == "normal" else 1, name)
+            self.assertAlmostEqual(sum(row["wanted"] for row in rows), law[-1], places=12)
+            self.assertEqual(sum(row["placed"] for row in rows), law[-1])
+            for row in rows if name == "normal" else ():
+                below, least = (0.5 * math.erfc((50e-6 - x) / (40e-6 * math.sqrt(2))) for x in (row["high_m"], 0.0))
+                self.assertAlmostEqual(row["wanted_finer"], (below - least) / (1 - least), places=12)
+
+    def test_bins_that_overlap_are_one_row(self):
+        """All 20 of each bin were placed, and told as 27 and 13."""
+        listed = self.folder / "sizes.csv"
+        listed.write_text("low_um,high_um,count\n20,60,20\n50,90,20\n90,95,1\n")
+        self.assertEqual(clast("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--sizes", listed, *QUICK, "-o", self.folder / "run").code, 0)
+        with open(self.folder / "run/sizes.csv", newline="") as file:
+            self.assertEqual([(row["wanted"], row["placed"]) for row in csv.DictReader(file)], [("40", "40"), ("1", "1")])
 
 
 class Printable(Case):
@@ -289,6 +338,60 @@ class Printable(Case):
         self.assertEqual(clast(*SPHERES, "--replicate", 3, "--printable", *QUICK, "-o", asked).code, 0)
         for name in ("printable.stl", "printable.3mf", "printable.json"):
             self.assertEqual((run / name).read_bytes(), (asked / name).read_bytes(), name)
+
+    def test_an_earlier_body_stays_until_the_new_one_is_whole(self):
+        """All three files of it were removed, and manifest.json still listed them."""
+        run, names = self.folder / "run", ("printable.3mf", "printable.stl")
+        self.assertEqual(clast(*SPHERES, "--replicate", 3, "--printable", "--spacing", "500nm", *QUICK, "-o", run).code, 0)
+        before = {path.name: path.read_bytes() for path in run.iterdir()}
+        words = f"ulimit -f 400; exec '{CLAST}' aggregate --resume '{run}' --printable --spacing 200nm"  # kB
+        failed = subprocess.run(["bash", "-c", words], capture_output=True, text=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        self.assertIn(f"printable.stl: write: File too large; clast aggregate --resume {run} --printable --spacing 200nm makes it", failed.stderr)
+        self.assertEqual({path.name: path.read_bytes() for path in run.iterdir()}, before)
+        (run / "printable.json").unlink()
+        (run / "printable.json").mkdir()
+        failed = clast("aggregate", "--resume", run, "--printable", "--spacing", "300nm")
+        self.assertEqual(failed.code, 4, failed.err)
+        self.assertEqual({name: (run / name).read_bytes() for name in names}, {name: before[name] for name in names})
+        (run / "printable.json").rmdir()
+        self.assertEqual(clast("aggregate", "--resume", run, "--printable", "--spacing", "500nm").code, 0)
+        self.assertEqual({path.name: path.read_bytes() for path in run.iterdir()}, before)
+
+    def test_a_run_that_is_stopped_in_its_body_is_whole(self):
+        """It said "running" for ever, without outputs and page; neither --resume nor -o went on with it."""
+        run = self.folder / "run"
+        words = (*SPHERES, "--printable", "--neck", "200nm", "--spacing", "60nm", *QUICK, "-o", run)
+        with subprocess.Popen([CLAST, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            self.assertIn("printable.stl: about", process.stderr.readline())  # the body begins
+            process.send_signal(signal.SIGTERM)
+            said = process.stderr.read()
+        self.assertEqual(process.returncode, 143, said)
+        self.assertIn(f"run holds the whole run but no printable body: stopped; clast aggregate --resume {run} --printable --neck 200nm --spacing 60nm makes it", said)
+        manifest = json.loads((run / "manifest.json").read_text())
+        self.assertEqual(manifest["outcome"], "done")
+        self.assertIn("report.html", {path.name for path in run.iterdir()})
+        self.assertNotIn("printable.stl", {path.name for path in run.iterdir()} | set(manifest["outputs"]))
+        text = (run / "manifest.json").read_text()  # as an earlier version left it
+        text = re.sub(r'\n  "outputs": .*', "", text).replace('"outcome": "done",', '"outcome": "running",\n  "process": "process 1 on vm",\n  "progress": 0.99,')
+        (run / "manifest.json").write_text(text)
+        self.assertEqual(clast("aggregate", "--resume", run, "--printable", "--spacing", "1um").code, 0)
+        mended = json.loads((run / "manifest.json").read_text())
+        self.assertEqual(mended.pop("outcome"), "done")
+        self.assertEqual(mended, {key: value for key, value in manifest.items() if key not in ("outcome", "outputs")})
+
+    def test_a_new_run_tells_what_its_body_does_not_show(self):
+        """Nothing did but printable.json: a neck of six times the thinnest grain, 36 % more volume."""
+        run = self.folder / "run"
+        words = ("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "ellipsoid:3,2,1", "--size", "60um", "--replicate", 10, *QUICK, "--printable")
+        made = clast(*words, "--spacing", "40um", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertIn("aggregate.stl\nsmallest feature 20 um, below two spacings, may be lost\n", made.out)
+        self.assertIn("printable.stl: not resolved: the smallest feature, 20 um, is below two spacings", made.err)
+        found = clast(*words, "--spacing", "5um", "--force", "-o", run, "--json")
+        self.assertNotIn("not resolved", found.err)
+        self.assertEqual((found.json["printable"]["resolved"], found.json["printable"]["lost"]), (True, 0.0))
+        self.assertNotIn("printable", json.loads((run / "summary.json").read_text()))
 
     def test_what_cannot_be_printed_is_refused_before_the_run(self):
         run = self.folder / "run"
@@ -379,6 +482,8 @@ class Overlapping(Case):
             self.assertAlmostEqual(printed, found["porosity_union_surface_hull"], delta=1e-3)
             self.assertTrue(summary["scope"].startswith("porosity by the sum of the grains' volumes, which overlap by "), summary["scope"])
         self.assertIsNone(summary["repeats"][0]["max_overlap"])  # of the march: nobody looked
+        with open(run / "history.csv", newline="") as file:
+            self.assertEqual({row["overlap_m"] for row in csv.DictReader(file)}, {""})
         self.assertIsNone(summary["max_overlap"])
         self.assertNotIn("scope", clast(*SPHERES, "--json").json)
         self.assertNotIn("union", clast(*SPHERES).out)

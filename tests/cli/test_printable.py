@@ -54,6 +54,45 @@ class Printable(Case):
             self.assertLess(abs(float(told.group(2)) * 1e6 / sizes[-1] - 1), 0.25)
         self.assertLess(abs(sizes[1] / sizes[0] / 4 - 1), 0.15)
 
+    def test_walls_that_the_grid_loses_are_told(self):
+        """A comb of ten fins 1.5 um thick, a quarter of its volume, was "resolved" at 4 um: its ellipsoid is 66 um thick."""
+        outline = [(0, 0), (100, 0)] + [(100 - 10 * k - x, y) for k in range(10) for x, y in ((0, 20), (0, 60), (1.5, 60), (1.5, 20))] + [(0, 20)]
+        outline = [p for i, p in enumerate(outline) if p != outline[i - 1]]
+        n = len(outline)
+        quad = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+        fins = [[outline.index((100 - 10 * k - x, y)) for x, y in ((0, 20), (0, 60), (1.5, 60), (1.5, 20))] for k in range(10)]
+        feet = [i for i, p in enumerate(outline) if p[1] == 20]
+        sides = [[fin[0], fin[1], fin[2], fin[3]] for fin in fins] + [[0, 1] + [i for i in feet]]
+        faces = [[n + i for i in side] for side in sides] + [side[::-1] for side in sides] + quad
+        comb = self.folder / "comb.off"
+        comb.write_text(f"OFF\n{2 * n} {len(faces)} 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 60) for x, y in outline) +
+                        "".join(f"{len(face)} {' '.join(map(str, face))}\n" for face in faces))
+        self.assertEqual(clast("mesh", "check", comb).code, 0)
+        run = self.folder / "run"
+        made = clast("aggregate", "--core", comb, "--core-size", 0, "--coat", "sphere", "--size", "20um", "--replicate", 2, "--unit", "um", "--no-picture",
+                     "--printable", "--spacing", "4um", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        body = json.loads((run / "printable.json").read_text())
+        self.assertFalse(body["resolved"])
+        self.assertFalse(body["walls_measured"])
+        self.assertAlmostEqual(body["lost"], 1 - body["volume"] / body["solid_volume"], places=12)
+        self.assertIn("(walls of the grains not measured), not resolved: 17 % of the grains' volume is lost\n", made.out)
+        self.assertIn("printable.stl: not resolved: 17 % of the grains' volume is lost, thin walls of them; take a finer --spacing", made.err)
+        fine = clast("aggregate", "--resume", run, "--printable", "--spacing", "700nm")
+        self.assertIn("smallest feature 10 um (walls of the grains not measured), resolved\n", fine.out)
+        told = int(re.search(r"about (\d+) triangles", fine.err).group(1))  # by the surface of its ellipsoid: 0.45 of it
+        self.assertLess(abs(told / json.loads((run / "printable.json").read_text())["n_triangle"] - 1), 0.25)
+
+    def test_grains_that_overlap_lose_nothing(self):
+        """Composites sink into each other: the union is smaller than the sum of the grains, and resolved."""
+        run = self.folder / "run"
+        made = clast("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "100um", "--coat", "ellipsoid:3,2,1", "--size", "60um", "--replicate", 20,
+                     "--fill-spheres", 5, "--contact", "march", "--no-picture", "--printable", "--spacing", "1um", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        body = json.loads((run / "printable.json").read_text())
+        self.assertLess(body["volume"], 0.95 * body["solid_volume"])
+        self.assertEqual((body["resolved"], body["lost"]), (True, 0.0))
+
     def test_closed_surfaces_stay_without_a_fault(self):
         ellipse, scan = DATA / "stl/ellipse.stl", DATA / "stl/particle.stl"
         for command in (("mesh", "repair", ellipse), ("mesh", "repair", scan), ("mesh", "hull", scan),

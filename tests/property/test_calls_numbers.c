@@ -27,7 +27,7 @@ static void confidences_that_cannot_be_have_no_interval(void **state)
         assert_int_equal(band.n_column, 0);
     }
     CHECK_OK(clast_aggregate_band(&history, 0.95, &band));
-    assert_int_equal(band.n_column, 4);
+    assert_int_equal(band.n_column, 5);
     clast_table_free(&band);
     n[1] = 1e300; /* particles: more than any memory has rows for */
     CHECK_OK(clast_memory_set_limit(1 << 28));

@@ -272,7 +272,7 @@ static void bands_are_means_over_repeats(void **state)
     clast_table band = {0};
     double *n = NULL;
     double *porosity = NULL;
-    CHECK_OK(clast_table_init(&history, "history", 4));
+    CHECK_OK(clast_table_init(&history, "history", 5));
     CHECK_OK(clast_table_add_number(&history, "n", "-", NULL));
     CHECK_OK(clast_table_add_number(&history, "porosity_surface_hull", "-", &porosity));
     n = clast_table_numbers(&history, "n");
@@ -280,8 +280,11 @@ static void bands_are_means_over_repeats(void **state)
         n[i] = i % 2;
         porosity[i] = 0.1 * i;
     }
+    n[4] = 2.0; /* the second repeat alone: no mean of two */
+    porosity[4] = 9.0;
     CHECK_OK(clast_aggregate_band(&history, 0.95, &band));
     assert_int_equal(band.n_row, 2);
+    assert_true(clast_table_numbers(&band, "n_repeat")[1] == 2.0);
     CHECK_REL(clast_table_numbers(&band, "mean_porosity_surface_hull")[1], 0.2, 1e-14);
     assert_true(clast_table_numbers(&band, "low_porosity_surface_hull")[1] < 0.2);
     clast_table_free(&band);
