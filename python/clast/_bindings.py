@@ -48,10 +48,6 @@ class clast_interval(Structure):
     """Mean of repeated values, and the interval that holds the true mean at this level (Student's t)."""
 
 
-class clast_aggregate_report(Structure):
-    """Results of the repeats, in order."""
-
-
 class clast_fit_estimate(Structure):
     """A quantity under the posterior weights."""
 
@@ -316,6 +312,10 @@ class clast_grading_match(Structure):
     """Wanted against achieved, in a few numbers."""
 
 
+class clast_grading_list(Structure):
+    """What a grading's list held: how its rows are counted or weighed."""
+
+
 class clast_axes(Structure):
     """L, I, S by one definition and their unit directions ([0] belongs to L)."""
 
@@ -486,6 +486,10 @@ class clast_porosity_bulk(Structure):
 
 class clast_bed_walls(Structure):
     """Side walls beside the size of the grains: grains cannot lie as close at a wall, so a narrow bed is looser (docs/theory/porosity.md)."""
+
+
+class clast_bed_beyond(Structure):
+    """What reaches beyond the sides of a bed: slices count grains whole, so that a bed which is smaller than what holds them has too low a porosity."""
 
 
 class clast_porosity_core(Structure):
@@ -732,6 +736,10 @@ class clast_aggregate_source(Structure):
     """Everything that a configuration names, loaded."""
 
 
+class clast_aggregate_report(Structure):
+    """Results of the repeats, in order."""
+
+
 class clast_structure_options(Structure):
     """clast_structure_options."""
 
@@ -862,12 +870,6 @@ clast_interval._fields_ = [
     ('low', c_double),
     ('high', c_double),
 ]
-clast_aggregate_report._fields_ = [
-    ('n', c_int32),
-    ('result', POINTER(clast_aggregate_result)),
-    ('confidence', c_double),
-    ('folder', c_char_p),
-]
 clast_fit_estimate._fields_ = [
     ('best', c_double),
     ('mean', c_double),
@@ -965,6 +967,8 @@ clast_printable_report._fields_ = [
     ('solid_volume', c_double),
     ('volume', c_double),
     ('n_triangle_expected', c_double),
+    ('knows_walls', c_bool),
+    ('lost', c_double),
 ]
 clast_envelope._fields_ = [
     ('kind', c_int),
@@ -1549,6 +1553,12 @@ clast_grading_match._fields_ = [
     ('wanted_d50', c_double),
     ('wanted_d90', c_double),
 ]
+clast_grading_list._fields_ = [
+    ('n_row', c_int64),
+    ('total', c_double),
+    ('column', c_char_p),
+    ('ignored', c_char_p),
+]
 clast_axes._fields_ = [
     ('lis', (c_double * 3)),
     ('direction', ((c_double * 3) * 3)),
@@ -2017,6 +2027,7 @@ clast_bed._fields_ = [
     ('high', (c_double * 2)),
     ('floor', c_double),
     ('ceiling', c_double),
+    ('shift', c_double),
     ('surface', POINTER(clast_mesh)),
 ]
 clast_porosity_options._fields_ = [
@@ -2037,6 +2048,11 @@ clast_bed_walls._fields_ = [
     ('size', c_double),
     ('radius', c_double),
     ('ratio', c_double),
+]
+clast_bed_beyond._fields_ = [
+    ('n', c_int32),
+    ('depth', c_double),
+    ('solid', c_double),
 ]
 clast_porosity_core._fields_ = [
     ('depth', c_double),
@@ -2077,6 +2093,7 @@ clast_form_inputs._fields_ = [
 clast_model_term._fields_ = [
     ('feature', c_char_p),
     ('coefficient', c_double),
+    ('unit', c_char_p),
 ]
 clast_model_range._fields_ = [
     ('feature', c_char_p),
@@ -2649,6 +2666,14 @@ clast_aggregate_source._fields_ = [
     ('sizes', clast_sizes),
     ('input', clast_aggregate_input),
 ]
+clast_aggregate_report._fields_ = [
+    ('n', c_int32),
+    ('result', POINTER(clast_aggregate_result)),
+    ('confidence', c_double),
+    ('folder', c_char_p),
+    ('is_printable', c_bool),
+    ('printable', clast_printable_report),
+]
 clast_structure_options._fields_ = [
     ('envelope', clast_envelope_options),
     ('solid', clast_union_options),
@@ -2898,7 +2923,6 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_input': (32, {'core': (0, 8), 'n_coat': (8, 4), 'coat': (16, 8), 'sizes': (24, 8)}),
     'clast_aggregate_saved': (32, {'repeat': (0, 4), 'placed': (8, 8), 'history': (16, 8), 'members': (24, 8)}),
     'clast_interval': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
-    'clast_aggregate_report': (32, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8)}),
     'clast_fit_estimate': (40, {'best': (0, 8), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_aggregate_fit': (1472, {'cone': (0, 8), 'rays': (8, 4), 'orientations': (12, 4), 'replicate': (16, 4), 'trials': (24, 40), 'n_replica': (64, 40), 'model': (104, 120), 'porosity': (224, 40), 'observed': (264, 24), 'error': (288, 24), 'pull': (312, 24), 'least': (336, 24), 'most': (360, 24), 'chi2': (384, 8), 'n_observed': (392, 4), 'n_choice': (396, 4), 'n_freedom': (400, 4), 'p_value': (408, 8), 'verdict': (416, 4), 'packing_edge': (420, 4), 'replicate_edge': (424, 4), 'n_level': (428, 4), 'cut_short': (432, 1), 'n_run': (436, 4), 'at_level': (440, 4), 'words': (444, 1024)}),
     'clast_assembly': (128, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4), 'no_density': (120, 1)}),
@@ -2908,7 +2932,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_period': (48, {'low': (0, 24), 'length': (24, 24)}),
     'clast_overlaps': (24, {'n': (0, 4), 'depth': (8, 8), 'share': (16, 8)}),
     'clast_printable_config': (24, {'neck': (0, 8), 'spacing': (8, 8), 'keep_voids': (16, 1)}),
-    'clast_printable_report': (72, {'neck': (0, 8), 'spacing': (8, 8), 'smallest_feature': (16, 8), 'resolved': (24, 1), 'n_part': (28, 4), 'n_void': (32, 4), 'void_volume': (40, 8), 'solid_volume': (48, 8), 'volume': (56, 8), 'n_triangle_expected': (64, 8)}),
+    'clast_printable_report': (88, {'neck': (0, 8), 'spacing': (8, 8), 'smallest_feature': (16, 8), 'resolved': (24, 1), 'n_part': (28, 4), 'n_void': (32, 4), 'void_volume': (40, 8), 'solid_volume': (48, 8), 'volume': (56, 8), 'n_triangle_expected': (64, 8), 'knows_walls': (72, 1), 'lost': (80, 8)}),
     'clast_envelope': (40, {'kind': (0, 4), 'volume': (8, 8), 'error': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_envelope_options': (40, {'tolerance': (0, 8), 'n_ray': (8, 4), 'seed': (16, 8), 'length': (24, 8), 'n_cell': (32, 4)}),
     'clast_fractal': (56, {'dimension': (0, 8), 'dimension_error': (8, 8), 'prefactor': (16, 8), 'prefactor_error': (24, 8), 'low': (32, 8), 'high': (40, 8), 'n': (48, 4)}),
@@ -2965,6 +2989,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_curve_case': (88, {'name': (0, 8), 'mass': (8, 56), 'porosity': (64, 8), 'deviation': (72, 8), 'spacing': (80, 8)}),
     'clast_grading_sample': (24, {'n': (0, 8), 'size': (8, 8), 'volume': (16, 8)}),
     'clast_grading_match': (72, {'n': (0, 8), 'distance_mass': (8, 8), 'distance_number': (16, 8), 'achieved_d10': (24, 8), 'achieved_d50': (32, 8), 'achieved_d90': (40, 8), 'wanted_d10': (48, 8), 'wanted_d50': (56, 8), 'wanted_d90': (64, 8)}),
+    'clast_grading_list': (32, {'n_row': (0, 8), 'total': (8, 8), 'column': (16, 8), 'ignored': (24, 8)}),
     'clast_axes': (96, {'lis': (0, 24), 'direction': (24, 72)}),
     'clast_grain': (736, {'volume': (0, 8), 'area': (8, 8), 'centroid': (16, 24), 'inertia': (40, 72), 'moments': (112, 24), 'axes': (136, 480), 'hull_volume': (616, 8), 'hull_area': (624, 8), 'longest': (632, 8), 'shortest': (640, 8), 'sphericity': (648, 8), 'convexity': (656, 8), 'roundness': (664, 8), 'roundness_deviation': (672, 8), 'n_outline': (680, 4), 'normal_roundness': (688, 8), 'angularity': (696, 8), 'projected_mean': (704, 8), 'projected_least': (712, 8), 'projected_greatest': (720, 8), 'hull_volume_added': (728, 8)}),
     'clast_grain_record': (800, {'name': (0, 8), 'kind': (8, 4), 'has_surface': (12, 1), 'has_size': (13, 1), 'n_voxel': (16, 8), 'is_smoothed': (24, 1), 'unit_m': (32, 8), 'degree': (40, 4), 'power_last': (48, 8), 'power_cut': (56, 8), 'grain': (64, 736)}),
@@ -3004,16 +3029,17 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
-    'clast_bed': (88, {'kind': (0, 4), 'centre': (8, 16), 'radius': (24, 8), 'low': (32, 16), 'high': (48, 16), 'floor': (64, 8), 'ceiling': (72, 8), 'surface': (80, 8)}),
+    'clast_bed': (96, {'kind': (0, 4), 'centre': (8, 16), 'radius': (24, 8), 'low': (32, 16), 'high': (48, 16), 'floor': (64, 8), 'ceiling': (72, 8), 'shift': (80, 8), 'surface': (88, 8)}),
     'clast_porosity_options': (40, {'method': (0, 4), 'layer': (8, 8), 'cut': (16, 8), 'trim': (24, 8), 'at_slice': (32, 1)}),
     'clast_porosity_bulk': (40, {'porosity': (0, 8), 'z_low': (8, 8), 'z_high': (16, 8), 'solid': (24, 8), 'top': (32, 8)}),
     'clast_bed_walls': (24, {'size': (0, 8), 'radius': (8, 8), 'ratio': (16, 8)}),
+    'clast_bed_beyond': (24, {'n': (0, 4), 'depth': (8, 8), 'solid': (16, 8)}),
     'clast_porosity_core': (32, {'depth': (0, 8), 'porosity': (8, 8), 'error': (16, 8), 'share': (24, 8)}),
     'clast_radial_options': (12, {'method': (0, 4), 'n_ring': (4, 4), 'n_point': (8, 4)}),
     'clast_pore_options': (40, {'n_point': (0, 8), 'n_bin': (8, 4), 'period': (16, 24)}),
     'clast_mean': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_form_inputs': (1104, {'n_grain': (0, 8), 'has_deviation': (8, 1), 'is_independent': (9, 1), 'flatness_mean': (16, 8), 'flatness_deviation': (24, 8), 'elongation_mean': (32, 8), 'elongation_deviation': (40, 8), 'equancy_mean': (48, 8), 'equancy_deviation': (56, 8), 'single': (64, 208), 'mixture': (272, 832)}),
-    'clast_model_term': (16, {'feature': (0, 8), 'coefficient': (8, 8)}),
+    'clast_model_term': (24, {'feature': (0, 8), 'coefficient': (8, 8), 'unit': (16, 8)}),
     'clast_model_range': (24, {'feature': (0, 8), 'low': (8, 8), 'high': (16, 8)}),
     'clast_porosity_model': (128, {'name': (0, 8), 'source': (8, 8), 'kind': (16, 4), 'intercept': (24, 8), 'n_term': (32, 4), 'term': (40, 8), 'n_range': (48, 4), 'range': (56, 8), 'covariance': (64, 8), 'rounding': (72, 8), 'deviation': (80, 8), 'n_bed': (88, 8), 'r2': (96, 8), 'cv_mean_error': (104, 8), 'cv_median_error': (112, 8), 'leverage_limit': (120, 8)}),
     'clast_prediction': (128, {'porosity': (0, 8), 'standard_error': (8, 8), 'model_error': (16, 8), 'coefficient_error': (24, 8), 'sampling_error': (32, 8), 'in_range': (40, 1), 'leverage': (48, 8), 'n_outside': (56, 4), 'outside': (60, 64)}),
@@ -3069,6 +3095,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_result': (528, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'n_grain_all': (16, 4), 'contact': (20, 4), 'mass': (24, 8), 'solid_sum': (32, 8), 'solid_union': (40, 8), 'solid_union_error': (48, 8), 'n_envelope': (56, 4), 'envelope': (64, 280), 'porosity': (344, 56), 'd_agg': (400, 8), 'density': (408, 8), 'radius_of_gyration': (416, 8), 'settling_velocity': (424, 8), 'settling_velocity_permeable': (432, 8), 'permeable': (440, 4), 'coat_porosity': (448, 8), 'coat_grain': (456, 8), 'permeability': (464, 8), 'drag_permeable': (472, 8), 'max_overlap': (480, 8), 'max_overlap_relative': (488, 8), 'n_lost': (496, 4), 'stop': (500, 4), 'contact_s': (504, 8), 'envelope_s': (512, 8), 'wall_s': (520, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
     'clast_aggregate_source': (216, {'core': (0, 128), 'coat': (128, 8), 'n_coat': (136, 4), 'sizes': (144, 40), 'input': (184, 32)}),
+    'clast_aggregate_report': (128, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8), 'is_printable': (32, 1), 'printable': (40, 88)}),
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (544, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'columns': (320, 16), 'diameter_column': (336, 8), 'domain': (344, 8), 'floor': (352, 4), 'sides': (356, 4), 'open_top': (360, 1), 'wind': (368, 8), 'field': (376, 8), 'field_columns': (384, 8), 'wind_shear': (392, 8), 'eddy_diffusivity': (400, 8), 'brownian': (408, 1), 'fall': (412, 4), 'structure': (416, 1), 'collision_radius': (420, 4), 'meeting': (424, 4), 'walk_step': (432, 8), 'max_tries': (440, 4), 'even': (444, 4), 'change_level': (448, 8), 'duration': (456, 8), 'rows': (464, 4), 'step_error': (472, 8), 'time_step': (480, 8), 'seed': (488, 8), 'keep': (496, 4), 'bed_width': (504, 8), 'frames': (512, 4), 'checkpoint_time': (520, 8), 'resume': (528, 8), 'force': (536, 1)}),
@@ -3537,12 +3564,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_restore': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_aggregate_input), POINTER(clast_aggregate_saved), POINTER(c_void_p)], 'Goes on from there: the same particles follow, to the last bit.'),
     'clast_interval_of': (clast_interval, [c_int32, POINTER(c_double), c_double], 'Mean of n values and its interval at this confidence, in the unit of the values.'),
     'clast_aggregate_band': (c_int, [POINTER(clast_table), c_double, POINTER(clast_table)], 'Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, .'),
-    'clast_aggregate_achieved': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_sizes), POINTER(clast_table), POINTER(clast_table)], 'Sizes wanted beside those placed: a row for each distinct size or bin of the list, or for each of 12 classes of a law over what it drew.'),
+    'clast_aggregate_achieved': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_sizes), POINTER(clast_table), POINTER(clast_table)], 'Sizes wanted beside those placed: a row for each distinct size or bin of the list (one for bins that overlap), or for each of 12 classes of a law over what it drew (one where that is one size).'),
     'clast_aggregate_config_check': (c_int, [POINTER(clast_aggregate_config)], "Combinations of options that a single field's range cannot see."),
     'clast_aggregate_load': (c_int, [POINTER(clast_aggregate_config), POINTER(clast_aggregate_source)], "@return the reader's status and line, with the option and the file's name before it."),
     'clast_aggregate_unload': (None, [POINTER(clast_aggregate_source)], 'may be called twice.'),
     'clast_aggregate_report_free': (None, [POINTER(clast_aggregate_report)], 'Frees what clast_aggregate_run filled; may be called twice.'),
-    'clast_aggregate_report_json': (c_int, [POINTER(clast_aggregate_report), c_bool, POINTER(c_char_p)], 'The report as one JSON object: means over repeats under the names of DESIGN section 7, each repeat under `repeats`, intervals under `interval` when there are several.'),
+    'clast_aggregate_report_json': (c_int, [POINTER(clast_aggregate_report), c_bool, POINTER(c_char_p)], 'The report as one JSON object: means over repeats under the names of DESIGN section 7, each repeat under `repeats`, intervals under `interval` when there are several, the printable body under `printable` when one was made.'),
     'clast_aggregate_report_scope': (c_char_p, [POINTER(clast_aggregate_report), c_size_t, c_char_p], 'What the numbers are of, where that is not all grains in their true surfaces, in `size` bytes: "largest of 10 clusters, 24 of 40 grains (...)", or that porosity is by the sum of the grains\' volumes, by how much these overlap, and which bodies max_overlap is of; else "" .'),
     'clast_aggregate_run': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and manifest.json into it, and checkpoints on the way.'),
     'clast_aggregate_make_printable': (c_int, [c_char_p, POINTER(clast_printable_config), POINTER(clast_monitor), POINTER(clast_printable_report)], 'Makes the printable body of a whole run from its state.h5, anew or for the first time: printable.3mf, printable.stl (mm) and printable.json, which manifest.json then lists.'),
@@ -3782,8 +3809,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_curve_read': (c_int, [c_char_p, POINTER(clast_curve)], 'Sieve curve from delimited text with a header, one row a sieve in any order.'),
     'clast_curve_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_curve)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grading_load': (c_int, [c_char_p, c_int, c_int, POINTER(clast_curve), POINTER(c_void_p)], 'Sizes by one text, as in the option `curve`: a published case (U1 .'),
+    'clast_grading_list_of': (clast_grading_list, [c_void_p], 'The list that clast_grading_load read, by "list:FILE" or "masses:FILE"; its texts live as long as the grading.'),
     'clast_grading_idle': (POINTER(clast_idle), [POINTER(clast_curve), c_int, POINTER(clast_idle)], 'Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle).'),
-    'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or blanks; '#' starts a comment; a first line that is no number names the columns)."),
+    'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or blanks; '#' starts a comment; a first line that is no number names the columns; a word may stand in quotes)."),
     'clast_sizes_parse': (c_int, [c_char_p, c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grain_measure': (c_int, [POINTER(clast_mesh), POINTER(clast_grain)], 'Measures the solid bounded by a closed outward surface.'),
     'clast_grain_measure_hull': (c_int, [POINTER(clast_mesh), POINTER(clast_grain)], "The same for the convex hull of the surface's vertices, which may be open or have no triangles; hull_volume_added is that of the surface given where it is closed, else NaN."),
@@ -3796,7 +3824,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_grains_free': (None, [POINTER(clast_grains)], '.'),
     'clast_grains_idle': (POINTER(clast_idle), [POINTER(clast_grains_options), c_uint32, POINTER(clast_idle)], 'The options of `clast shape` (degree, level, spacing, voxels, voxel_type, ...) that files of these kinds do not look at (clast_fields_idle).'),
     'clast_grains_kind_name': (c_char_p, [c_int], '"surface", "series", "voxels", "points", "table", "clump" .'),
-    'clast_grains_to_metres': (None, [POINTER(clast_grains), c_double], "Multiplies the lengths of all grains: by the file's own unit where it has one, else by `unit_m`."),
+    'clast_grains_to_metres': (c_int, [POINTER(clast_grains), c_double, POINTER(c_bool)], "Brings all lengths to metres: by the file's own unit where it says one, else by `unit_m`."),
     'clast_grains_table': (c_int, [POINTER(clast_grains), c_int, c_bool, POINTER(clast_table)], 'Everything as a table: a row a grain; L, I, S, D and the form factors by one definition, then L, I, S by each.'),
     'clast_harmonics_alloc': (c_int, [c_int32, POINTER(clast_harmonics)], 'Room for all terms up to a degree, zeroed; `series` must be empty.'),
     'clast_harmonics_free': (None, [POINTER(clast_harmonics)], '.'),
@@ -3896,7 +3924,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_bed_close': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], 'The closed, outward surface of a container that may have holes: each is covered.'),
     'clast_bed_of_surface': (clast_bed, [POINTER(clast_mesh)], 'The inside of such a surface as a bed; its floor is the lowest point.'),
     'clast_bed_volumes': (None, [POINTER(clast_bed), c_int32, POINTER(c_double), POINTER(c_double)], 'Volume between the heights edge[k] and edge[k + 1] [m^3].'),
-    'clast_bed_parse': (c_int, [c_char_p, POINTER(clast_bed)], 'Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1", "periodic:X0,Y0,X1,Y1" or, in all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1", each number with an optional unit; the floor is at 0, or at Z0.'),
+    'clast_bed_parse': (c_int, [c_char_p, POINTER(clast_bed)], 'Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1", "periodic:X0,Y0,X1,Y1" or, in all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT]", each number with an optional unit; the floor is at 0, or at Z0; a sheared cell\'s upper images lie farther along x by SHIFT.'),
     'clast_bed_format': (c_int, [POINTER(clast_bed), c_size_t, c_char_p], 'The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.'),
     'clast_bed_period': (c_bool, [POINTER(clast_bed), POINTER(c_double)], 'Periods in x, y and z [m], 0 for none; false for a bed that has none.'),
     'clast_bed_wrap': (None, [POINTER(clast_bed), POINTER(clast_assembly)], "Moves every grain's centroid into the bed's first image."),
@@ -3908,6 +3936,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_profile': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_options), POINTER(clast_table)], 'Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the last grain.'),
     'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
     'clast_bed_side_walls': (clast_bed_walls, [POINTER(clast_bed), POINTER(clast_assembly)], 'NAN throughout for beds or assemblies that do not hold together.'),
+    'clast_bed_beyond_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_int, POINTER(clast_bed_beyond)], 'Between the heights of the bulk; a periodic bed has no sides, nothing is beyond them.'),
     'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_options), POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
     'clast_bed_read': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], "The bed that a run's state file keeps."),
     'clast_bed_load': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], '"mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse takes.'),
@@ -3936,6 +3965,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_predict_moments': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_inputs), POINTER(clast_prediction)], 'Porosity from means and deviations; inputs->n_grain > 1 gives the sampling error by the first derivatives, with variances s^2 / n of a mean and s^2 / (2 (n - 1)) of a deviation.'),
     'clast_porosity_predict_each': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_set), POINTER(clast_table)], "One row a grain: the single form of that grain as the only one of a bed; columns row (from 1, in the set's table), porosity, standard_error, in_range (1 or 0)."),
     'clast_porosity_predict_columns': (c_int, [POINTER(clast_porosity_model), POINTER(clast_table), POINTER(clast_table)], 'One row a bed of a table with the columns that a model of kind CLAST_MODEL_COLUMNS names; columns as above.'),
+    'clast_porosity_model_check_units': (c_int, [POINTER(clast_porosity_model), POINTER(clast_table)], 'Whether a table that a person wrote has the units of such a model: of what the model has in metres plain numbers may be anything.'),
     'clast_porosity_predict_idle': (POINTER(clast_idle), [POINTER(clast_predict_given), POINTER(clast_idle)], 'The options of `clast predict` (grading, grains, columns, each, resamples, seed) that such a prediction does not look at (clast_fields_idle).'),
     'clast_porosity_prediction_table': (c_int, [POINTER(clast_porosity_model), POINTER(clast_form_inputs), POINTER(clast_prediction), POINTER(clast_table)], "One row: porosity, the errors, in_range and the inputs' means and deviations."),
     'clast_porosity_model_read': (c_int, [c_char_p, POINTER(clast_porosity_model)], 'Reads a model file, JSON as clast_porosity_model_write makes it.'),
@@ -3944,7 +3974,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_fit_idle': (POINTER(clast_idle), [POINTER(clast_porosity_fit_config), c_bool, POINTER(clast_idle)], 'The fields that a fit by the others does not look at (clast_fields_idle).'),
     'clast_fit_data_single': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of one form each: 26 features from each row's flatness and elongation or L, I, S."),
     'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
-    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code but the seed, that is what was varied, and those that `use` names.'),
+    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target and `group`, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code but the seed, that is what was varied, and those that `use` names.'),
     'clast_fit_data_free': (None, [POINTER(clast_fit_data)], '.'),
     'clast_porosity_fit_data': (c_int, [POINTER(clast_fit_data), c_char_p, c_char_p, POINTER(clast_porosity_fit_config), POINTER(clast_porosity_fit)], 'Fits a model.'),
     'clast_porosity_fit_free': (None, [POINTER(clast_porosity_fit)], '.'),
@@ -4147,7 +4177,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
     'shape': {
         'axes': ('choice', 'ellipsoid', '-', None, None, 'ellipsoid|box|fitted|feret|principal', 'definition of L, I and S behind D and the form factors'),
         'hull': ('flag', False, '-', None, None, None, 'measure the convex hull (as packings use it), not the surface'),
-        'unit': ('text', '', '-', None, None, None, "unit of the files' coordinates (mm, um, ...): results are then SI; none: model units"),
+        'unit': ('text', '', '-', None, None, None, 'unit of coordinates (mm, um, ...) in files that do not say theirs: results are then SI; none: model units'),
         'kind': ('choice', 'auto', '-', None, None, 'auto|surface|series|voxels|points|table|clump', 'what files hold; auto: by name and content'),
         'degree': ('integer', -1.0, '-', -1.0, 256.0, None, 'series: terms up to this degree; -1: all'),
         'level': ('integer', 5.0, '-', 0.0, 8.0, None, 'series: surface of 20 x 4^level triangles for calipers and boxes'),
@@ -4405,7 +4435,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
     'fit': {
         'target': ('text', 'porosity', '-', None, None, None, 'column with the measured porosity'),
         'columns': ('text', '', '-', None, None, None, 'columns of the form: flatness,elongation or L,I,S (else known by their names); with features columns: the candidates'),
-        'group': ('text', 'bed', '-', None, None, None, 'column that names the bed, in the table of beds and in that of the grains'),
+        'group': ('text', 'bed', '-', None, None, None, 'column that names the bed, in the table of beds and in that of the grains; it is no feature'),
         'n_term': ('integer', 2.0, '-', 1.0, 20.0, None, 'features of the model'),
         'use': ('text', '', '-', None, None, None, 'take these features (a,b,...) instead of selecting'),
         'correlation_limit': ('number', 0.8, '-', 0.0, 1.0, None, 'remove features whose |r| to a chosen one is greater'),
@@ -4536,7 +4566,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'gravity': ('number', 9.80665, 'm/s^2', 0.0, 1000000.0, None, 'gravity g'),
         'efficiency': ('number', 0.0, '-', 0.0, 1.0, None, 'collision efficiency E of settling; 0: by Stokes number and ratio of radii'),
         'settling_law': ('choice', 'standard', '-', None, None, 'standard|stokes', "drag of settling spheres: the standard curve, or Stokes'"),
-        'rebuild': ('choice', 'changed', '-', None, None, 'changed|always|never', 'when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for never also when half of the particles are left'),
+        'rebuild': ('choice', 'changed', '-', None, None, 'changed|always|never', 'when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for never also when 3/4 of the particles are left'),
         'change_level': ('number', 0.01, '-', 1e-12, 0.5, None, 'false alarms of the test that finds the cloud changed'),
         'fixed': ('integer', 0.0, '-', 0.0, 1000.0, None, 'a regular mesh of this many cells an axis is evolved beside; 0: none'),
         'depth': ('number', 0.0, 'm', 0.0, 1e+300, None, 'extent of the missing dimensions: a length in 2-D (a bare number: m), m^2 in 1-D (bare)'),
@@ -4638,7 +4668,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'max_tries': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'paths or contacts tried before a pair is given up, in thousands; central lines: one by one'),
         'duration': ('number', 0.0, 's', 0.0, 1e+300, None, 'time that passes at most'),
         'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
-        'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, and of the height passed up or down (and of the width, where sides are deposit), that a step may hold; and the most collisions of a pair's kind in a sub-step"),
+        'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, of the height passed up or down (of the width too, where sides are not periodic) and of the density that a field changes, that a step may hold; and the most collisions of a pair's kind in a sub-step"),
         'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
         'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
         'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
@@ -4681,7 +4711,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'cut': ('choice', 'none', '-', None, None, 'none|x|y|z|view', 'cut away the half nearer to the viewer: by a plane across this axis'),
         'cut_position': ('number', 0.5, '-', 0.0, 1.0, None, 'place of the cut in the extent along its axis'),
         'colour_bar': ('flag', True, '-', None, None, None, 'legend of the colours'),
-        'scale_bar': ('flag', True, '-', None, None, None, 'bar of a round length'),
+        'scale_bar': ('flag', True, '-', None, None, None, 'bar of a round length, in perspective at the centre'),
         'unit': ('text', '', '-', None, None, None, 'unit of the coordinates where the input has none (um, mm, m)'),
         'sun_azimuth': ('number', -0.6981317007977318, 'rad', -3.141592653589793, 3.141592653589793, None, 'of the sun, to the right of the viewer'),
         'sun_elevation': ('number', 0.7853981633974483, 'rad', -1.5707963267948966, 1.5707963267948966, None, 'of the sun above the line of sight'),

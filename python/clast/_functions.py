@@ -324,7 +324,7 @@ def agglomerate(
         gravity: gravity g (m/s^2; 0 to 1e+06; default 9.80665)
         efficiency: collision efficiency E of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
         settling_law: drag of settling spheres: the standard curve, or Stokes' (standard, stokes; default standard)
-        rebuild: when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for never also when half of the particles are left (changed, always, never; default changed)
+        rebuild: when cells are made anew: at snapshots of a changed cloud, at all of them, never; but for never also when 3/4 of the particles are left (changed, always, never; default changed)
         change_level: false alarms of the test that finds the cloud changed (1e-12 to 0.5; default 0.01)
         fixed: a regular mesh of this many cells an axis is evolved beside; 0: none (0 to 1000; default 0)
         depth: extent of the missing dimensions: a length in 2-D (a bare number: m), m^2 in 1-D (bare) (m; at least 0; default 0.0)
@@ -698,7 +698,7 @@ def evolve(
         max_tries: paths or contacts tried before a pair is given up, in thousands; central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
-        step_error: share of a meeting, and of the height passed up or down (and of the width, where sides are deposit), that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
+        step_error: share of a meeting, of the height passed up or down (of the width too, where sides are not periodic) and of the density that a field changes, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
@@ -826,7 +826,7 @@ def fit(
         name: name of the model (default fitted)
         target: column with the measured porosity (default porosity)
         columns: columns of the form: flatness,elongation or L,I,S (else known by their names); with features columns: the candidates (no default)
-        group: column that names the bed, in the table of beds and in that of the grains (default bed)
+        group: column that names the bed, in the table of beds and in that of the grains; it is no feature (default bed)
         n_term: features of the model (1 to 20; default 2)
         use: take these features (a,b,...) instead of selecting (no default)
         correlation_limit: remove features whose abs(r) to a chosen one is greater (0 to 1; default 0.8)
@@ -1367,7 +1367,7 @@ def render(
         cut: cut away the half nearer to the viewer: by a plane across this axis (none, x, y, z, view; default none)
         cut_position: place of the cut in the extent along its axis (0 to 1; default 0.5)
         colour_bar: legend of the colours (default True)
-        scale_bar: bar of a round length (default True)
+        scale_bar: bar of a round length, in perspective at the centre (default True)
         unit: unit of the coordinates where the input has none (um, mm, m) (no default)
         sun_azimuth: of the sun, to the right of the viewer (rad; -3.14159 to 3.14159; default -0.6981317007977318)
         sun_elevation: of the sun above the line of sight (rad; -1.5708 to 1.5708; default 0.7853981633974483)
@@ -1458,13 +1458,14 @@ def shapes(
 ) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults` and warned of, the others are measured. Without `unit` lengths are those of the files.
+    What cannot be measured is told in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
+    lengths are those of the files.
     Ctrl-C ends it between files; nothing is kept but surfaces written by then.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         axes: definition of L, I and S behind D and the form factors (ellipsoid, box, fitted, feret, principal; default ellipsoid)
         hull: measure the convex hull (as packings use it), not the surface (default False)
-        unit: unit of the files' coordinates (mm, um, ...): results are then SI; none: model units (no default)
+        unit: unit of coordinates (mm, um, ...) in files that do not say theirs: results are then SI; none: model units (no default)
         kind: what files hold; auto: by name and content (auto, surface, series, voxels, points, table, clump; default auto)
         degree: series: terms up to this degree; -1: all (-1 to 256; default -1)
         level: series: surface of 20 x 4^level triangles for calipers and boxes (0 to 8; default 5)

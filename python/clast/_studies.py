@@ -53,7 +53,7 @@ def _program() -> str:
     if path is None or shutil.which(path) is None:
         raise ImportError(f"clast.study: its runs are processes of the command clast, which is not {'at ' + path if path else 'on the PATH'}; "
                           "install clast (make install), or set CLAST to the file")
-    version = subprocess.run([path, "--version"], stdout=subprocess.PIPE, text=True).stdout.split()[-1:]
+    version = subprocess.run([path, "--version"], stdout=subprocess.PIPE, text=True).stdout.split()[1:2]
     if version != [c.VERSION]:
         raise ImportError(f"clast.study: {path} is version {' '.join(version) or 'unknown'}, this package is for {c.VERSION}")
     return os.path.abspath(shutil.which(path) or path)

@@ -451,6 +451,23 @@ class Commands(unittest.TestCase):
         self.assertEqual((self.folder / "one/pca.csv").read_bytes(), (self.folder / "two/pca.csv").read_bytes())
         self.assertIn("data:image/svg", statistics._repr_html_())
 
+    def test_shapes_in_several_units(self):
+        """The first file decided: "model" or "m" by the order."""
+        for name, text in (("ratios", "flatness,elongation\n0.5,0.8\n"), ("mm", "L_mm,I_mm,S_mm\n30,20,10\n"), ("um", "L_um,I_um,S_um\n30000,20000,10000\n"),
+                           ("bare", "L,I,S\n3,2,1\n")):
+            (self.folder / f"{name}.csv").write_text(text)
+        ratios, mm, um, bare = (self.folder / f"{name}.csv" for name in ("ratios", "mm", "um", "bare"))
+        for files in ((ratios, mm, um), (mm, um, ratios)):
+            found = clast.shapes(*files)
+            self.assertEqual(found.unit, "m")
+            np.testing.assert_allclose(found.table["L_m"][np.isfinite(found.table["L_m"])], 0.03)
+        self.assertEqual(clast.shapes(mm, um, bare, unit="cm").unit, "m")
+        for files, keys, line in (((mm, um, bare), {}, "bare.csv:1 says none: give that with unit$"), ((mm,), dict(unit="cm"), "leave out unit$")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.shapes(*files, **keys)
+        columns = {"L_mm": [30.0, 45.0], "I (cm)": [2.0, 4.1], "S_um": [10000.0, 12000.0]}  # names tell the unit, as in a file
+        self.assertAlmostEqual(clast.grain_statistics(columns, resamples=0).columns["mean"][1], (2 / 3 + 41 / 45) / 2)
+
     def test_shapes_of_voxels(self):
         x = np.mgrid[:20, :20, :20]
         labels = np.zeros((20, 20, 20), ">u2")

@@ -166,7 +166,7 @@ class Idle(unittest.TestCase):
         self.refused("columns", "with a model of a table's own columns", clast.predict_beds, self.beds, model=of_two, columns="a,b")
         self.refused("n_term", "with use", clast.fit, self.beds, features="columns", use="a,b", n_term=3)
         self.refused("score", "with use", clast.fit, self.beds, features="columns", use="a,b", score="median")
-        self.refused("group", "without grains", clast.fit, self.beds, features="columns", group="zz")
+        self.refused("group", "without grains", clast.fit, self.forms, features="form", group="zz")
         self.assertGreater(clast.predict(0.6, 0.7, grading="U1", seed=1, columns="", grains=0).porosity, 0.3)  # defaults are no mistakes
 
     def test_surfaces(self):

@@ -3,7 +3,9 @@
 Debian has meshio; trimesh and PyVista are taken where they are installed, else classes with the same members stand in.
 """
 import importlib
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import types
@@ -99,6 +101,26 @@ class Others(unittest.TestCase):
         self.assertEqual((clast.Mesh.from_meshio(cube).volume, clast.Mesh.from_meshio(cube).check().is_solid), (1.0, True))
         with self.assertRaisesRegex(clast.Error, "^cells: 1 of kind tetra; a surface has triangles"):
             clast.Mesh.from_meshio(meshio.Mesh(CUBE, [("tetra", np.array([[0, 1, 2, 4]]))]))
+
+    def test_exports_open_in_meshio(self):
+        """No VTU of clast did: texts were arrays of type String, for which meshio refuses the whole file."""
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest(loud.LEFT_OUT + "meshio is not installed (apt install python3-meshio)")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "grains.vtu")
+            made = clast.export(ROOT / "data/state/schema1.h5", path)
+            mesh = meshio.read(path)
+            self.assertEqual((len(mesh.points), len(mesh.cells[0].data)), (made["n_vertex"], made["n_triangle"]))
+            self.assertEqual(bytes(mesh.field_data["unit"]), b"mm\0")
+            self.assertEqual(bytes(mesh.field_data["shape_names"]).split(b"\0")[0], b'egg, "the" <first>')
+            run = pathlib.Path(folder, "cells")
+            words = [os.environ["CLAST"], "decompose", ROOT / "data/d2sd/points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1", "-o", run]
+            subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+            mesh = meshio.read(run / "cells.vtu")
+            self.assertEqual(bytes(mesh.field_data["domain"]), b"box:0,0,0,1,1,1\0")
+            self.assertEqual(mesh.cell_data["count"][0].sum(), 500)
 
     def test_indices_of_any_width(self):
         for kind in ("u8", "i8", "u4", "i2", ">i4"):

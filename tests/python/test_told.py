@@ -335,7 +335,10 @@ class Models(Case):
         k = np.arange(20.0)
         beds = {"a": k, "site": [f"x{i}" for i in range(20)], "porosity": 0.3 + 0.01 * np.sin(3 * k)}
         self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0)), ["1 column of words is no candidate: site",
-            "1 of 2 features: no candidate is left of 1 (0 like a chosen one, 0 constant or not finite in some row)"])
+            "1 of 2 features: no candidate is left of 1 (0 like a chosen one, 0 constant or not finite in some row)",
+            "feature 'a' counts the rows; if it says nothing of a bed, name the candidates (columns=)"])
+        self.assertEqual(self.heard(lambda: clast.fit({**beds, "b": k * k}, group="a", n_permutation=0, n_term=1)),
+                         ["1 column of words is no candidate: site", "column 'a' names the bed and is no candidate"])
         self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, columns="a", n_term=1)), [])
         self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, features="columns", use="a")), [])
         study = {"run": k + 1, "size": [f"{100 + 10 * i}um" for i in range(20)], "seed": k, "exit_code": 0 * k, "note": ["n"] * 20,
@@ -343,6 +346,15 @@ class Models(Case):
         found = clast.fit(study, n_term=1, n_permutation=0)
         self.assertEqual((list(found.model.coefficients), self.heard(lambda: clast.fit(study, n_term=1, n_permutation=0))), (["size"], []))
         self.assertEqual(len(clast.predict_beds({"size": ["150um", "0.2mm"]}, model=found.model)), 2)
+        # numbers of an array are SI, those of a file may be anything
+        self.assertEqual(dict(found.model.units), {"size": "m"})
+        made = [clast.predict_beds({"size": size}, model=found.model)["porosity"][0] for size in (["150um"], [150e-6])]
+        self.assertEqual(made[0], made[1])
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "new.csv"
+            path.write_text("size\n150\n")
+            with self.assertRaisesRegex(clast.Error, "column 'size' has no unit"):
+                clast.predict_beds(path, model=found.model)
 
 
 if __name__ == "__main__":
