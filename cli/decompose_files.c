@@ -139,6 +139,18 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     return CLAST_OK;
 }
 
+/// What the bars are: an unresolved estimate has no upper end.
+static const char *bar_label(const double *high, int64_t n)
+{
+    int64_t n_bound = 0;
+    for (int64_t i = 0; i < n; ++i) {
+        n_bound += isfinite(high[i]) ? 0 : 1;
+    }
+    return n_bound == 0  ? "cells of clast, 95 % interval"
+           : n_bound < n ? "cells of clast, 95 % interval; arrow: lower bound alone"
+                         : "cells of clast, lower bound";
+}
+
 /// Scaled events over n.
 static clast_status draw_sizes(const clast_table *table, int32_t dimension, const char *path)
 {
@@ -150,12 +162,13 @@ static clast_status draw_sizes(const clast_table *table, int32_t dimension, cons
     }
     const double *n = clast_table_numbers(table, "n");
     const double *regular = clast_table_numbers(table, "scaled_regular");
+    const double *high = clast_table_numbers(table, "scaled_high");
     const clast_series series[2] = {{.kind = CLAST_SERIES_POINTS,
-                                     .label = "cells of clast, 95 % interval",
+                                     .label = bar_label(high, table->n_row),
                                      .x = n,
                                      .y = events,
                                      .low = clast_table_numbers(table, "scaled_low"),
-                                     .high = clast_table_numbers(table, "scaled_high"),
+                                     .high = high,
                                      .n = table->n_row},
                                     {.kind = CLAST_SERIES_LINE,
                                      .label = "regular mesh",

@@ -1,6 +1,7 @@
 // Finds the subcommand and runs it.
 #include "command.h"
 
+#include "clast_source.h"
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -73,6 +74,16 @@ static bool print_group(FILE *out, const char *word)
     return found;
 }
 
+/// The release, and which build of it: the source's commit and the optional parts.
+static void print_version(void)
+{
+    static const char lacks[] = CLAST_LACKS;
+    (void)printf("clast %s\nsource %s\nwith %s\n", clast_version(), CLAST_SOURCE, CLAST_HAS);
+    if (lacks[0] != '\0') {
+        (void)printf("without %s\n", lacks);
+    }
+}
+
 /// Everything that is not a command's own business.
 static int answer(int argc, char **argv)
 {
@@ -81,7 +92,7 @@ static int answer(int argc, char **argv)
         return 2;
     }
     if (strcmp(argv[1], "--version") == 0) {
-        (void)printf("clast %s\n", clast_version());
+        print_version();
         return 0;
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {

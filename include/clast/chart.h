@@ -25,8 +25,9 @@ typedef struct clast_series {
     clast_series_kind kind;
     const char *label; ///< legend entry, or NULL for none
     const double *x, *y;
-    const double *low, *high; ///< band or error bars, else NULL
-    const double *value;      ///< points coloured by this (with chart.value_axis), else NULL
+    const double *low,
+        *high;           ///< band or error bars, else NULL; a bar of one finite end is an arrow
+    const double *value; ///< points coloured by this (with chart.value_axis), else NULL
     int64_t n;
     int32_t colour; ///< 0..7 of the colour-blind-safe set (Okabe and Ito); -1: grey
     bool dashed;

@@ -27,22 +27,27 @@ clast_status clx_vtk_begin(clx_vtk_array *array)
     return array->block != NULL ? CLAST_OK : clx_alloc(&array->block, CLX_VTK_BLOCK, 1);
 }
 
-/// A text is its letters' codes, and 0.
+/// A text is its letters' codes, and 0, as numbers: VTK has <Array type="String"> for it, for which
+/// meshio refuses the whole file.
 void clx_vtk_field_texts(clx_file *file, const char *name, int32_t n,
                          const char *(*text)(const void *context, int32_t i), const void *context)
 {
     CLAST_ASSERT(n >= 0);
+    size_t n_code = 0;
+    for (int32_t i = 0; i < n; ++i) {
+        n_code += strlen(text(context, i)) + 1;
+    }
     (void)clx_file_print(file,
-                         "<Array type=\"String\" Name=\"%s\" NumberOfTuples=\"%d\" "
+                         "<DataArray type=\"UInt8\" Name=\"%s\" NumberOfTuples=\"%zu\" "
                          "format=\"ascii\">",
-                         name, (int)n);
+                         name, n_code);
     for (int32_t i = 0; i < n; ++i) {
         for (const char *letter = text(context, i); *letter != '\0'; ++letter) {
             (void)clx_file_print(file, "%d ", (unsigned char)*letter);
         }
         (void)clx_file_print(file, i + 1 < n ? "0 " : "0");
     }
-    (void)clx_file_print(file, "</Array>");
+    (void)clx_file_print(file, "</DataArray>");
 }
 
 static const char *the_text(const void *text, int32_t i)

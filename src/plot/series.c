@@ -41,17 +41,24 @@ static void draw_path(clx_figure *f, const clast_series *e)
     cairo_set_dash(cr, NULL, 0, 0.0);
 }
 
+static bool is_wide(const clast_series *e, int64_t i)
+{
+    return isfinite(e->x[i]) && isfinite(e->low[i]) && isfinite(e->high[i]);
+}
+
+/// A value that is missing at either side parts the band.
 static void draw_band(clx_figure *f, const clast_series *e)
 {
     cairo_t *cr = f->canvas->cr;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int64_t j = 0; j < e->n; ++j) {
-            const int64_t i = pass == 0 ? j : e->n - 1 - j;
-            const double y = pass == 0 ? e->high[i] : e->low[i];
-            if (isfinite(e->x[i]) && isfinite(y)) {
-                cairo_line_to(cr, clx_figure_x(f, e->x[i]), clx_figure_y(f, y));
-            }
+    int64_t end = 0;
+    for (int64_t begin = 0; begin < e->n; begin = end + 1) {
+        for (end = begin; end < e->n && is_wide(e, end); ++end) {
+            cairo_line_to(cr, clx_figure_x(f, e->x[end]), clx_figure_y(f, e->high[end]));
         }
+        for (int64_t i = end - 1; i >= begin; --i) {
+            cairo_line_to(cr, clx_figure_x(f, e->x[i]), clx_figure_y(f, e->low[i]));
+        }
+        cairo_new_sub_path(cr);
     }
     cairo_fill(cr);
 }
@@ -68,6 +75,29 @@ static bool is_shown(const clx_figure *f, double x, double y)
     const double slack = 1e-3;
     return x >= f->left - slack && x <= f->right + slack && y >= f->top - slack &&
            y <= f->bottom + slack;
+}
+
+/// The head of an arrow that leaves the plotting area; out: -1 at its top, 1 at its bottom.
+static void draw_open_end(clx_figure *f, double x, double y, double out)
+{
+    clx_canvas_line(f->canvas, x, y, x - 2.5, y - 4.0 * out);
+    clx_canvas_line(f->canvas, x, y, x + 2.5, y - 4.0 * out);
+}
+
+/// An error bar. One end alone is a bound: the bar goes on to the frame, as an arrow.
+static void draw_error(clx_figure *f, double x, double low, double high)
+{
+    if (!isfinite(low) && !isfinite(high)) {
+        return;
+    }
+    const double y0 = isfinite(low) ? framed(f, low) : f->bottom;
+    const double y1 = isfinite(high) ? framed(f, high) : f->top;
+    clx_canvas_line(f->canvas, x, y0, x, y1);
+    if (!isfinite(high)) {
+        draw_open_end(f, x, y1, -1.0);
+    } else if (!isfinite(low)) {
+        draw_open_end(f, x, y0, 1.0);
+    }
 }
 
 static void draw_points(clx_figure *f, const clast_series *e)
@@ -90,7 +120,7 @@ static void draw_points(clx_figure *f, const clast_series *e)
             clx_canvas_colour(f->canvas, rgb, 1.0);
         }
         if (e->low != NULL && e->high != NULL) {
-            clx_canvas_line(f->canvas, x, framed(f, e->low[i]), x, framed(f, e->high[i]));
+            draw_error(f, x, e->low[i], e->high[i]);
         }
         cairo_arc(cr, x, y, radius, 0.0, 2.0 * CLAST_PI);
         cairo_fill(cr);

@@ -13,6 +13,9 @@ static const char *const font = "DejaVu Sans";
 /// A tall bar or list of a picture is this many font sizes high at most.
 static const double legend_height = 16.0;
 
+/// Height of a name's row in a list, font sizes.
+static const double list_row = 1.6;
+
 static void choose_font(cairo_t *cr, double size, bool bold)
 {
     cairo_select_font_face(cr, font, CAIRO_FONT_SLANT_NORMAL,
@@ -96,6 +99,33 @@ static void draw_title_upright(cairo_t *cr, double x, double middle, const char 
     cairo_restore(cr);
 }
 
+/// Behind labels that grains may reach: what is seen through it is no darker than the ink's ground.
+static void draw_plate(cairo_t *cr, const clx_layout *layout, double ink, const double box[4])
+{
+    const double paper = ink > 0.5 ? 0.0 : 1.0;
+    const double border = 0.6 * layout->text;
+    cairo_set_source_rgba(cr, paper, paper, paper, 0.7);
+    cairo_rectangle(cr, box[0] - border, box[1] - border, box[2] - box[0] + 2.0 * border,
+                    box[3] - box[1] + 2.0 * border);
+    cairo_fill(cr);
+    cairo_set_source_rgb(cr, ink, ink, ink);
+}
+
+static void draw_legend_plate(cairo_t *cr, const clx_layout *layout, const clx_legend *legend,
+                              double ink)
+{
+    const double middle = 0.5 * (layout->legend_top + layout->legend_bottom);
+    const double row = list_row * layout->text;
+    const bool is_list = legend->kind == CLX_LEGEND_LIST;
+    const double box[4] = {layout->legend_left,
+                           is_list ? middle - 0.5 * legend->n * row - 0.5 * layout->text
+                                   : layout->legend_top,
+                           layout->legend_left + legend_width(cr, legend, layout->text),
+                           is_list ? middle + (0.5 * legend->n - 1.0) * row + 0.5 * layout->text
+                                   : layout->legend_bottom};
+    draw_plate(cr, layout, ink, box);
+}
+
 static void draw_bar(cairo_t *cr, const clx_layout *layout, const clx_legend *legend, double ink)
 {
     const double x = layout->legend_left;
@@ -129,7 +159,7 @@ static void draw_bar(cairo_t *cr, const clx_layout *layout, const clx_legend *le
 
 static void draw_list(cairo_t *cr, const clx_layout *layout, const clx_legend *legend, double ink)
 {
-    const double row = 1.6 * layout->text;
+    const double row = list_row * layout->text;
     const double middle = 0.5 * (layout->legend_top + layout->legend_bottom);
     for (int i = 0; i < legend->n; ++i) {
         const double y = middle + (i - 0.5 * legend->n) * row;
@@ -151,7 +181,21 @@ static double round_below(double length)
     return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
 }
 
-static void draw_scale(cairo_t *cr, const clx_layout *layout, double pixel, double metre_per_unit)
+/// In perspective what is nearer to the viewer is larger: the bar holds at the centre.
+static void write_length(double shown, const clx_length_unit *unit, bool is_perspective,
+                         char label[64])
+{
+    const char *where = is_perspective ? " at the centre" : "";
+    if (unit->name[0] != '\0') {
+        (void)clx_number_print(label, 64, "%.10g %s%s", shown, unit->name, where);
+    } else {
+        (void)clx_number_print(label, 64, "%.10g model unit%s%s", shown, shown == 1.0 ? "" : "s",
+                               where);
+    }
+}
+
+static void draw_scale(cairo_t *cr, const clx_layout *layout, const clast_render_config *config,
+                       double pixel, double metre_per_unit, double ink)
 {
     char label[64];
     const double space = layout->frame.right - layout->frame.left;
@@ -163,16 +207,19 @@ static void draw_scale(cairo_t *cr, const clx_layout *layout, double pixel, doub
     const double length = shown / unit.factor / pixel;
     const double thick = 0.22 * layout->text;
     const double left = layout->scale_middle - 0.5 * length;
-    if (unit.name[0] != '\0') {
-        (void)clx_number_print(label, sizeof label, "%.10g %s", shown, unit.name);
-    } else {
-        (void)clx_number_print(label, sizeof label, "%.10g model unit%s", shown,
-                               shown == 1.0 ? "" : "s");
+    write_length(shown, &unit, config->projection == CLAST_RENDER_PERSPECTIVE, label);
+    const double half = 0.5 * text_width(cr, label);
+    if (config->zoom > 1.0) {
+        const double widest = fmax(half, 0.5 * length);
+        const double box[4] = {layout->scale_middle - widest,
+                               layout->scale_bottom - thick - 1.3 * layout->text,
+                               layout->scale_middle + widest, layout->scale_bottom};
+        draw_plate(cr, layout, ink, box);
     }
     cairo_rectangle(cr, left, layout->scale_bottom - thick, length, thick);
     cairo_fill(cr);
-    draw_text(cr, layout->scale_middle - 0.5 * text_width(cr, label),
-              layout->scale_bottom - thick - 0.5 * layout->text, label);
+    draw_text(cr, layout->scale_middle - half, layout->scale_bottom - thick - 0.5 * layout->text,
+              label);
 }
 
 /// One premultiplied cairo pixel over one straight pixel of the picture.
@@ -215,7 +262,10 @@ clast_status clx_label_draw(const clast_render_config *config, const clx_layout 
     choose_font(cr, layout->text, false);
     cairo_set_source_rgb(cr, ink, ink, ink);
     if (config->scale_bar) {
-        draw_scale(cr, layout, image->pixel_size, metre_per_unit);
+        draw_scale(cr, layout, config, image->pixel_size, metre_per_unit, ink);
+    }
+    if (config->zoom > 1.0 && legend->kind != CLX_LEGEND_NONE) { // else all fits beside them
+        draw_legend_plate(cr, layout, legend, ink);
     }
     if (legend->kind == CLX_LEGEND_BAR) {
         draw_bar(cr, layout, legend, ink);

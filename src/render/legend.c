@@ -203,6 +203,23 @@ static void colour_by_order(const clast_assembly *assembly, const clast_render_c
     }
 }
 
+/// A name as it can be drawn, of so many characters at most.
+static void shorten(const char *name, char text[CLX_LEGEND_TEXT])
+{
+    enum { MOST = 38 };
+    int n = 0;
+    char *cut = NULL;
+    (void)clast_text_printable(name, CLX_LEGEND_TEXT - 4, text);
+    for (char *c = text; *c != '\0'; ++c) {
+        if (((unsigned char)*c & 0xc0U) != 0x80U && ++n == MOST) { // a character begins
+            cut = c;
+        }
+    }
+    if (n > MOST) {
+        memcpy(cut, "\u2026", sizeof "\u2026");
+    }
+}
+
 static void colour_by_shape(const clast_assembly *assembly, clx_scene *scene, clx_legend *legend)
 {
     static const int order[CLX_LEGEND_SHAPES] = {4, 5, 2, 1, 3, 0, 7, -1};
@@ -211,7 +228,7 @@ static void colour_by_shape(const clast_assembly *assembly, clx_scene *scene, cl
     for (int32_t s = 0; s < assembly->n_shape && s < CLX_LEGEND_SHAPES; ++s) {
         const char *name = assembly->shape[s].name;
         clx_colour_category(order[s], legend->rgb[s]);
-        (void)snprintf(legend->text[s], CLX_LEGEND_TEXT, "%.38s", name != NULL ? name : "");
+        shorten(name != NULL ? name : "", legend->text[s]);
         legend->n = s + 1;
     }
     if (assembly->n_shape > CLX_LEGEND_SHAPES) {

@@ -2,7 +2,7 @@
 // Colours of the grains and what explains them: a colour bar with ticks, or a list of shapes.
 #include "render/scene.h"
 
-enum { CLX_LEGEND_TICKS = 12, CLX_LEGEND_SHAPES = 8, CLX_LEGEND_TEXT = 40 };
+enum { CLX_LEGEND_TICKS = 12, CLX_LEGEND_SHAPES = 8, CLX_LEGEND_TEXT = 168 };
 
 typedef enum { CLX_LEGEND_NONE, CLX_LEGEND_BAR, CLX_LEGEND_LIST } clx_legend_kind;
 

@@ -49,7 +49,8 @@ const clast_field clast_render_fields[] = {
     {FIELD(CLAST_FIELD_F64, cut_position), 0.5, 0.0, 1.0, "-",
      "place of the cut in the extent along its axis", NULL},
     {FIELD(CLAST_FIELD_BOOL, colour_bar), 1, 0, 1, "-", "legend of the colours", NULL},
-    {FIELD(CLAST_FIELD_BOOL, scale_bar), 1, 0, 1, "-", "bar of a round length", NULL},
+    {FIELD(CLAST_FIELD_BOOL, scale_bar), 1, 0, 1, "-",
+     "bar of a round length, in perspective at the centre", NULL},
     {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-",
      "unit of the coordinates where the input has none (um, mm, m)", "", .common = true},
     {FIELD(CLAST_FIELD_F64, sun_azimuth), -0.6981317007977318, -CLAST_PI, CLAST_PI, "rad",
@@ -67,7 +68,13 @@ const clast_idle *clast_render_idle(const clast_render_config *c, clast_idle rul
     if (c == NULL || rules == NULL) {
         return NULL;
     }
+    const bool is_single = c->colour == CLAST_RENDER_COLOUR_SINGLE;
+    const bool is_shape = c->colour == CLAST_RENDER_COLOUR_SHAPE;
+    const bool is_tinted = is_single || c->colour == CLAST_RENDER_COLOUR_AUTO;
     const clast_idle made[CLAST_N_IDLE] = {
+        {!is_tinted, "tint", "without --colour single"},
+        {is_single || is_shape, "scale", "without --colour size or order"},
+        {is_single, "colour_bar", "with --colour single"},
         {c->projection == CLAST_RENDER_ORTHOGRAPHIC, "field_of_view",
          "without --projection perspective"},
         {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"}};

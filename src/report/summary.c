@@ -6,6 +6,7 @@
 #include "report/quantity.h"
 #include "report/run.h"
 #include "report/value.h"
+#include <stdio.h>
 #include <string.h>
 
 /// The first number inside a value that is a number or an object of numbers; its name to *which.
@@ -18,6 +19,40 @@ static const json_t *first_number(const json_t *value, const char **which)
         return json_object_iter_value(at);
     }
     return json_is_number(value) ? value : NULL;
+}
+
+/// The lower bound that holds in place of an unresolved number, or NULL.
+static const json_t *bound_of(const json_t *summary, const char *key)
+{
+    char name[CLX_QUANTITY_SIZE];
+    (void)snprintf(name, sizeof name, "%.100s_low", key);
+    const json_t *low = json_object_get(summary, name);
+    return json_is_false(json_object_get(summary, "resolved")) && json_is_number(low) ? low : NULL;
+}
+
+/// What the command's own words say against a large number, or NULL.
+static const char *doubt_of(const json_t *summary, const char *key)
+{
+    if (bound_of(summary, key) != NULL) {
+        return "not resolved";
+    }
+    const bool fell = json_is_true(json_object_get(summary, "shaken_while_falling"));
+    const bool moves = json_is_true(json_object_get(summary, "still_moving"));
+    return strncmp(key, "porosity", 8) != 0 ? NULL
+           : fell && moves                  ? "shaken while grains fell, and still moving"
+           : fell                           ? "shaken while grains fell"
+           : moves                          ? "still moving"
+                                            : NULL;
+}
+
+/// The number of a key with its unit, or the bound in its place.
+static void put_number(clx_file *file, const json_t *summary, const char *key, const char *place,
+                       const json_t *number)
+{
+    const json_t *bound = bound_of(summary, key);
+    (void)clx_file_print(file, "%s", bound != NULL ? "\342\211\245\302\240" : "");
+    clx_quantity_put(file, json_number_value(bound != NULL ? bound : number),
+                     clx_value_unit(summary, key, place));
 }
 
 void clx_summary_headline(clx_file *file, const clx_run *run)
@@ -36,13 +71,16 @@ void clx_summary_headline(clx_file *file, const clx_run *run)
         (void)clx_file_print(file, "%s<div class=\"figure\"><b>",
                              is_open ? "" : "<div class=\"figures\">\n");
         is_open = true;
-        clx_quantity_put(file, json_number_value(number), q.unit);
+        put_number(file, run->summary, key, NULL, number);
         (void)clx_file_print(file, "</b><span>");
         clx_page_text(file, q.label);
         if (which != NULL) {
             (void)clx_file_print(file, " <small>");
             clx_quantity_put_label(file, which, "envelope");
             (void)clx_file_print(file, "</small>");
+        }
+        if (doubt_of(run->summary, key) != NULL) {
+            (void)clx_file_print(file, " <small>(%s)</small>", doubt_of(run->summary, key));
         }
         (void)clx_file_print(file, "</span></div>\n");
     }
@@ -171,6 +209,22 @@ static void put_compared_head(clx_file *file, const comparison *c, int at)
     (void)clx_file_print(file, "</th>");
 }
 
+static void put_compared_cell(clx_file *file, const clx_run *run, const compared *column)
+{
+    const json_t *value = value_of(run, column);
+    const char *doubt = doubt_of(run->summary, column->key);
+    if (value == NULL) {
+        clx_value_put_cell(file, column->key, column->place, NULL);
+        return;
+    }
+    (void)clx_file_print(file, "<td class=\"n\">");
+    put_number(file, run->summary, column->key, column->place, value);
+    if (doubt != NULL) {
+        (void)clx_file_print(file, "<br><small>%s</small>", doubt);
+    }
+    (void)clx_file_print(file, "</td>");
+}
+
 static void put_compared_row(clx_file *file, const clx_run *run, int32_t number,
                              const comparison *c)
 {
@@ -178,8 +232,7 @@ static void put_compared_row(clx_file *file, const clx_run *run, int32_t number,
     clx_page_text(file, run->name);
     (void)clx_file_print(file, "</a></td>");
     for (int k = 0; k < c->n; ++k) {
-        clx_value_put_cell(file, c->column[k].key, c->column[k].place,
-                           value_of(run, &c->column[k]));
+        put_compared_cell(file, run, &c->column[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
 }

@@ -52,6 +52,9 @@ static void put_pairs(clx_file *file, const json_t *object, const char *place)
             (void)clx_file_print(file, "</th><td>");
             if (mean != 0.0 && is_of_mean(key) && json_is_number(value)) {
                 put_like(file, key, place, json_number_value(value), mean);
+            } else if (json_is_number(value) && clx_quantity_of(key, place).words[0] == '\0') {
+                clx_quantity_put(file, json_number_value(value),
+                                 clx_value_unit(object, key, place));
             } else {
                 clx_value_put(file, key, place, value);
             }

@@ -4,7 +4,23 @@
 #include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include <stdio.h>
 #include <string.h>
+
+const char *clx_value_unit(const json_t *object, const char *key, const char *place)
+{
+    const char *tail = strrchr(key, '_');
+    const size_t stem[2] = {strlen(key), tail != NULL ? (size_t)(tail - key) : 0};
+    for (int k = 0; k < 2; ++k) {
+        char name[CLX_QUANTITY_SIZE];
+        (void)snprintf(name, sizeof name, "%.*s_unit", (int)stem[k], key);
+        const char *unit = json_string_value(json_object_get(object, name));
+        if (unit != NULL) {
+            return unit;
+        }
+    }
+    return clx_quantity_of(key, place).unit;
+}
 
 /// The label of a thing that has one ("henze_zirkler"), else the text as it is.
 static void put_text(clx_file *file, const char *key, const char *text)

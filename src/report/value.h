@@ -5,6 +5,10 @@
 
 typedef struct clx_file clx_file;
 
+/// Unit of a number of `object`: the text KEY_unit beside it, which its ends (KEY_low, KEY_high,
+/// ...) share, else that of the quantity.
+const char *clx_value_unit(const json_t *object, const char *key, const char *place);
+
 /// A number with the unit of its key, a text, "yes" or "no", a list with commas; a dash for all
 /// else. `place`: as for clx_quantity_of.
 void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value);

@@ -1,4 +1,5 @@
 """CLI: clast render draws surfaces and runs, the same bytes every time."""
+import os
 import struct
 import unittest
 import zlib
@@ -90,6 +91,27 @@ class Render(Case):
         self.assertNotEqual(len(set(zlib.decompress(self.packed(pictures["facet"])))), 1)
         done = clast("render", *(self.folder / f"{name}.off" for name in files), "-o", self.folder / "all.png", "--colour", "size", "--json", *SMALL)
         self.assertEqual((done.code, done.json["n_grain"], done.err), (0, 5, ""))
+
+    def test_names_of_any_letters_are_drawn(self):
+        """Ended in "cairo: input string not valid UTF-8; see --max-memory" and code 4: Latin-1, and names cut within a letter."""
+        grain = (ROOT / "data/standin63/grain00.ply").read_bytes()
+        for name in ("\u041f\u0435\u043c\u0437\u0430 \u0441 \u0432\u0443\u043b\u043a\u0430\u043d\u0430 \u042d\u0442\u043d\u0430.ply".encode(), b"K\xf6rner.ply"):
+            path = os.fsencode(self.folder) + b"/" + name
+            with open(path, "wb") as file:
+                file.write(grain)
+            done = clast("render", os.fsdecode(path), "-o", self.folder / "a.png", "--colour", "shape", *SMALL)
+            self.assertEqual((done.code, done.err), (0, ""), name)
+
+    def test_options_without_use_are_refused(self):
+        """Gave the bytes of a picture without them."""
+        line = ("render", STL / "Menger2.stl", "-o", self.folder / "a.png")
+        for colour in ("size", "order", "shape"):
+            self.assert_fails(2, *line, "--colour", colour, "--tint", "#00ff00", says=["tint does nothing without --colour single"])
+        for colour in ("single", "shape"):
+            self.assert_fails(2, *line, "--colour", colour, "--scale", "log", says=["scale does nothing without --colour size or order"])
+        self.assert_fails(2, *line, "--colour", "single", "--no-colour-bar", says=["does nothing with --colour single"])
+        for more in (("--tint", "#00ff00"), ("--colour", "single", "--tint", "#00ff00"), ("--colour", "size", "--scale", "log", "--no-colour-bar")):
+            self.assertEqual(clast(*line, *more, *SMALL).code, 0, more)
 
     def packed(self, data):
         at = data.index(b"IDAT")

@@ -223,7 +223,7 @@ class TrueWords(Case):
         for name in ("cells.vtu", "points.vtp"):
             text = (out / name).read_text()
             found = {}
-            for key, codes in re.findall(r'<Array type="String" Name="(\w+)" NumberOfTuples="1" format="ascii">([\d ]+)</Array>', text):
+            for key, codes in re.findall(r'<DataArray type="UInt8" Name="(\w+)" NumberOfTuples="\d+" format="ascii">([\d ]+)</DataArray>', text):
                 found[key] = "".join(chr(int(code)) for code in codes.split()[:-1])
             self.assertEqual(found, {"unit": "m", "domain": "box:0,0,1,1"}, name)
             numbers = dict(re.findall(r'<DataArray type="Float64" Name="(\w+)" NumberOfTuples="1" format="ascii">([^<]+)</DataArray>', text))

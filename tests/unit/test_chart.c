@@ -164,6 +164,74 @@ static void points_on_the_frame_are_whole(void **state)
     assert_int_equal(coloured_with_point(0.5, -0.001), 0);
 }
 
+/* Pixels that are no grey in the left or right half, above or below the middle. */
+static int64_t coloured_quarter(const char *path, bool right, bool below)
+{
+    cairo_surface_t *image = cairo_image_surface_create_from_png(path);
+    assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+    const unsigned char *byte = cairo_image_surface_get_data(image);
+    const int half[2] = {cairo_image_surface_get_width(image) / 2,
+                         cairo_image_surface_get_height(image) / 2};
+    int64_t n = 0;
+    for (int y = below ? half[1] : 0; y < (below ? 2 : 1) * half[1]; ++y) {
+        for (int x = right ? half[0] : 0; x < (right ? 2 : 1) * half[0]; ++x) {
+            const unsigned char *p = byte + y * cairo_image_surface_get_stride(image) + 4L * x;
+            n += p[0] > p[2] + 30 || p[2] > p[0] + 30 ? 1 : 0;
+        }
+    }
+    cairo_surface_destroy(image);
+    return n;
+}
+
+/* A lower bound was a bar from the axis up to it, over the values that it rules out. */
+static void bars_of_one_end_are_open_at_the_other(void **state)
+{
+    (void)state;
+    const char *path = support_scratch_file("bound.png");
+    const double x[2] = {0.2, 0.8};
+    const double y[2] = {0.95, 0.05};
+    const double low[2] = {0.7, NAN};
+    const double high[2] = {NAN, 0.3};
+    clast_series series = {
+        .kind = CLAST_SERIES_POINTS, .x = x, .y = y, .low = low, .high = high, .n = 2};
+    const clast_chart chart = {.x = {.low = 0.0, .high = 1.0},
+                               .y = {.low = 0.0, .high = 1.0},
+                               .series = &series,
+                               .n_series = 1};
+    CHECK_OK(clast_chart_write(&chart, path));
+    const int64_t n = coloured_quarter(path, false, false);
+    assert_true(n > 150);
+    assert_int_equal(coloured_quarter(path, false, true), 0);
+    assert_int_equal(coloured_quarter(path, true, false), 0);
+    assert_true(coloured_quarter(path, true, true) > 150);
+    const double none[2] = {NAN, NAN};
+    series.low = none;
+    series.high = none;
+    CHECK_OK(clast_chart_write(&chart, path));
+    assert_true(coloured_quarter(path, false, false) < n - 50);
+}
+
+/* The polygon went on over the missing value of one side alone. */
+static void bands_part_where_a_value_is_missing(void **state)
+{
+    (void)state;
+    const char *path = support_scratch_file("band.png");
+    const double x[8] = {0.0, 0.1, 0.2, 0.3, 0.7, 0.8, 0.9, 1.0};
+    const double low[8] = {0.6, 0.6, 0.6, 0.0, 0.0, 0.6, 0.6, 0.6};
+    const double high[8] = {0.9, 0.9, 0.9, NAN, NAN, 0.9, 0.9, 0.9};
+    const clast_series series = {
+        .kind = CLAST_SERIES_BAND, .x = x, .low = low, .high = high, .n = 8};
+    const clast_chart chart = {.x = {.low = 0.0, .high = 1.0},
+                               .y = {.low = 0.0, .high = 1.0},
+                               .series = &series,
+                               .n_series = 1};
+    CHECK_OK(clast_chart_write(&chart, path));
+    for (int right = 0; right < 2; ++right) {
+        assert_true(coloured_quarter(path, right, false) > 1000);
+        assert_int_equal(coloured_quarter(path, right, true), 0);
+    }
+}
+
 /* The last step of sizes.svg, at 80 um, lay on the frame: an end along which a line runs gets room,
  * one that it only meets does not. */
 static void lines_along_the_frame_get_room(void **state)
@@ -287,6 +355,8 @@ int main(void)
         cmocka_unit_test(lines_along_the_frame_get_room),
         cmocka_unit_test(charts_come_in_three_formats_with_equal_bytes),
         cmocka_unit_test(points_on_the_frame_are_whole),
+        cmocka_unit_test(bars_of_one_end_are_open_at_the_other),
+        cmocka_unit_test(bands_part_where_a_value_is_missing),
         cmocka_unit_test(axes_have_the_prefix_that_a_person_writes),
         cmocka_unit_test(heat_maps_have_a_colour_bar),
         cmocka_unit_test(histograms_tell_a_unit),

@@ -353,6 +353,98 @@ static void labels_are_drawn(void **state)
     clast_assembly_free(&a);
 }
 
+/// Pixels of a grey as bright as paper shows through a plate.
+static int64_t pale(const clast_image *image)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < (int64_t)image->width * image->height; ++i) {
+        n += image->rgba[4 * i] > 170 ? 1 : 0;
+    }
+    return n;
+}
+
+/* Dark words stood on dark grains. */
+static void zoomed_labels_have_a_ground(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_render_config config = {0};
+    one_sphere(&a);
+    small_config(&config);
+    CHECK_OK(
+        clast_field_set(clast_fields_find(clast_render_fields, "tint"), &config, "#000000", false));
+    config.colour = CLAST_RENDER_COLOUR_SINGLE;
+    config.background = CLAST_RENDER_WHITE;
+    config.zoom = 30.0;
+    for (int with = 0; with < 2; ++with) {
+        clast_image image = {0};
+        config.scale_bar = with == 1;
+        CHECK_OK(clast_render_assembly(&a, &config, NULL, &image));
+        assert_int_equal(pale(&image) > 200, with == 1);
+        clast_image_free(&image);
+    }
+    clast_fields_free(clast_render_fields, &config);
+    clast_assembly_free(&a);
+}
+
+/* "20 um" stood under a picture where no length is the same twice. */
+static void perspective_tells_where_its_bar_holds(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_render_config config = {0};
+    int64_t ink[2];
+    one_sphere(&a);
+    small_config(&config);
+    config.width = 320;
+    config.height = 240;
+    config.background = CLAST_RENDER_WHITE;
+    config.scale_bar = true;
+    config.field_of_view = 0.01;
+    for (int k = 0; k < 2; ++k) {
+        clast_image image = {0};
+        config.projection = k == 0 ? CLAST_RENDER_ORTHOGRAPHIC : CLAST_RENDER_PERSPECTIVE;
+        CHECK_OK(clast_render_assembly(&a, &config, NULL, &image));
+        ink[k] = marks(&image, 0, 215, 320, 240);
+        clast_image_free(&image);
+    }
+    assert_true(ink[1] > ink[0] + 100); /* "at the centre" */
+    clast_fields_free(clast_render_fields, &config);
+    clast_assembly_free(&a);
+}
+
+/* Bytes that are no UTF-8 ended in "cairo: input string not valid", names were cut within a letter.
+ */
+static void names_are_cut_between_letters(void **state)
+{
+    (void)state;
+    static const char *const name[3] = {
+        "K\xf6rner",
+        "\u041f\u043f\u043f\u043f\u043f\u043f\u043f\u043f\u043f\u043f\u043f\u043f"
+        "\u043f\u043f\u043f\u043f\u043f\u043f\u043f\u043f",
+        "a2345678901234567890123456789012345678901"};
+    static const char *const shown[3] = {"K\\xf6rner", NULL,
+                                         "a234567890123456789012345678901234567\u2026"};
+    clast_assembly a = {0};
+    clast_render_config config = {0};
+    clx_legend legend = {0};
+    small_config(&config);
+    config.colour = CLAST_RENDER_COLOUR_SHAPE;
+    config.colour_bar = true;
+    for (int i = 0; i < 3; ++i) {
+        clast_shape ball = {0};
+        CHECK_OK(clast_shape_sphere(name[i], 2.0, &ball));
+        add(&a, &ball, 3.0 * i, 0.0, 0.0, 1.0);
+        clast_shape_free(&ball);
+    }
+    CHECK_OK(clx_legend_make(&a, &config, 1.0, NULL, &legend));
+    for (int i = 0; i < 3; ++i) {
+        assert_string_equal(legend.text[i], shown[i] != NULL ? shown[i] : name[i]);
+    }
+    clast_fields_free(clast_render_fields, &config);
+    clast_assembly_free(&a);
+}
+
 static void wrong_settings_are_refused(void **state)
 {
     (void)state;
@@ -477,6 +569,9 @@ int main(void)
         cmocka_unit_test(balls_throw_shadows),
         cmocka_unit_test(labels_are_drawn),
         cmocka_unit_test(one_size_has_few_digits),
+        cmocka_unit_test(zoomed_labels_have_a_ground),
+        cmocka_unit_test(names_are_cut_between_letters),
+        cmocka_unit_test(perspective_tells_where_its_bar_holds),
         cmocka_unit_test(wrong_settings_are_refused),
         cmocka_unit_test(monitor_can_stop),
         cmocka_unit_test(rendering_survives_refused_memory),
