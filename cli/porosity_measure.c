@@ -92,7 +92,7 @@ static clast_status check_sides(const cli_porosity_bed *s, const cli_porosity_wa
     if (!wanted->is_given || clast_bed_period(&s->bed, period)) {
         return CLAST_OK;
     }
-    CLI_GUARD(clast_bed_beyond_measure(&s->assembly, &s->bed, &f->bulk, wanted->options.method,
+    CLI_GUARD(clast_bed_beyond_measure(&s->bed, &s->assembly, &f->bulk, wanted->options.method,
                                        &f->beyond));
     return f->beyond.solid <= MOST_BEYOND * f->bulk.solid || wanted->pores > 0
                ? CLAST_OK

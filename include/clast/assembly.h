@@ -173,9 +173,9 @@ typedef struct clast_printable_config {
 
 /// What was made.
 typedef struct clast_printable_report {
-    double neck, spacing;    ///< as used [m]
-    double smallest_feature; ///< thinner of neck and thinnest grain [m], a surface or a clump as
-                             ///< its ellipsoid of equal moments; below 2 spacing it may be lost
+    double neck, spacing;       ///< as used [m]
+    double smallest_feature;    ///< thinner of neck and thinnest grain [m], a surface or a clump as
+                                ///< its ellipsoid of equal moments; below 2 spacing it may be lost
     bool resolved;              ///< smallest_feature is 2 spacings or more, and nothing is `lost`
     int32_t n_part;             ///< connected pieces; 1 on success
     int32_t n_void;             ///< closed voids found

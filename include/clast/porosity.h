@@ -165,8 +165,8 @@ typedef struct clast_bed_beyond {
 /// @param beyond  written only on success
 /// @return CLAST_E_MEMORY, or what a bed's surface or a grain's is refused with
 /// @note the same bytes for any thread count
-CLAST_API clast_status clast_bed_beyond_measure(const clast_assembly *assembly,
-                                                const clast_bed *bed,
+CLAST_API clast_status clast_bed_beyond_measure(const clast_bed *bed,
+                                                const clast_assembly *assembly,
                                                 const clast_porosity_bulk *bulk,
                                                 clast_porosity_method method,
                                                 clast_bed_beyond *beyond);

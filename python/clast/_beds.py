@@ -206,7 +206,7 @@ def _beyond(b: _Bed, given: dict[str, Any], options: Any, bulk: Any) -> Any:
     found = c.clast_bed_beyond(-1, float("nan"), float("nan"))
     if not given["bed"] or b.bed.kind in (c.VALUES["CLAST_BED_PERIODIC"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
         return found
-    check(call("clast_bed_beyond_measure")(ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), ctypes.byref(bulk), options.method,
+    check(call("clast_bed_beyond_measure")(ctypes.byref(b.bed), ctypes.byref(b.grains._owner.struct), ctypes.byref(bulk), options.method,
                                            ctypes.byref(found)))
     told = (f"{found.n} of {len(b.grains)} grains reach beyond its sides, by up to {found.depth:.4g}, with {100 * found.solid / bulk.solid:.3g} % of "
             "the solid that counts as inside" if found.n else "")

@@ -53,7 +53,8 @@ static clast_status check_cohesion(const clast_dem_config *config)
     CLX_CHECK(is_area || config->cohesion_energy == 0.0, CLAST_E_CONFIG,
               "cohesion_energy %g J/m^3 acts with cohesion area alone", config->cohesion_energy);
     CLX_CHECK(is_surface || config->surface_energy == 0.0, CLAST_E_CONFIG,
-              "surface_energy %g J/m^2 acts with cohesion dmt or jkr alone", config->surface_energy);
+              "surface_energy %g J/m^2 acts with cohesion dmt or jkr alone",
+              config->surface_energy);
     CLX_CHECK(!is_area || config->cohesion_energy > 0.0, CLAST_E_CONFIG,
               "cohesion area attracts by cohesion_energy, which is 0");
     CLX_CHECK(!is_surface || config->surface_energy > 0.0, CLAST_E_CONFIG,

@@ -127,7 +127,7 @@ static void find_beyond(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
-clast_status clast_bed_beyond_measure(const clast_assembly *assembly, const clast_bed *bed,
+clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly *assembly,
                                       const clast_porosity_bulk *bulk, clast_porosity_method method,
                                       clast_bed_beyond *beyond)
 {

@@ -123,11 +123,12 @@ static clast_status make_ellipsoid(const char *name, const double semi_axes[3],
         const double q = a[(k + 2) % 3];
         made.inertia[k][k] = made.volume * (p * p + q * q) / 5.0;
     }
-    CLX_CHECK(made.volume > 0.0 && isfinite(made.volume) && made.inertia[0][0] > 0.0 &&
-                  isfinite(made.inertia[2][2]),
-              CLAST_E_GEOMETRY,
-              "%s: semi-axes %g, %g, %g give a volume of %g m^3 and moments of inertia up to %g m^5",
-              name != NULL ? name : "shape", a[0], a[1], a[2], made.volume, made.inertia[2][2]);
+    CLX_CHECK(
+        made.volume > 0.0 && isfinite(made.volume) && made.inertia[0][0] > 0.0 &&
+            isfinite(made.inertia[2][2]),
+        CLAST_E_GEOMETRY,
+        "%s: semi-axes %g, %g, %g give a volume of %g m^3 and moments of inertia up to %g m^5",
+        name != NULL ? name : "shape", a[0], a[1], a[2], made.volume, made.inertia[2][2]);
     CLX_TRY(name_shape(name, &made));
     *shape = made;
 done:
