@@ -302,7 +302,8 @@ clast_status clx_pack_fill_cell(clast_pack *p)
     if (p->config.dem.domain != CLAST_DEM_CELL || p->phase != CLAST_PACK_GENERATE) {
         return CLAST_OK;
     }
-    CLX_TRY(p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p));
+    CLX_TRY(
+        clx_dem_agree(p->dem, p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p)));
     CLX_CHECK(
         p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
         "the cell holds %s of %s on this lattice without overlaps; take a larger cell (width, "

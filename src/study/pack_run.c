@@ -292,7 +292,6 @@ static clast_status prepare(run *r, bool goes_on)
     CLX_TRY((goes_on ? clx_pack_create_again : clast_pack_create)(r->config, &r->source.input,
                                                                   &r->pack));
     CLX_TRY(clx_pack_share(r->pack, r->comm));
-    CLX_TRY(goes_on ? CLAST_OK : clx_pack_fill_cell(r->pack));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
     }
@@ -316,6 +315,15 @@ static clast_status begin(run *r, const char *folder, bool force)
         r->folder = clast_run_folder_path(r->own);
     }
     CLX_TRY(prepare(r, false));
+done:
+    return status;
+}
+
+/// Fills a cell, which may be too small, before there is a folder.
+static clast_status fill(run *r)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_pack_fill_cell(r->pack));
     if (r->folder != NULL) {
         CLX_TRY(clast_run_folder_open(r->own));
     }
@@ -341,6 +349,7 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
     }
     CLX_TRY(check_ranks(&r));
     CLX_TRY(clast_comm_agree(r.comm, begin(&r, folder, config->force), NULL));
+    CLX_TRY(clast_comm_agree(r.comm, fill(&r), NULL));
     status = save(&r);
     status = finish(&r, status == CLAST_OK ? go(&r) : status, result);
 done:
