@@ -236,7 +236,7 @@ static void sheared_bed_is_the_straight_one_of_twice_its_height(void **state)
     clast_bed bed[2];
     clast_table local[2] = {{0}, {0}};
     clast_table fields[2] = {{0}, {0}};
-    clast_pores pores[2] = {{0}, {0}};
+    clast_pores pores[2] = {0};
     const double z[2][2] = {{0.0, 3.0}, {0.0, 6.0}};
     double sum = 0.0;
     for (int i = 0; i < N; ++i) {

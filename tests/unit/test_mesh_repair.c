@@ -292,7 +292,7 @@ static void add_walled_boxes(clast_mesh *mesh, int n)
     CHECK_OK(clast_mesh_alloc(welded.n_vert, 0, mesh));
     memcpy(mesh->vert, welded.vert, (size_t)welded.n_vert * sizeof *welded.vert);
     for (int k = 0; k < n; ++k) {
-        mesh_add_triangles(mesh, welded.tri, welded.n_tri);
+        mesh_add_triangles(mesh, (const int32_t(*)[3])welded.tri, welded.n_tri);
     }
     clast_mesh_free(&welded);
     clast_mesh_free(&boxes);
@@ -352,8 +352,8 @@ static void bodies_written_twice_stay_once(void **state)
     mesh_add_box(&mesh, 1.0, 9.0, 0.0, 0.0);
     int32_t first[12][3];
     memcpy(first, mesh.tri, sizeof first);
-    mesh_add_triangles(&mesh, first, 12);
-    mesh_add_triangles(&mesh, first, 12);
+    mesh_add_triangles(&mesh, (const int32_t(*)[3])first, 12);
+    mesh_add_triangles(&mesh, (const int32_t(*)[3])first, 12);
     mesh_flip(&mesh, 30); /* one facet of 36 runs backward */
     assert_int_equal(repair_parts_to(&mesh, 2, 9.0, 1e-14).n_duplicate, 24);
     clast_mesh_free(&mesh);
