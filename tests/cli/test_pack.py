@@ -410,7 +410,7 @@ class Pack(Case):
             wanted = sum(volume[s] * density[s.startswith("2")] for s in shapes)
             self.assertAlmostEqual(made.json["mass"] / wanted, 1, 12)
         self.assert_fails(2, *SMALL, "--density", "1", "--density", "2", says=("2 densities for 1 shapes",))
-        self.assert_fails(2, *SMALL, *pair[:4], "--density", "2650", "--density", "900", says=("900 kg/m3 do not sink",))
+        self.assert_fails(2, *SMALL, *pair[:4], "--density", "2650", "--density", "900", says=("900 kg/m^3 do not sink",))
 
     def rows(self, path):
         with open(path, newline="", encoding="utf-8") as file:
