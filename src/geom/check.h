@@ -18,7 +18,8 @@ bool clx_is_flat_at(const clast_mesh *mesh, const int32_t tri[3]);
 
 /// Marks [n_tri] superfluous triangles among those with the same three corners: all but one that
 /// runs as most of them do (overlapping scans, a body written twice), or all of them where the
-/// surface is closed without (two bodies' common wall). Collapsed ones are left out.
+/// surface is closed without (two bodies' common wall). Collapsed ones are left out. Without a
+/// topology the surface is closed, and stays so: all of an even number go, as a filled fin's.
 clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *topology,
                                  bool *duplicate, int32_t *n_duplicate);
 

@@ -168,14 +168,19 @@ static void judge_patches(const clx_topology *topology, int32_t n_tri, facets *f
     }
 }
 
+/// Whether a place that was judged has a facet.
+static bool wants_facet(facets *f, int32_t tri)
+{
+    const int32_t patch = clx_sets_find(f->patch, tri);
+    return f->vote[patch] != 0 ? f->vote[patch] > 0 : f->is_copy[patch];
+}
+
 /// Marks all n triangles of a place, or all but the first that runs as most do.
 /// @return how many
-static int32_t mark_place(facets *f, const sorted_triangle *sorted, int32_t n, bool *duplicate)
+static int32_t mark_place(const sorted_triangle *sorted, int32_t n, bool wants, bool *duplicate)
 {
-    const int32_t patch = clx_sets_find(f->patch, sorted[0].tri);
     const int32_t balance = balance_of(sorted, n);
     const bool is_turned = balance != 0 ? balance < 0 : sorted[0].is_turned;
-    bool wants = f->vote[patch] != 0 ? f->vote[patch] > 0 : f->is_copy[patch];
     const int32_t n_marked = wants ? n - 1 : n;
     for (int32_t i = 0; i < n; ++i) {
         const bool is_kept = wants && (sorted[i].is_turned == is_turned);
@@ -196,11 +201,14 @@ clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *top
     if (find_places(mesh, &f) == 0) {
         goto done;
     }
-    judge_patches(topology, mesh->n_tri, &f);
+    if (topology != NULL) {
+        judge_patches(topology, mesh->n_tri, &f);
+    }
     for (int32_t i = 0, n = 0; i < f.n; i += n) {
         n = count_equal(f.sorted + i, f.n - i);
         if (n > 1) {
-            *n_duplicate += mark_place(&f, f.sorted + i, n, duplicate);
+            const bool wants = topology != NULL ? wants_facet(&f, f.sorted[i].tri) : n % 2 == 1;
+            *n_duplicate += mark_place(f.sorted + i, n, wants, duplicate);
         }
     }
 done:

@@ -305,7 +305,6 @@ static clast_status drop_fins(clast_mesh *mesh, bool *turned, int32_t *n_known,
                               clast_mesh_repair_report *report)
 {
     clast_status status = CLAST_OK;
-    clx_topology topology = {0};
     bool *mark = NULL;
     int32_t n = 0;
     int32_t n_duplicate = 0;
@@ -313,8 +312,7 @@ static clast_status drop_fins(clast_mesh *mesh, bool *turned, int32_t *n_known,
         return CLAST_OK;
     }
     CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
-    CLX_TRY(clx_topology_build(mesh, &topology));
-    CLX_TRY(clx_find_duplicates(mesh, &topology, mark, &n_duplicate));
+    CLX_TRY(clx_find_duplicates(mesh, NULL, mark, &n_duplicate));
     for (int32_t t = 0; t < *n_known; ++t) {
         turned[n] = turned[t];
         n += !mark[t];
@@ -322,7 +320,6 @@ static clast_status drop_fins(clast_mesh *mesh, bool *turned, int32_t *n_known,
     *n_known = n;
     report->n_duplicate += clx_drop_marked(mesh, mark);
 done:
-    clx_topology_free(&topology);
     clx_free(mark);
     return status;
 }

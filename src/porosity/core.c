@@ -143,6 +143,8 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
                        .set = &set,
                        .method = method,
                        .z = {bulk->z_low, bulk->z_high}};
+    CLX_CHECK((unsigned)method <= CLAST_POROSITY_SPHERES, CLAST_E_ARGUMENT,
+              "porosity: there is no method %d", (int)method);
     if (clast_bed_period(bed, period)) {
         *beyond = made;
         return CLAST_OK;
