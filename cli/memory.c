@@ -99,7 +99,10 @@ static clast_status count_ranks(const cli_common *common, int32_t *n)
         return CLAST_OK;
     }
     name = calloc((size_t)comm->n_rank, sizeof *name);
-    CLI_TRY(cli_agree(common, name != NULL ? CLAST_OK : CLAST_E_MEMORY));
+    status = cli_agree(common, name != NULL ? CLAST_OK : CLAST_E_MEMORY);
+    if (name == NULL || status != CLAST_OK) { // without a name it is not, on any rank
+        goto done;
+    }
     (void)gethostname((char *)name[comm->rank], sizeof *name - 1);
     comm->sum(comm->context, name[0], (int64_t)comm->n_rank * WORDS); // the others' are 0 here
     for (int32_t k = 0; k < comm->n_rank; ++k) {
