@@ -5,6 +5,7 @@
 #include "math/vec3.h"
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const char *clx_next_word(const char *text, char *word, size_t size)
@@ -164,8 +165,8 @@ static const char *read_motion(const char *name, const char *const next[2], clx_
     return "expected move, vibrate, axis, about, rotate, swing, table, press or area, not";
 }
 
-/// What is wrong with a word before what follows it is read, or NULL; *given: the words so far.
-static const char *refuse_word(const clast_pack_config *c, const char *name, uint32_t *given)
+/// Why a word does nothing, or undoes another, or NULL; *given: the words so far.
+static const char *idle_word(const clast_pack_config *c, const char *name, uint32_t *given)
 {
     static const char *const names[] = {"press", "area",   "move",    "about", "axis",
                                         "table", "rotate", "vibrate", "swing"};
@@ -258,10 +259,13 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
             word[k][0] = next != NULL ? word[k][0] : '\0';
             after = next;
         }
-        const char *wrong = refuse_word(c, word[0], &given);
-        wrong = wrong != NULL
-                    ? wrong
-                    : read_motion(word[0], (const char *const[2]){word[1], word[2]}, &w, &taken);
+        const char *idle = idle_word(c, word[0], &given);
+        if (idle != NULL && w.idle == NULL) {
+            w.idle = idle;
+            (void)snprintf(w.idle_word, sizeof w.idle_word, "%s", word[0]);
+        }
+        const char *wrong =
+            read_motion(word[0], (const char *const[2]){word[1], word[2]}, &w, &taken);
         if (wrong != NULL) {
             return fail(c, i, wrong, word[taken < 3 ? taken : 2]);
         }
@@ -271,6 +275,18 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
     }
     CLX_TRY(check(c, i, &w));
     *out = w;
+done:
+    return status;
+}
+
+clast_status clx_walls_check_idle(const clast_pack_config *c)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < c->wall.n; ++i) {
+        clx_wall_words w;
+        CLX_TRY(clx_wall_read(c, i, &w));
+        CLX_TRY(w.idle == NULL ? CLAST_OK : fail(c, i, w.idle, w.idle_word));
+    }
 done:
     return status;
 }

@@ -11,10 +11,15 @@ typedef struct clx_wall_words {
     char file[CLX_WALL_PATH];  ///< empty: a wall of the domain
     char unit[16];             ///< of that file
     char table[CLX_WALL_PATH]; ///< empty: none
+    const char *idle;          ///< what is wrong with a word that does nothing, or NULL
+    char idle_word[16];
 } clx_wall_words;
 
 /// Reads option `wall` number i. CLAST_E_CONFIG names it and what is wrong.
 clast_status clx_wall_read(const clast_pack_config *config, int32_t i, clx_wall_words *out);
+
+/// Refuses words of walls that do nothing: given twice, or to be pressed by no stage.
+clast_status clx_walls_check_idle(const clast_pack_config *config);
 
 /// Number of a wall of the domain among the simulation's, or -1; the direction into the domain.
 int32_t clx_wall_of_domain(const clast_dem_config *config, const char *name, double inward[3]);
