@@ -283,7 +283,7 @@ clast_status clx_walls_check_idle(const clast_pack_config *c)
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < c->wall.n; ++i) {
-        clx_wall_words w;
+        clx_wall_words w = {.idle = NULL};
         CLX_TRY(clx_wall_read(c, i, &w));
         CLX_TRY(w.idle == NULL ? CLAST_OK : fail(c, i, w.idle, w.idle_word));
     }

@@ -245,6 +245,7 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--wall", wall + " fly", says=("wall 1", "expected move"))
         self.assert_fails(2, *bed, "--wall", wall + " rotate 3rpm", says=("wall 1", "no axis"))
         self.assert_fails(2, *bed, "--wall", wall + " axis 0,0,1 rotate 3", says=("wall 1", "expected an angular velocity"))
+        table.write_text("time_s,z_m\n0,0\n1,1\n", encoding="utf-8")
         for words in ("move 0,0,10mm/s", "vibrate 0,0,0.2mm 20ms", "axis 0,0,1", "rotate 30rpm", "swing 5deg 20ms", "about 0,0,1mm", f"table {table}"):
             once = "axis 0,0,1 rotate 30rpm" + ("" if words in ("axis 0,0,1", "rotate 30rpm") else " " + words)
             self.assert_fails(2, *bed, "--wall", f"{wall} {once} {words}", says=("wall 1", f"it is given twice: '{words.split()[0]}'"))
