@@ -83,7 +83,7 @@ typedef struct clast_dem_config {
     bool gyroscopic;         ///< angular momentum is kept (eq. 3); the reference leaves it out
     int32_t clump_contacts;  ///< clast_dem_clump_contacts
     double time_step;        ///< [s]
-    double gravity;          ///< [m/s2], along -z
+    double gravity;          ///< [m/s^2], along -z
     double fluid_density;    ///< buoyancy, eq. 10 [kg/m^3]
     double fluid_viscosity;  ///< drag, torque of fluid at rest; 0: none [Pa s]
     int32_t sphere_drag;     ///< clast_dem_sphere_drag

@@ -7,11 +7,11 @@ CLAST_BEGIN
 typedef struct clast_fluid {
     double density;   ///< kg/m^3
     double viscosity; ///< dynamic, Pa s
-    double gravity;   ///< m/s2
+    double gravity;   ///< m/s^2
 } clast_fluid;
 
 /// Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m^3, 1.7894e-5 Pa s;
-/// standard gravity 9.80665 m/s2.
+/// standard gravity 9.80665 m/s^2.
 CLAST_API clast_fluid clast_fluid_air(void);
 
 /// Drag corrections of a body's form; 1 and 1 for a sphere.

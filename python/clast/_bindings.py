@@ -4008,7 +4008,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_run_folder_check': (c_int, [c_char_p], 'For readers: CLAST_OK when the folder holds a whole run, or a study, else CLAST_E_IO with one line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN" .'),
     'clast_run_folder_owns': (c_bool, [c_char_p], 'Whether an existing file is part of a run: its folder, or one above it, holds the run that wrote it.'),
     'clast_run_folder_state': (c_int, [c_char_p, c_char_p], "The state file that a command's argument means: a run folder's state.h5, else the argument itself."),
-    'clast_fluid_air': (clast_fluid, [], 'Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m^3, 1.7894e-5 Pa s; standard gravity 9.80665 m/s2.'),
+    'clast_fluid_air': (clast_fluid, [], 'Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m^3, 1.7894e-5 Pa s; standard gravity 9.80665 m/s^2.'),
     'clast_drag_of_form': (c_int, [c_double, c_double, c_double, c_double, c_double, POINTER(clast_drag)], 'Corrections from the form dimensions L >= I >= S and the volume-equivalent diameter d (all in one unit), and from the density of the body over that of the fluid, r.'),
     'clast_drag_coefficient': (c_double, [POINTER(clast_drag), c_double], 'Drag coefficient at a Reynolds number > 0 by volume-equivalent diameter and area pi d^2 / 4: C_D = 24 k_S / Re (1 + 0.125 (Re k_N / k_S)^(2/3)) + 0.46 k_N / (1 + 5330 / (Re k_N / k_S)) fitted for Re < 3e5.'),
     'clast_drag_sphere': (c_double, [c_double], 'Drag coefficient of a sphere: the standard curve of Clift and Gauvin, for Re < 3e5.'),

@@ -9,6 +9,9 @@ typedef struct clast_field clast_field;
 clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double typical,
                                   double *value);
 
+/// Whether it is a unit of any dimension, in either spelling: "um^2", "um2".
+bool clx_unit_is_known(const char *name);
+
 /// Whether the value at `slot` is one that the field can have: finite and in its range, a choice of
 /// its list, a text.
 ///

@@ -56,16 +56,13 @@ static const unit units[] = {
     {"min", "s", 60.0},
     {"h", "s", 3600.0},
     {"kg/m^3", "kg/m^3", 1.0},
-    {"kg/m3", "kg/m^3", 1.0},
     {"g/cm^3", "kg/m^3", 1e3},
-    {"g/cm3", "kg/m^3", 1e3},
     {"m/s", "m/s", 1.0},
     {"cm/s", "m/s", 1e-2},
     {"mm/s", "m/s", 1e-3},
     {"um/s", "m/s", 1e-6},
     {"nm/s", "m/s", 1e-9},
     {"m/s^2", "m/s^2", 1.0},
-    {"m/s2", "m/s^2", 1.0},
     {"Pa", "Pa", 1.0},
     {"kPa", "Pa", 1e3},
     {"MPa", "Pa", 1e6},
@@ -78,7 +75,6 @@ static const unit units[] = {
     {"uPa s", "Pa s", 1e-6},
     {"uPa*s", "Pa s", 1e-6},
     {"m^2/s", "m^2/s", 1.0},
-    {"m2/s", "m^2/s", 1.0},
     {"m^2/s^3", "m^2/s^3", 1.0},
     {"m^3/s", "m^3/s", 1.0},
     {"1/s", "1/s", 1.0},
@@ -91,9 +87,7 @@ static const unit units[] = {
     {"pJ", "J", 1e-12},
     {"fJ", "J", 1e-15},
     {"J/m^3", "J/m^3", 1.0},
-    {"J/m3", "J/m^3", 1.0},
     {"J/m^2", "J/m^2", 1.0},
-    {"J/m2", "J/m^2", 1.0},
     {"mJ/m^2", "J/m^2", 1e-3},
     {"N", "N", 1.0},
     {"mN", "N", 1e-3},
@@ -102,11 +96,8 @@ static const unit units[] = {
     {"pN", "N", 1e-12},
     {"N/m", "N/m", 1.0},
     {"1/m^3", "1/m^3", 1.0},
-    {"1/m3", "1/m^3", 1.0},
     {"1/cm^3", "1/m^3", 1e6},
-    {"1/cm3", "1/m^3", 1e6},
     {"1/mm^3", "1/m^3", 1e9},
-    {"1/mm3", "1/m^3", 1e9},
     {"B", "B", 1.0},
     {"kB", "B", 1e3},
     {"MB", "B", 1e6},
@@ -137,7 +128,8 @@ static void list_known(const char *si, char known[KNOWN_SIZE])
     }
 }
 
-/// The name in ASCII: "\302\265g" (either micro sign) -> "ug", "m/s\302\262" -> "m/s^2".
+/// The name in ASCII, with its exponents marked: "\302\265g" (either micro sign) -> "ug",
+/// "m/s\302\262" and "m/s2" -> "m/s^2".
 static void to_ascii(const char *name, char plain[KNOWN_SIZE])
 {
     static const char *const signs[][2] = {{"\302\265", "u"},
@@ -149,6 +141,9 @@ static void to_ascii(const char *name, char plain[KNOWN_SIZE])
     size_t used = 0;
     while (*name != '\0' && used + 4 < KNOWN_SIZE) {
         int k = 0;
+        if (isdigit((unsigned char)*name) && used > 0 && isalpha((unsigned char)plain[used - 1])) {
+            plain[used++] = '^';
+        }
         while (k < N_SIGN && strncmp(name, signs[k][0], 2) != 0) {
             ++k;
         }
@@ -184,6 +179,18 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
         return CLAST_OK;
     }
     return unknown(name, si_unit);
+}
+
+bool clx_unit_is_known(const char *name)
+{
+    char plain[KNOWN_SIZE];
+    to_ascii(name, plain);
+    for (int i = 0; i < N_UNIT; ++i) {
+        if (strcmp(units[i].name, plain) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Units that people choose among, all of them in `units`, the largest first: a number gets the

@@ -27,7 +27,7 @@ clast_status clx_cell_make(clast_dem *dem)
     CLX_CHECK(!c->floor && !c->lid, CLAST_E_CONFIG,
               "domain cell is periodic in z, too: it has no floor and no lid (floor: no, lid: no)");
     CLX_CHECK(c->gravity == 0.0, CLAST_E_CONFIG,
-              "gravity %g m/s2: in domain cell, which has no floor, grains would fall for ever; "
+              "gravity %g m/s^2: in domain cell, which has no floor, grains would fall for ever; "
               "take gravity 0",
               c->gravity);
     CLX_CHECK(c->fluid_viscosity == 0.0, CLAST_E_CONFIG,

@@ -5,7 +5,7 @@
 
 typedef struct clx_moving {
     clast_dem *dem;
-    double shake;   ///< acceleration along x [m/s2]
+    double shake;   ///< acceleration along x [m/s^2]
     double damping; ///< factor of a step
     double stride;  ///< share of its radius that a grain may move in a step
 } clx_moving;

@@ -7,6 +7,7 @@
 #include <clast/table.h>
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/file.h"
 #include "base/number.h"
 #include <inttypes.h>
@@ -336,21 +337,23 @@ static clast_status cell_text(const cell *x, char **text)
     return status;
 }
 
+/// Whether these n bytes are a unit, which is copied as it is written. What no number is given in
+/// by itself, such as moments of inertia by density [m^5], is one of columns alone.
 static bool is_unit(const char *name, size_t n, char unit[32])
 {
-    static const char *const known[] = {
-        "m",     "cm",     "mm",    "um",     "\xc2\xb5m", "\xce\xbcm", "nm",   "km",    "rad",
-        "deg",   "kg",     "g",     "mg",     "t",         "s",         "ms",   "us",    "min",
-        "h",     "kg/m^3", "kg/m3", "g/cm^3", "g/cm3",     "m/s",       "cm/s", "mm/s",  "m/s^2",
-        "m/s2",  "Pa",     "kPa",   "MPa",    "GPa",       "Pa*s",      "K",    "J",     "N",
-        "N/m",   "%",      "-",     "phi",    "1/s",       "m^2",       "m2",   "m^3",   "m3",
-        "mm^3",  "mm3",    "um^3",  "um3",    "mm2",       "um2",       "1/m",  "1/m^2", "1/m2",
-        "1/m^3", "1/m3",   "m^5",   "m5"};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        if (strlen(known[i]) == n && memcmp(known[i], name, n) == 0) {
-            (void)snprintf(unit, 32, "%s", known[i]);
-            return true;
-        }
+    static const char *const alone[] = {"phi", "1/m^2", "1/m2", "m^5", "m5"};
+    char text[32];
+    bool is_one = false;
+    if (n == 0 || n >= sizeof text) {
+        return false;
+    }
+    (void)snprintf(text, sizeof text, "%.*s", (int)n, name);
+    for (size_t i = 0; i < sizeof alone / sizeof alone[0]; ++i) {
+        is_one |= strcmp(alone[i], text) == 0;
+    }
+    if (is_one || clx_unit_is_known(text)) {
+        memcpy(unit, text, n + 1);
+        return true;
     }
     return false;
 }
@@ -368,7 +371,7 @@ static void unit_of(const char *name, char unit[32])
         return;
     }
     const char *bar = strrchr(name, '_');
-    if (bar != NULL && bar > name) {
+    if (bar != NULL && bar > name && strcmp(bar, "_in") != 0) { // "flow_in" flows in
         (void)is_unit(bar + 1, strlen(bar + 1), unit);
     }
 }

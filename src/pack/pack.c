@@ -283,7 +283,7 @@ static clast_status check_waiting(clast_pack *p, double low)
     CLX_TRY(clx_dem_gather_grains(p->dem));
     const double sinking = sinking_time(p, low);
     CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
-              "nothing draws the grains of fill %d down from above %s (gravity %g m/s2, "
+              "nothing draws the grains of fill %d down from above %s (gravity %g m/s^2, "
               "initial_speed %s): no room comes for the others",
               p->n_fill, clx_unit_text(low, "m"), gravity,
               clx_unit_text(p->config.initial_speed, "m/s"));

@@ -147,11 +147,14 @@ static void options_overrule_guesses(void **state)
 static void headers_tell_units(void **state)
 {
     (void)state;
-    static const char *const units[] = {"m", "um", "kg/m^3", "-", "\xc2\xb5m", "-"};
+    static const char *const units[] = {"m",  "um",   "kg/m^3", "-",   "\xc2\xb5m", "-",
+                                        "ug", "um^2", "ns",     "m^5", "-",         "in"};
     clast_table t = {0};
     CHECK_OK(
-        parse("d_m,diameter (um),rho [kg/m^3],n,s_\xc2\xb5m,odd_name\n1,2,3,4,5,6\n", &t, NULL));
-    for (int32_t i = 0; i < 6; ++i) {
+        parse("d_m,diameter (um),rho [kg/m^3],n,s_\xc2\xb5m,odd_name,mass (ug),area [um^2],t_ns,"
+              "inertia_m^5,flow_in,d (in)\n1,2,3,4,5,6,7,8,9,10,11,12\n",
+              &t, NULL));
+    for (int32_t i = 0; i < t.n_column; ++i) {
         assert_string_equal(t.column[i].unit, units[i]);
     }
     clast_table_free(&t);

@@ -167,6 +167,15 @@ static void what_is_printed_can_be_read(void **state)
     double value = 0.0;
     CHECK_OK(clast_unit_parse("1 \316\274g", "kg", &value));
     CHECK_REL(value, 1e-9, 1e-15);
+    static const char *const twice[][3] = {
+        {"um^2", "um2", "m^2"},          {"mm^3", "mm3", "m^3"},     {"1/mm^3", "1/mm3", "1/m^3"},
+        {"m^2/s^3", "m2/s3", "m^2/s^3"}, {"m/s^2", "m/s2", "m/s^2"}, {"mJ/m^2", "mJ/m2", "J/m^2"}};
+    for (size_t k = 0; k < sizeof twice / sizeof *twice; ++k) {
+        double factor[2] = {0.0, 0.0};
+        CHECK_OK(clast_unit_factor(twice[k][0], twice[k][2], &factor[0]));
+        CHECK_OK(clast_unit_factor(twice[k][1], twice[k][2], &factor[1]));
+        CHECK_REL(factor[1], factor[0], 0.0);
+    }
     CHECK_STATUS(clast_unit_parse("1 oz", "kg", &value), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "known here: kg, g, mg, ug, ng, pg, fg, t"));
 }
