@@ -45,12 +45,12 @@ def _is_whole(keys: dict[str, Any]) -> bool:
 
 
 def _make_printable(config: Config, folder: str, monitor: Monitor) -> Result:
-    """The printable body of a whole run, whose results are returned."""
+    """The printable body of a whole run, whose results are returned with the body's under `printable`."""
     wanted = c.clast_printable_config(neck=config.struct.neck, spacing=config.struct.spacing)
     made = c.clast_printable_report()
     check(monitor.run(lambda m: call("clast_aggregate_make_printable")(encoded("resumed", folder), ctypes.byref(wanted), m, ctypes.byref(made))))
-    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-        return Result(json.load(file), folder)
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as summary, open(os.path.join(folder, "printable.json"), encoding="utf-8") as body:
+        return Result({**json.load(summary), "printable": json.load(body)}, folder)
 
 
 def _resumed(output: Path | None, keys: dict[str, Any], free: tuple[str, ...] = ()) -> str | None:

@@ -205,11 +205,17 @@ done:
     return status;
 }
 
-/// A study has none.
+/// A study has none. The body for printers, which may be made later, has a file of its own.
 static clast_status read_summary(clx_run *run)
 {
     if (clx_run_has(run, "summary.json")) {
-        return read_object(run, "summary.json", &run->summary);
+        json_t *body = NULL;
+        clast_status status = read_object(run, "summary.json", &run->summary);
+        if (status == CLAST_OK && clx_run_has(run, "printable.json")) {
+            status = read_object(run, "printable.json", &body);
+            (void)json_object_set_new(run->summary, "printable", body);
+        }
+        return status;
     }
     run->summary = json_object();
     return run->summary != NULL ? CLAST_OK : clx_fail(CLAST_E_MEMORY, "not enough memory");

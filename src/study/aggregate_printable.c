@@ -15,6 +15,7 @@
 #include <clast/assembly.h>
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
+#include <clast/report.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
@@ -377,6 +378,7 @@ clast_status clx_folder_list_printable(const char *folder)
     }
     CLX_TRY(clx_file_write(&file, at, strlen(at)));
     CLX_TRY(clx_file_commit(&file));
+    CLX_TRY(clast_report_write_run(folder, NULL));
 done:
     clx_file_abandon(&file);
     clx_free(text);

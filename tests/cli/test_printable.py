@@ -40,6 +40,10 @@ class Printable(Case):
         self.assertEqual(result.code, 0, result.err)
         self.assert_clean(run / "printable.stl")
         self.assert_clean(run / "aggregate.stl", 13)
+        for spacing in (5, 6):  # a later body's numbers take the place of the first's on the page
+            page = re.sub("<[^>]*>", " ", (run / "report.html").read_text())
+            self.assertRegex(page, rf"Printable body\s+Smallest feature[^S]*The grid resolves it[^S]*Share of [^S]*Spacing of the grid\s+{spacing}.000")
+            self.assertEqual(clast("aggregate", "--resume", run, "--printable", "--spacing", "6um").code, 0)
 
     def test_the_size_of_the_file_follows_the_spacing_and_is_told(self):
         sizes = []

@@ -322,6 +322,8 @@ class Commands(unittest.TestCase):
         with self.assertLogs("clast", "INFO") as caught:
             clast.aggregate(core="sphere", core_size="270um", coat="sphere", size="100um", replicate=2, printable=True, output=self.folder / "run")
         self.assertIn("printable", caught.output[0])
+        again = clast.aggregate(resume=self.folder / "run", printable=True)
+        self.assertTrue(again.printable["resolved"])
 
     def said(self, *words):
         """What the command says on both streams, without its JSON."""
