@@ -10,7 +10,7 @@ mpi: group = mpi
 dev release tsan coverage minimal mpi:
 	@tools/setup.sh $(group)
 	@tools/build.sh $@
-quick: dev
+quick: dev # every test under sanitizers
 	@ctest --test-dir build/dev -j2 --output-on-failure --no-tests=error
 test:
 	@command -v bash >/dev/null && tools/test.sh

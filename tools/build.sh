@@ -10,4 +10,6 @@ if [ ! -f "$made" ] || [ /var/lib/dpkg/status -nt "$made" ]; then
     cmake --preset "$preset" > "$log" 2>&1 || { cat "$log"; rm -f "$made"; exit 1; }
     sed -n 's/^-- left out/left out/p' "$log"
 fi
+exec 9> "build/$preset/.lock" # one at a time: two of them at work in one folder would spoil its log
+! command -v flock > /dev/null || flock 9
 cmake --build "build/$preset" ${@:+--target "$@"}

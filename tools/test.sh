@@ -1,13 +1,38 @@
 #!/usr/bin/env bash
-# What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols,
-# WebAssembly, 32 bits, packages, short fuzzing, documents. FUZZ_SECONDS (default 20) and SKIP ("tidy wasm i386 packages fuzz docs") shorten it
-# by hand.
+# What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests, those of memory under sanitizers, exported symbols,
+# and then side by side, a core each: tests of numbers, Python and ranks, WebAssembly, 32 bits, packages, documents, short fuzzing.
+# FUZZ_SECONDS (default 20) and SKIP ("tidy mpich docs wasm i386 packages fuzz site") shorten it by hand; `tools/test.sh JOB` runs one of the side by side.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 # what another clone of this machine has compiled is taken from there
 began=$SECONDS
 say() { printf '\n== %s (%d s)\n' "$1" "$((SECONDS - began))"; }
 skip() { case " ${SKIP:-} " in *" $1 "*) echo "skipped by SKIP: $1"; return 0 ;; esac; return 1; }
+
+tests() { ctest --test-dir build/release -L "$1" --output-on-failure --no-tests=error; }
+job() { # what needs the release build; each takes one core
+    case $1 in
+    numbers | python | mpi) tests "$1" ;;
+    mpich) tools/check_mpich.sh ;;
+    docs) python3 tools/check_docs_commands.py build/release/clast ;;
+    wasm) tools/check_wasm.sh ;;
+    i386) TEST_JOBS=1 tools/test_i386.sh or-skip ;;
+    packages)
+        [ "$(uname -m)" = x86_64 ] || { echo "SKIPPED: packages are made on x86-64"; return; }
+        tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
+        ;;
+    fuzz) FUZZ_JOBS=1 tools/fuzz.sh "${FUZZ_SECONDS:-20}" ;;
+    site) tools/check_web.sh; tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py ;;
+    *) echo "test: $1 is none of numbers, python, mpi, mpich, docs, wasm, i386, packages, fuzz, site" >&2; return 2 ;;
+    esac
+}
+if [ "${1:-}" = logged ]; then # JOB: prints when it ends, as a whole; 255 keeps the next from beginning
+    log=build/job-$2.log
+    status=0; tools/test.sh "$2" > "$log" 2>&1 || status=$?
+    { printf '\n-- %s: %s (%d s)\n' "$2" "$([ "$status" = 0 ] && echo passed || echo "FAILED, exit code $status")" "$SECONDS"; grep -v '^ *Start ' "$log"; } || true
+    [ "$status" = 0 ] || exit 255
+    exit 0
+elif [ $# -gt 0 ]; then job "$1"; exit; fi
 
 say "set-up"; tools/setup.sh test
 say "format"
@@ -21,46 +46,18 @@ say "headers in C and C++"; tools/check_headers.sh
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 tools/build.sh dev > build-dev.log 2>&1 || { grep -E 'error|warning' build-dev.log | head -40; exit 1; }
 rm -f build-dev.log
-ctest --test-dir build/dev -j"$(nproc)" --output-on-failure --no-tests=error | tee build/ctest.log | grep -v '^ *Start '
+ctest --test-dir build/dev -LE numbers -j"$(nproc)" --output-on-failure --no-tests=error | tee build/ctest.log | grep -v '^ *Start '
 say "clang-tidy"; skip tidy || tools/check_tidy.sh
 say "release build and exported symbols"
-tools/build.sh release installed mpi_tests > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
+tools/build.sh release installed numbers_tests mpi_tests > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
 rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
-say "commands of the documents, Python, ranks, bundle of the 3-D view; beside them WebAssembly, packages and 32 bits"
-one_core() { # tests that take one core each; what they print comes after the other core's
-    python3 tools/check_docs_commands.py build/release/clast
-    ctest --test-dir build/release -L python --output-on-failure --no-tests=error
-    ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error
-    tools/check_mpich.sh
-    tools/check_web.sh
-}
-beside() { # COMMAND LOG: on the other core; `other` waits for it and prints what it said
-    (set -e; "$1") > "$2" 2>&1 &
-    other_pid=$! other_log=$2
-    trap 'kill "$other_pid" 2>/dev/null || true' EXIT
-}
-other() {
-    local status=0
-    wait "$other_pid" || status=$?
-    trap - EXIT
-    tee -a build/ctest.log < "$other_log" | grep -v '^ *Start ' || true
-    [ "$status" = 0 ]
-}
-beside one_core build/one-core.log
-skip wasm || tools/check_wasm.sh | tee -a build/ctest.log | grep -v '^ *Start '
-if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
-    tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
-fi
-skip i386 || TEST_JOBS=1 tools/test_i386.sh or-skip | tee -a build/ctest.log | grep -v '^ *Start '
-say "the other core's"; other
-say "fuzzing; beside it documents and views in a browser"
-documents() { skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py; }; }
-beside documents build/documents.log
-skip fuzz || FUZZ_JOBS=$(($(nproc) / 2 + $(nproc) % 2)) tools/fuzz.sh "${FUZZ_SECONDS:-20}"
-say "the other core's"; other
-say "reports in a browser, nothing beside them: their first picture is timed"; skip docs || python3 tools/check_report.py
+say "side by side, a core each; the longest first"
+jobs=()
+for name in mpi packages i386 wasm docs fuzz python numbers site mpich; do skip "$name" || jobs+=("$name"); done
+printf '%s\n' "${jobs[@]}" | xargs -P "$(nproc)" -I{} tools/test.sh logged {} | tee -a build/ctest.log
+say "reports in a browser, nothing beside them: their first picture is timed"; skip site || python3 tools/check_report.py
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log
