@@ -67,8 +67,8 @@ clast_status clx_folder_write_printable(const char *folder, const clast_assembly
                                         clast_printable_report *report);
 
 /// Adds the body's files to the manifest's list of outputs, which tells whose they are when the run
-/// is replaced, and its numbers to the page. All else in the manifest is about the run itself and
-/// stays as it is; one without a list (of older versions) needs none.
+/// is replaced. All else in it is about the run itself and stays as it is. A manifest without a
+/// list (of older versions) needs none.
 clast_status clx_folder_list_printable(const char *folder);
 
 /// Says that the printable body is the largest of several clusters.

@@ -378,7 +378,6 @@ clast_status clx_folder_list_printable(const char *folder)
     }
     CLX_TRY(clx_file_write(&file, at, strlen(at)));
     CLX_TRY(clx_file_commit(&file));
-    CLX_TRY(clast_report_write_run(folder, NULL));
 done:
     clx_file_abandon(&file);
     clx_free(text);
@@ -427,6 +426,7 @@ clast_status clast_aggregate_make_printable(const char *folder,
     clx_folder_note_largest(monitor, body, all->n_grain, n_cluster);
     CLX_TRY(clx_folder_write_printable(folder, body, config, monitor, &made));
     CLX_TRY(clx_folder_list_printable(folder));
+    CLX_TRY(clast_report_write_run(folder, NULL));
     if (report != NULL) {
         *report = made;
     }

@@ -286,14 +286,31 @@ done:
     return status;
 }
 
+/// What a run is whole without: the printable body, and the page, which has the body's numbers.
+/// `lacks` tells which of them cannot be made, and why.
+static clast_status add_last(run *r, char lacks[CLX_DETAIL_SIZE])
+{
+    const clast_status printed = r->config->printable ? add_printable(r) : CLAST_OK;
+    if (printed != CLAST_OK) {
+        (void)snprintf(lacks, CLX_DETAIL_SIZE, "no printable body: %s", clast_error_detail());
+    }
+    const clast_status page =
+        r->has_folder ? clast_report_write_run(r->report.folder, NULL) : CLAST_OK;
+    if (page != CLAST_OK && printed == CLAST_OK) {
+        (void)snprintf(lacks, CLX_DETAIL_SIZE, "no report.html: %s; clast report %s makes it",
+                       clast_error_detail(), r->report.folder);
+    }
+    return printed != CLAST_OK ? printed : page;
+}
+
 /// The outcome of a whole run: a body that cannot be printed and a criterion that is not met are
 /// told as one kind of end, which a study keeps; a full disk, too little memory and a stop stay
 /// what they are.
-static clast_status tell_outcome(const run *r, clast_status printed)
+static clast_status tell_outcome(run *r)
 {
-    char why[CLX_DETAIL_SIZE];
+    char lacks[CLX_DETAIL_SIZE] = "";
     char stop[CLX_DETAIL_SIZE] = "";
-    (void)snprintf(why, sizeof why, "%s", clast_error_detail());
+    const clast_status printed = add_last(r, lacks);
     const clast_status status = check_stop(r);
     if (printed == CLAST_OK) {
         return status;
@@ -303,13 +320,12 @@ static clast_status tell_outcome(const run *r, clast_status printed)
     }
     const bool is_itself =
         printed == CLAST_E_MEMORY || printed == CLAST_E_DISK || printed == CLAST_E_STOPPED;
-    return clx_fail(is_itself ? printed : CLAST_E_CONVERGE,
-                    "%s%s holds the whole run but no printable body: %s", stop,
-                    clast_run_folder_path(r->own), why);
+    return clx_fail(is_itself ? printed : CLAST_E_CONVERGE, "%s%s holds the whole run but %s", stop,
+                    clast_run_folder_path(r->own), lacks);
 }
 
-/// Rank 0: all files of a run that went well, and the end of the manifest; the body after it, so
-/// that the run is whole whatever ends the process then.
+/// Rank 0: all files of a run that went well, and the end of the manifest; body and page after it,
+/// so that the run is whole whatever ends the process then.
 static clast_status finish(run *r, clast_status status)
 {
     if (status == CLAST_OK && r->has_folder) {
@@ -321,10 +337,6 @@ static clast_status finish(run *r, clast_status status)
                                             .body = body_of(r),
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
-        status = status == CLAST_OK ? clx_run_folder_seal(r->own) : status;
-        status = status == CLAST_OK
-                     ? clast_report_write_run(r->folder, clx_run_folder_place(r->own))
-                     : status;
     }
     status = clast_run_folder_end(r->own, status);
     if (status == CLAST_OK && r->has_folder) { // a resumed run may have taken another's place
@@ -332,7 +344,7 @@ static clast_status finish(run *r, clast_status status)
     }
     r->is_whole = status == CLAST_OK;
     if (r->is_whole) {
-        status = tell_outcome(r, r->config->printable ? add_printable(r) : CLAST_OK);
+        status = tell_outcome(r);
     }
     return status;
 }

@@ -297,9 +297,9 @@ class Printable(Case):
         self.assertEqual(clast("export", run, "-o", self.folder / "grains.csv").code, 0)
         self.assertEqual(clast("report", run, "-o", self.folder / "page.html").code, 0)
 
-        made = clast("aggregate", "--resume", run, "--printable", "--neck", "3um", "--spacing", "1um")
+        made = clast("aggregate", "--resume", run, "--printable", "--neck", "4um", "--spacing", "2um")
         self.assertEqual(made.code, 0, made.err)
-        self.assertIn("in mm: printable.3mf, printable.stl\nsmallest feature 3 um, resolved\n", made.out)
+        self.assertIn("in mm: printable.3mf, printable.stl\nsmallest feature 4 um, resolved\n", made.out)
         self.assertEqual(clast("mesh", "check", run / "printable.stl").code, 0)
         self.assertEqual({path.name for path in run.iterdir()} - names, {"printable.3mf", "printable.json", "printable.stl"})
         self.assertEqual(sorted(set(self.outputs(run)) - set(self.outputs(plain))), ["printable.3mf", "printable.json", "printable.stl"])

@@ -48,6 +48,21 @@ class RunFolder(Case):
                 ("aggregate --fit", SIZED, "-o", (*SIZED, "--core", self.bad)),
                 ("pack", (*PACK, "--max-steps", "200"), "-o", (*PACK, "--shapes", self.bad))]
 
+    def test_a_run_is_whole_without_its_page(self):
+        """A disk that was full at report.html, the last file, left a run that had failed at 99 % and could not go on."""
+        fall = ("evolve", "--curve", "20um", "--particles", "20", "--domain", "box:0,0,0,0.1,0.1,0.1", "--kernel", "constant", "--constant", "1e-9",
+                "--duration", "1s", "--no-structure", "--rows", "1")
+        for words in ((*GROW, "--replicate", "2"), fall):
+            run = self.folder / words[0]
+            (run / "report.html").mkdir(parents=True)
+            ended = clast(*words, "-o", run)
+            self.assertEqual(ended.code, 4, ended.err)
+            self.assertRegex(ended.err, f"holds the whole run but no report.html: .*; clast report {run} makes it")
+            (run / "report.html").rmdir()
+            self.assertEqual(json.loads((run / "manifest.json").read_text())["outcome"], "done")
+            self.assertEqual(clast("report", run).code, 0)
+            self.assertTrue((run / "report.html").is_file())
+
     def test_a_run_is_refused_replaced_and_named(self):
         for name, words, option, fails in self.commands():
             with self.subTest(name):
