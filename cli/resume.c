@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /// The field's values differ; lists of unequal length do.
 static bool differs(const clast_field *field, const void *a, const void *b)
@@ -33,6 +34,9 @@ clast_status cli_resume_check(const cli_common *common, const char *folder,
         changed = is_other ? f->name : NULL;
     }
     clast_fields_free(fields, fresh);
+    if (access(folder, F_OK) != 0) { // whose reader says that it is not there
+        changed = NULL;
+    }
     CLI_CHECK(changed == NULL, CLAST_E_USAGE, "--resume takes every option from %s; drop %s",
               folder, changed);
     CLI_CHECK(common->output == NULL, CLAST_E_USAGE, "--resume writes into %s; drop -o", folder);

@@ -516,8 +516,8 @@ static clast_status read_row(reader *r)
     CLX_TRY(size_at(r, 0, &low));
     CLX_TRY(size_at(r, 1, &high));
     CLX_CHECK(low <= high || r->is_phi[0], CLAST_E_FORMAT,
-              "%s:%lld: the size low, %s, is above high, %s", r->name, (long long)r->line,
-              r->word[r->low], r->word[r->high]);
+              "%s:%lld: the size low, %s %s, is above high, %s %s", r->name, (long long)r->line,
+              r->word[r->low], r->unit[0], r->word[r->high], r->unit[1]);
     if (r->count >= 0) {
         CLX_TRY(count_at(r, &count));
     }

@@ -142,7 +142,7 @@ class Results(Case):
         listed = self.folder / "sizes.csv"
         words = ["aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--sizes", listed, "--no-picture"]
         listed.write_text("low_um,high_um,count\n40,30,5\n")
-        self.assert_fails(3, *words, says=["sizes.csv:2", "low, 40, is above high, 30"])
+        self.assert_fails(3, *words, says=["sizes.csv:2", "low, 40 um, is above high, 30 um"])
         listed.write_text("low_phi,high_phi,count\n5.1,4.6,2\n")
         self.assertEqual(clast(*words, "-q").code, 0)
 

@@ -153,7 +153,7 @@ class Grading(Case):
         self.assertEqual(one["drawn_by_number"], two["drawn_by_number"])
         self.assertEqual(clast(*self.grades("list", "low_mm,high,count\n1,20,5\n20,40,7\n")).json["drawn_by_number"], two["drawn_by_number"])
         self.assert_fails(2, *self.grades("list", "low_mm,high_cm,count\n1,2,5\n2,4,7\n"), says=("overlap",))
-        self.assert_fails(3, *self.grades("list", "low_cm,high_mm,count\n1,2,5\n"), says=("size low, 1, is above high, 2",))
+        self.assert_fails(3, *self.grades("list", "low_cm,high_mm,count\n1,2,5\n"), says=("size low, 1 cm, is above high, 2 mm",))
 
     def test_a_list_tells_what_it_counted(self):
         """Running numbers were counts, and columns that say counts in words of their own were left out, both without a line."""
