@@ -11,15 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// Sizes and their numbers; of a spectrum of many times the last one.
 static clast_status read_start(const cli_box *box, clast_table *table, clast_spectrum_start *start)
 {
     CLI_GUARD(clast_cloud_read(box->initial_file, NULL, table));
-    *start = (clast_spectrum_start){table->n_row, clast_table_numbers(table, "size"),
-                                    clast_table_numbers(table, "number")};
-    if (start->size == NULL || start->number == NULL) {
-        return cli_fail(CLAST_E_FORMAT, "%s: needs the columns size and number",
+    const bool is_spectrum = clast_table_find(table, "number") < 0; // spectrum.csv of a box
+    const double *size = clast_table_numbers(table, "size");
+    const double *number = clast_table_numbers(table, is_spectrum ? "n" : "number");
+    const double *time = is_spectrum ? clast_table_numbers(table, "time_s") : NULL;
+    if (size == NULL || number == NULL) {
+        return cli_fail(CLAST_E_FORMAT, "%s: needs the columns size and number, or size and n",
                         cli_name(box->initial_file));
     }
+    int64_t first = time != NULL ? table->n_row : 0;
+    while (first > 0 && time[first - 1] == time[table->n_row - 1]) { // the last time's rows
+        --first;
+    }
+    *start = (clast_spectrum_start){table->n_row - first, size + first, number + first};
     return CLAST_OK;
 }
 

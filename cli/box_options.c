@@ -33,7 +33,8 @@ int cli_box_fields(clast_field *fields, int n, size_t offset)
                                 .unit = "-",
                                 .text = "",
                                 .help = "table of --initial table: columns size (monomers) and "
-                                        "number (1/m^3; shares, where --concentration is given)"};
+                                        "number (1/m^3; shares, where --concentration is given), "
+                                        "or a box's spectrum.csv, whose last time is taken"};
     return n;
 }
 

@@ -40,7 +40,7 @@ static const clast_field own[] = {
     COLUMN(shear_column, "column of shear rates [1/s]; cells take the mean"),
     COLUMN(dissipation_column, "column of dissipation rates [m^2/s^3]; cells take the mean"),
     COLUMN(fixed_column, "column of cell numbers of a mesh of yours, evolved beside"),
-    COLUMN(fixed_volume_column, "column of those cells' volumes"),
+    COLUMN(fixed_volume_column, "column of those cells' volumes [m^3]"),
     {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "format of charts", "svg|png|pdf", .group = "output"},
     CLI_FORCE(config),
@@ -173,12 +173,25 @@ static clast_status to_kelvin(const char *name, double *temperature, int64_t n)
     return CLAST_OK;
 }
 
+/// A column's numbers in SI by the unit in its name.
+static clast_status to_si(const clast_table *table, const char *name, const char *si_unit,
+                          double *value)
+{
+    double factor = 1.0;
+    CLI_GUARD(clast_cloud_column_factor(table, name, si_unit, &factor));
+    for (int64_t i = 0; i < table->n_row && factor != 1.0; ++i) {
+        value[i] *= factor;
+    }
+    return CLAST_OK;
+}
+
 /// What the fluid is at the particles of snapshot k.
 static clast_status take_flow(const cli_common *common, const config *c, const clast_table *table,
                               int32_t k, loaded *l)
 {
     const char *const name[N_FLOW] = {c->speed_rms_column, c->temperature_column, c->shear_column,
                                       c->dissipation_column};
+    static const char *const si_unit[N_FLOW] = {"m/s", "K", "1/s", "m^2/s^3"};
     const int64_t n = l->first.n_row;
     for (int i = 0; i < N_FLOW; ++i) {
         double *column = NULL;
@@ -196,6 +209,8 @@ static clast_status take_flow(const cli_common *common, const config *c, const c
         memcpy(l->flow[i] + k * n, column, (size_t)n * sizeof *column);
         if (name[i] == c->temperature_column) {
             CLI_GUARD(to_kelvin(name[i], l->flow[i] + k * n, n));
+        } else {
+            CLI_GUARD(to_si(table, name[i], si_unit[i], l->flow[i] + k * n));
         }
     }
     return CLAST_OK;
@@ -235,6 +250,10 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
         double *column = NULL;
         CLI_GUARD(clast_cloud_column(&l->first, wanted[k].name, &column));
         *wanted[k].column = column;
+        if (wanted[k].column == &l->input.fixed_volume && column != NULL) {
+            const char *const volume[3] = {"m", "m^2", "m^3"};
+            CLI_GUARD(to_si(&l->first, wanted[k].name, volume[l->cloud[0].dimension - 1], column));
+        }
     }
     l->input.speed_rms = l->flow[0];
     l->input.temperature = l->flow[1];

@@ -25,6 +25,10 @@ static void print_deposit(const clast_evolve_result *r)
     (void)printf("%-26s %lld bodies, %s (%.4g %% of the mass)\n", "deposit",
                  (long long)r->n_deposit, cli_quantity(r->mass_deposit, "kg"),
                  100.0 * r->mass_deposit / r->mass_start);
+    if (r->n_wall > 0) {
+        (void)printf("%-26s %lld bodies, %s, not on the floor\n", "  on walls",
+                     (long long)r->n_wall, cli_quantity(r->mass_wall, "kg"));
+    }
     (void)printf("%-26s diameter %s and porosity %.3f (of the ellipsoid of equal moments), fall "
                  "%s, %.4g particle%s of the start\n",
                  "  means by mass", cli_quantity(r->deposit_diameter, "m"), r->deposit_porosity,
@@ -55,6 +59,20 @@ static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
     }
 }
 
+/// One line where a floor or top that reflects has a layer that steps do not follow.
+static void warn_of_layer(const cli_common *common, const clast_evolve_result *r)
+{
+    if (r->gathered > 0.0 && !common->quiet) {
+        (void)fprintf(
+            stderr,
+            "clast evolve: warning: %.3g %% of the mass comes to a floor or top that "
+            "reflects and gathers there in a layer (diffusivity over speed) thinner than a "
+            "step moves it: what meets there depends on the steps (take --floor deposit, "
+            "or shorter steps)\n",
+            100.0 * r->gathered);
+    }
+}
+
 /// How clast pack settles the bed: the default times of its contacts are those of grains of
 /// millimetres. One that falls through the whole column is stopped within a quarter of the smallest
 /// radius, the half of what clast pack allows: v T / pi with v^2 = 2 g H. A step is a fortieth of
@@ -79,9 +97,10 @@ static void print_bed(const clast_evolve_result *r)
     }
     (void)printf("%-26s %s/deposit.h5: %s wide, %s high", "bed", cli_name(r->folder),
                  cli_quantity(r->bed_width, "m"), cli_quantity(r->bed_height, "m"));
-    if (r->mass_deposit > 1.5 * r->bed_mass) { // of real particles: a weight of 2 or more
+    const double weight = round((r->mass_deposit - r->mass_wall) / r->bed_mass);
+    if (weight > 1.0) {
         (void)printf("; each body once, %s, of the %.15g that it stands for",
-                     cli_quantity(r->bed_mass, "kg"), round(r->mass_deposit / r->bed_mass));
+                     cli_quantity(r->bed_mass, "kg"), weight);
     }
     (void)puts("");
     print_pack(r);
@@ -138,6 +157,7 @@ static clast_status run(const cli_common *common, void *context)
                 ? resume(common, config, &monitor, &result)
                 : clast_evolve_run(config, common->output, &monitor, &result));
     warn_of_fall(common, &result);
+    warn_of_layer(common, &result);
     cli_dense_warn(common, result.volume_fraction);
     if (!common->json) {
         print_text(&result);
@@ -171,8 +191,9 @@ static const char details[] =
     "particles.csv and frames those of one.\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree by time: node\n"
     "n + k is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
-    "bodies), deposit.h5 (--bed-width: all of them as a bed for clast pack --start,\n"
-    "each once, above its place on the floor and on those that came before), particles.csv,\n"
+    "bodies), deposit.h5 (--bed-width: those on the floor, not on walls, as a bed for\n"
+    "clast pack --start, each once, above its place and on those that came before),\n"
+    "particles.csv,\n"
     "state.h5 (the aggregate of most grains),\n"
     "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
     "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"

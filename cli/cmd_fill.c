@@ -41,7 +41,9 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
     cli_json_count(o, "n_open_edge", found->n_open_edge);
     cli_json_number(o, "open_share", r->open_share);
     cli_json_count(o, "n_intersection", found->n_intersection);
+    cli_json_bool(o, "intersection_complete", found->intersection_complete);
     cli_json_count(o, "n_doubled", found->n_doubled);
+    cli_json_count(o, "n_repeated", found->n_repeated);
     cli_json_number(o, "solid_volume", r->solid_volume);
     cli_json_number(o, "sphere_volume", r->sphere_volume);
     cli_json_number(o, "filled_fraction", r->filled_fraction);

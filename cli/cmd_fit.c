@@ -10,6 +10,7 @@
 #include <clast/porosity_model.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,7 +32,7 @@ static const clast_field own[N_OWN] = {
     {"features", .offset = offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: "
      "the table's own; auto: "
-     "mixture with --grains, else form where the table has forms, else columns",
+     "mixture with --grains, else form where columns are named as a form's, else columns",
      "auto|form|mixture|columns", .common = true, .group = "features and grains"},
     {"grains", .offset = offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "study folder, or table of all beds' grains, with a column that names the bed (--group)", "",
@@ -73,14 +74,73 @@ static bool has_forms(const config *c, const clast_table *beds)
     return has;
 }
 
+static bool is_letter(char c)
+{
+    return isalpha((unsigned char)c) || c == '/';
+}
+
+/// Whether it is a word of the name; a letter is one at its beginning, else a unit (time_s).
+static bool has_word(const char *name, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *at = strstr(name, word); at != NULL; at = strstr(at + 1, word)) {
+        if ((at == name || (n > 1 && !is_letter(at[-1]))) && !is_letter(at[n])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether all names of a list are a form's: flatness_mean,elongation_mean, not sand,mu.
+static bool names_form(const char *columns)
+{
+    enum { N_WORD = 16 };
+    static const char *const ratio[N_WORD] = {"flatness", "elongation", "fl", "el", "s/i", "i/l"};
+    static const char *const length[N_WORD] = {
+        "l",     "i",        "s",     "long",  "longest", "intermediate", "middle",
+        "short", "shortest", "major", "minor", "length",  "width",        "thickness"};
+    const char *const second = strchr(columns, ',');
+    const char *const *word = second != NULL && strchr(second + 1, ',') != NULL ? length : ratio;
+    bool has = true;
+    for (const char *at = columns; *at != '\0' && has;) {
+        char name[256];
+        const size_t n = strcspn(at, ",");
+        (void)snprintf(name, sizeof name, "%.*s", (int)n, at);
+        for (char *x = name; *x != '\0'; ++x) {
+            *x = (char)tolower((unsigned char)*x);
+        }
+        has = false;
+        for (int k = 0; k < N_WORD && word[k] != NULL && !has; ++k) {
+            has = has_word(name, word[k]);
+        }
+        at += n + (at[n] == ',' ? 1 : 0);
+    }
+    return has;
+}
+
+/// Named columns of any table are its candidates, though two or three numbers could be a form.
+static int32_t choose(const config *c, const clast_table *beds)
+{
+    if (c->features != AUTO || c->grains[0] != '\0') {
+        return c->features != AUTO ? c->features : MIXTURE;
+    }
+    if (!has_forms(c, beds)) {
+        return COLUMNS;
+    }
+    if (names_form(c->fit.columns)) {
+        return FORM;
+    }
+    (void)fprintf(
+        stderr, "clast fit: %s: columns %s are candidates; --features form takes them as a form\n",
+        cli_name(beds->name), cli_name(c->fit.columns));
+    return COLUMNS;
+}
+
 static clast_status gather(const config *c, const char *path, job *j)
 {
     clast_idle rules[CLAST_N_IDLE];
     CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
-    int32_t what = c->features;
-    if (what == AUTO) {
-        what = c->grains[0] != '\0' ? MIXTURE : has_forms(c, &j->beds) ? FORM : COLUMNS;
-    }
+    const int32_t what = choose(c, &j->beds);
     CLI_GUARD(cli_idle_check(fields, c, clast_porosity_fit_idle(&c->fit, what != FORM, rules)));
     if ((what == MIXTURE) != (c->grains[0] != '\0')) {
         return cli_fail(
@@ -301,7 +361,7 @@ static void tell_numbers(const config *c, const job *j)
         if (counts_rows(&j->data.beds, m->term[k].feature)) {
             (void)fprintf(stderr,
                           "clast fit: %s: feature '%s' counts the rows; if it says nothing of a "
-                          "bed, name the candidates with --columns\n",
+                          "bed, name the candidates: --features columns --columns a,b\n",
                           cli_name(j->beds.name), cli_name(m->term[k].feature));
         }
     }

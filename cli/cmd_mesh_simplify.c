@@ -41,6 +41,7 @@ static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify
     cli_json_count(o, "n_sample", r->deviation.n_sample);
     cli_json_bool(o, "is_solid", clast_mesh_check_passed(found));
     cli_json_count(o, "n_intersection", found->n_intersection);
+    cli_json_bool(o, "intersection_complete", found->intersection_complete);
     cli_json_count(o, "n_doubled", found->n_doubled);
     return o;
 }
@@ -91,7 +92,7 @@ static clast_status check_simplified(const cli_common *common, const clast_mesh 
                       "ask for more --faces\n",
                       cli_name(common->output), (long long)found->n_intersection,
                       cli_plural(found->n_intersection));
-    } else {
+    } else if (found->n_doubled > 0) {
         (void)fprintf(stderr,
                       "clast mesh simplify: note: of %s %d part%s now count%s twice in its volume; "
                       "ask for more --faces\n",
@@ -152,7 +153,8 @@ static clast_status solid_volume(const clast_mesh *mesh, double *volume, const c
     if (!found.closed || !found.oriented) {
         *why = mesh->n_tri > 0 ? "is not closed (clast mesh check)" : "is points";
     } else if (cli_counts_twice(&found)) {
-        *why = "counts volume twice (clast mesh check)";
+        *why = found.intersection_complete ? "counts volume twice (clast mesh check)"
+                                           : "may count volume twice (clast mesh check)";
     } else {
         *volume = found.volume;
     }

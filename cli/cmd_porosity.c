@@ -38,7 +38,8 @@ typedef struct {
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
      "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), "
-     "periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's",
+     "periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by "
+     "SHIFT) or mesh:FILE,UNIT; none: the run's",
      "", .group = "bed and container", .common = true},
     {FIELD(CLAST_FIELD_TEXT, floor), 0, 0, 0, "-", "height of the bottom, with --bed (as 5mm)",
      "0"},
@@ -127,6 +128,10 @@ static clast_status read_input(const cli_common *common, const char *input,
     }
     CLI_GUARD(clast_state_read_assembly(path, &s->assembly));
     s->has_bed = clast_bed_read(path, &s->bed, &s->surface) == CLAST_OK;
+    if (s->has_bed) {
+        (void)clast_bed_period(&s->bed, s->period);
+        s->shift = s->bed.shift;
+    }
     (void)clast_state_read_table(path, "contacts", &s->contacts); // aggregates have none
     (void)clast_state_read_table(path, "velocities", &s->velocities);
     return CLAST_OK;

@@ -183,6 +183,25 @@ static clast_status keep_statistics(const cli_common *common, const config *c, b
     return clast_run_folder_end(folder, status);
 }
 
+/// Sizes of one set are compared: those whose unit nobody knows are taken to be in that of the
+/// others.
+static void tell_units(const cli_common *common, const cli_shape_result *shape)
+{
+    const clast_grain_record *known = NULL;
+    const clast_grain_record *unknown = NULL;
+    for (int64_t i = 0; i < shape->grains.n; ++i) {
+        const clast_grain_record *r = &shape->grains.record[i];
+        known = r->has_size && r->unit_m > 0.0 ? r : known;
+        unknown = r->has_size && r->unit_m <= 0.0 ? r : unknown;
+    }
+    if (known != NULL && unknown != NULL && !common->quiet) {
+        (void)fprintf(stderr,
+                      "clast %s: note: %s says its unit of length and %s says none: the statistics "
+                      "take them to be the same; --unit says what it is\n",
+                      common->command, known->name, unknown->name);
+    }
+}
+
 /// Statistics of the set, if they are wanted.
 static clast_status add_statistics(const cli_common *common, const config *c,
                                    const cli_shape_result *shape, clast_run_folder *folder,
@@ -195,6 +214,9 @@ static clast_status add_statistics(const cli_common *common, const config *c,
         CLI_TRY(clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table));
         CLI_TRY(cli_shape_statistics(common->command, &table, &bootstrap, statistics));
         CLI_TRY(keep_statistics(common, c, shape->in_metres, statistics, folder));
+        if (!shape->in_metres) {
+            tell_units(common, shape);
+        }
     }
 done:
     clast_table_free(&table);

@@ -70,6 +70,8 @@ json_t *cli_check_json(const char *file, const clast_mesh_check_result *r)
     cli_json_count(o, "n_inside_out", r->n_inside_out);
     cli_json_count(o, "n_nested", r->n_nested);
     cli_json_count(o, "n_doubled", r->n_doubled);
+    cli_json_count(o, "n_body", r->n_body);
+    cli_json_count(o, "n_repeated", r->n_repeated);
     cli_json_count(o, "n_degenerate", r->n_degenerate);
     cli_json_count(o, "n_duplicate", r->n_duplicate);
     cli_json_count(o, "n_unused_vertex", r->n_unused_vertex);
@@ -152,7 +154,8 @@ clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
 
 bool cli_counts_twice(const clast_mesh_check_result *found)
 {
-    return found->n_intersection > 0 || found->n_doubled > 0;
+    return found->n_intersection > 0 || !found->intersection_complete || found->n_doubled > 0 ||
+           found->n_repeated > 0;
 }
 
 void cli_note_doubles(const cli_common *common, const clast_mesh_check_result *found,
@@ -164,9 +167,21 @@ void cli_note_doubles(const cli_common *common, const clast_mesh_check_result *f
     (void)fprintf(stderr, "clast %s: note: %s", common->command, cli_name(common->argument[0]));
     if (found->n_intersection > 0) {
         (void)fprintf(stderr,
-                      " cuts itself at %lld pair%s of triangles; its volume counts overlaps "
+                      " cuts itself at %s%lld pair%s of triangles; its volume counts overlaps "
                       "twice%s (clast mesh check)\n",
+                      found->intersection_complete ? "" : "at least ",
                       (long long)found->n_intersection, cli_plural(found->n_intersection), effect);
+    } else if (!found->intersection_complete) {
+        (void)fprintf(stderr,
+                      ": whether it cuts itself was not looked for, so densely do its triangles "
+                      "overlap; its volume may count overlaps twice%s\n",
+                      effect);
+    } else if (found->n_doubled == 0) {
+        (void)fprintf(stderr,
+                      ": %d of its triangles repeat%s another, wound alike; its volume counts "
+                      "twice what they bound%s; clast mesh repair drops %s\n",
+                      found->n_repeated, found->n_repeated == 1 ? "s" : "", effect,
+                      found->n_repeated == 1 ? "it" : "them");
     } else {
         (void)fprintf(stderr,
                       ": %d of its %d parts count%s twice in its volume%s; clast mesh repair "

@@ -19,7 +19,8 @@ clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh);
 /// The same, then the weld that every command applies to a surface; what it joined goes to stderr.
 clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh);
 
-/// Whether its volume counts a region twice: parts in a solid, or cuts.
+/// Whether its volume counts a region twice, or may: parts in a solid, repeated triangles, cuts, or
+/// triangles too dense to look for them.
 bool cli_counts_twice(const clast_mesh_check_result *found);
 
 /// Says so on stderr, and what to run; `effect` (", so shares of it come out low") may be "".

@@ -243,7 +243,11 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
                      : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
                                             : ", which loosen the bed");
     }
-    if (f->beyond.n > 0) {
+    if (f->beyond.n > 0 && f->is_window) {
+        (void)printf("beyond the sides    %d grain%s, by up to %s: a part of a packing; bulk and "
+                     "profile count what lies inside, contacts and stress do not\n",
+                     f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit));
+    } else if (f->beyond.n > 0) {
         (void)printf("beyond the sides    %d grain%s, by up to %s: bulk and profile count them "
                      "whole, %.3g %% of this solid lies outside%s\n",
                      f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit),
@@ -286,6 +290,8 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
             "overlaps            %d pair%s of grains, the deepest by %.3g %% of the smaller "
             "one's radius (of equal volume); the solid counts what they share twice\n",
             f->overlaps.n, f->overlaps.n == 1 ? "" : "s", 100.0 * f->overlaps.share);
+    } else if (f->overlaps.n < 0 && !f->knows_contacts) {
+        (void)printf("overlaps            not searched for across the borders of a sheared box\n");
     } else if (f->overlaps.n < 0) {
         (void)printf("overlaps            those of the run's own contacts: max_overlap in its "
                      "summary.json\n");

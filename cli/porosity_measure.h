@@ -11,6 +11,7 @@ typedef struct cli_porosity_bed {
     clast_table velocities;      ///< likewise
     clast_packing_report report; ///< of another program's file
     bool has_bed;
+    double period[3], shift; ///< of the run's own bed in x, y and z, 0: none; it is `bed`, or given
 } cli_porosity_bed;
 
 /// What is asked for; lengths in the bed's unit, 0: not.
@@ -32,6 +33,7 @@ void cli_porosity_bed_free(cli_porosity_bed *s);
 double cli_porosity_mean_diameter(const clast_assembly *assembly);
 
 /// Wraps the grains of a periodic bed into it, then measures. CLAST_E_GEOMETRY for a bed that holds
-/// more solid than room.
+/// more solid than room, or a given one that is not what holds the grains; with pores it may be a
+/// part of that.
 clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted *wanted,
                                   cli_porosity_findings *f);

@@ -80,7 +80,8 @@ typedef struct clast_collide_cells {
 /// of the second sticks to one of the first, which keeps w1 - w2 (equal weights: it is gone), so
 /// that w1 w2 pairs collide at alpha beta / V on average and the sums of weight times monomers,
 /// mass and momentum never change. With self_collisions a parcel also halves its weight and doubles
-/// its monomers at alpha beta (w - 1) / V.
+/// its monomers at alpha beta (w - 1) / V. Two parcels that live on keep their two places, which
+/// may be exchanged (not with keep_positions).
 ///
 /// @param step     number of the step, below 2^32: with the seed it fixes every draw
 /// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL

@@ -36,12 +36,21 @@ typedef struct clast_cloud_columns {
 CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
                                           double **column);
 
-/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)") is
+/// Factor that takes the named column's numbers to SI by the unit that its name tells ("1/min" of
+/// G_1/min); 1 of a name that is empty or tells none of this dimension.
+///
+/// @return CLAST_E_CONFIG for a unit with a "/" that is none of this dimension (u_ft/s); else as
+/// clast_cloud_column
+CLAST_API clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
+                                                 const char *si_unit, double *factor);
+
+/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s") is
 /// converted. The default coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table
 /// has one such column; missing trailing ones end the list.
 ///
-/// @return CLAST_E_FORMAT names the missing column; CLAST_E_CONFIG for radii and diameters at once,
-/// and for a unit beside columns that name another
+/// @return CLAST_E_FORMAT names the missing column, and coordinates or velocities of which some
+/// tell a unit and some none (without `unit`); CLAST_E_CONFIG for radii and diameters at once, and
+/// for a unit beside columns that name another
 CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
                                               const clast_cloud_columns *columns,
                                               clast_cloud *cloud);
@@ -75,7 +84,8 @@ typedef struct clast_points_options {
 /// y, z, c3, ...; arrays of a folder keep their names.
 ///
 /// @param options  NULL: {0}    @param table  empty; written only on success
-/// @return CLAST_E_FORMAT with the place; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB; CLAST_E_USAGE
+/// @return CLAST_E_FORMAT with the place, and for VTK and PLY files whose points faces join, which
+/// are vertices of surfaces; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB; CLAST_E_USAGE
 /// for a frame of what is no dump, a dataset of what is no HDF5 file
 /// @note memory is bounded by a small multiple of the file's size, whatever the file declares
 CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_options *options,

@@ -149,7 +149,11 @@ typedef struct clast_evolve_result {
     int64_t n_start, n_particle, n_event, n_deposit, n_out, n_step;
     double time;
     double mass_start, mass, mass_deposit, mass_out; ///< of all real particles [kg]
-    double mass_balance;                             ///< greatest |sum - start| / start of all rows
+    int64_t n_wall;   ///< of the deposit: on sides or a ceiling, not on the floor
+    double mass_wall; ///< of them [kg]
+    double gathered;  ///< share of the mass at the start that a floor or top which reflects gathers
+                      ///< in a layer thinner than a step, where it is above step_error; else 0
+    double mass_balance;    ///< greatest |sum - start| / start of all rows
     int64_t number_balance; ///< greatest |particles + events + deposit + out - start| of all rows
     int64_t n_cut, n_test;  ///< times that cells were cut, that the tests were made
     int64_t n_unresolved;   ///< of those cuts: neither cells nor pairs resolve the cloud, meetings

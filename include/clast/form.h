@@ -167,8 +167,9 @@ typedef struct clast_form_set {
     int64_t n;                     ///< grains kept
     int64_t *row;                  ///< [n] their rows in the table, from 0
     double *flatness, *elongation; ///< [n] S/I and I/L in (0, 1]
-    double *size;                  ///< [n] in the unit of its column (of S where lengths give it),
-                                   ///< NAN for none above 0; NULL if the table has no size
+    double *size;                  ///< [n] in the unit of its column, or that of L, I and S (metres
+                                   ///< where they say several); NAN for none above 0; NULL if the
+                                   ///< table has no size
     char size_label[64];           ///< "sieve size (mm)", "diameter_m"
     int64_t n_left_out;
     clast_left_out *left_out; ///< [n_left_out] by row

@@ -46,6 +46,8 @@ typedef struct clast_mesh_check_result {
     int32_t genus;              ///< sum over the parts where it is known
     int32_t n_open_edge;        ///< edges with one triangle
     int32_t n_open_loop;        ///< loops that they form
+    int32_t n_repeated;         ///< triangles that repeat another, wound alike: counted twice in
+                                ///< the volume
     double largest_hole;        ///< diagonal of the box of the largest loop
     int32_t n_nonmanifold_edge; ///< edges with more than two triangles
     int32_t n_nonmanifold_vertex; ///< vertices where several fans meet
@@ -59,6 +61,7 @@ typedef struct clast_mesh_check_result {
     int64_t n_touch;            ///< pairs that only touch, away from what they share
     bool intersection_complete; ///< false: search cut short, the two numbers are lower bounds
     int32_t intersection[2];    ///< the first such pair, or -1
+    int32_t n_body;             ///< solid parts, each with its cavities
     double extent;              ///< diagonal of the bounding box
     double volume;              ///< signed tetrahedra about the mean of the vertices
     double volume_divergence;   ///< mean of the integrals of x, y and z over the surface

@@ -138,6 +138,7 @@ typedef struct clast_pack_input {
     const clast_pack_wall *wall;              ///< [n_wall] of option `wall`, in its order
     int64_t start_snapshot, n_start_snapshot; ///< that `start` is, from 1, of so many; 0: none
     int64_t start_step;                       ///< its TIMESTEP; -1: it tells none
+    double start_shift; ///< of domain cell's images above, along x, to begin with [m]
 } clast_pack_input;
 
 /// A packing under way. Opaque.

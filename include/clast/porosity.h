@@ -82,6 +82,8 @@ typedef struct clast_porosity_options {
     double cut;    ///< n_cut: the bed ends where the porosity rises through it; 1: with its solid
     double trim;   ///< h_pd: left out at both ends [m]
     bool at_slice; ///< the bed ends with the slice (reference program); else between slice centres
+    bool window;   ///< grains count by the share of 512 even points inside the bed's sides: the
+                   ///< porosity of a part of a packing; else whole. Periodic beds have no sides
 } clast_porosity_options;
 
 /// Exact shapes, 1 mm slices, cut at 0.5, nothing trimmed.      [Rettinger et al. sec. 4.4]
@@ -159,9 +161,15 @@ typedef struct clast_bed_beyond {
     double solid; ///< theirs beyond the sides, by points [m^3]
 } clast_bed_beyond;
 
-/// Between the heights of the bulk; a periodic bed has no sides, nothing is beyond them.
+/// Between the heights of the bulk.
 ///
-/// @param method  of the bulk
+/// A periodic bed has no sides; there n counts the grains of which images of grains cover a part,
+/// and solid is what these cover (so that it counts twice), less what grains cover of each other
+/// without images [m^3]: 0 but for contacts where the grains repeat so, and large where the period
+/// is not theirs. Depth is 0, and the grains are taken as they lie: clast_bed_wrap comes later.
+///
+/// @param bulk    not looked at for a periodic bed
+/// @param method  of the bulk; images are of true shapes
 /// @param beyond  written only on success
 /// @return CLAST_E_MEMORY, or what a bed's surface or a grain's is refused with
 /// @note the same bytes for any thread count

@@ -95,7 +95,7 @@ class Porosity:
     core_error: float
     wall_share: float
     coordination: float
-    n_overlap: int  #: -1: not searched for, the run tells its contacts
+    n_overlap: int  #: -1: not searched for, the run tells its contacts or its bed is sheared
     max_overlap: float
     profile: Table
     fabric: Table
@@ -126,6 +126,7 @@ class _Bed:
     def __init__(self, run: Path | Assembly, bed: str, columns: str, diameter: Quantity) -> None:
         self.bed, self.surface = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free")
         self.contacts, self.velocities = (Owner(c.clast_table(), "clast_table_free") for _ in range(2))
+        self.period, self.shift = (ctypes.c_double * 3)(), 0.0  #: of the run's own bed, 0: none
         has_bed = False
         if isinstance(run, Assembly):
             if columns or diameter:
@@ -139,6 +140,9 @@ class _Bed:
                     raise refuse(f"columns, diameter: {os.fspath(run)} is a run, which knows its grains")
                 self.grains = Assembly.read(run)
                 has_bed = call("clast_bed_read")(state.value, ctypes.byref(self.bed), ctypes.byref(self.surface.struct)) == 0
+                if has_bed:
+                    call("clast_bed_period")(ctypes.byref(self.bed), self.period)
+                    self.shift = self.bed.shift
                 call("clast_state_read_table")(state.value, b"contacts", ctypes.byref(self.contacts.struct))  # other programs have none
                 call("clast_state_read_table")(state.value, b"velocities", ctypes.byref(self.velocities.struct))
             else:
@@ -184,14 +188,8 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
         options.layer = slice_height
     elif b.grains.unit != "m" and len(b.grains):
         options.layer = 0.2 * np.cbrt(0.75 / np.pi * b.grains.volume / len(b.grains))
-    call("clast_bed_wrap")(held, placed)
-    profile, bulk, away = Owner(c.clast_table(), "clast_table_free"), c.clast_porosity_bulk(), c.clast_porosity_core(*[float("nan")] * 4)
-    check(call("clast_porosity_profile")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct)))
-    check(call("clast_porosity_measure")(placed, held, ctypes.byref(profile.struct), ctypes.byref(options), ctypes.byref(bulk)))
-    if bulk.porosity < -1e-2:
-        raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
-                    f"{bulk.z_high:g}: it is smaller than what holds them, or in another unit")
-    beyond = _beyond(b, given, options, bulk)
+    profile, bulk, beyond = _slices(b, given, options)
+    away = c.clast_porosity_core(*[float("nan")] * 4)
     walls = call("clast_bed_side_walls")(held, placed)
     if given["core"] > 0:
         check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(bulk), given["core"], ctypes.byref(options), ctypes.byref(away)))
@@ -201,21 +199,54 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
                     beyond.n, beyond.depth, away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
 
 
-def _beyond(b: _Bed, given: dict[str, Any], options: Any, bulk: Any) -> Any:
-    """What reaches beyond the sides of a given bed, which is refused where that would make the porosity false."""
-    found = c.clast_bed_beyond(-1, float("nan"), float("nan"))
-    if not given["bed"] or b.bed.kind in (c.VALUES["CLAST_BED_PERIODIC"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
-        return found
-    check(call("clast_bed_beyond_measure")(ctypes.byref(b.bed), ctypes.byref(b.grains._owner.struct), ctypes.byref(bulk), options.method,
-                                           ctypes.byref(found)))
-    told = (f"{found.n} of {len(b.grains)} grains reach beyond its sides, by up to {found.depth:.4g}, with {100 * found.solid / bulk.solid:.3g} % of "
-            "the solid that counts as inside" if found.n else "")
-    if found.solid > 0.01 * bulk.solid and not given["pores"]:
-        raise Error("CLAST_E_GEOMETRY", f"bed: {told}; give what holds the grains (core leaves out what is near its walls), or pores for the "
-                    "porosity of this bed by points")
-    if told:
-        warn("bed: " + told)
-    return found
+def _slices(b: _Bed, given: dict[str, Any], options: Any) -> tuple[Owner, Any, Any]:
+    """Profile, bulk and what reaches beyond the sides of a given bed, which with pores may be a part of the packing."""
+    placed, held, period = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), (ctypes.c_double * 3)()
+    is_periodic = call("clast_bed_period")(held, period)
+    if given["bed"] and is_periodic:
+        _check_images(b, options, period)
+    call("clast_bed_wrap")(held, placed)
+    while True:
+        profile, bulk, beyond = Owner(c.clast_table(), "clast_table_free"), c.clast_porosity_bulk(), c.clast_bed_beyond(-1, float("nan"), float("nan"))
+        check(call("clast_porosity_profile")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct)))
+        check(call("clast_porosity_measure")(placed, held, ctypes.byref(profile.struct), ctypes.byref(options), ctypes.byref(bulk)))
+        if given["bed"] and not is_periodic:
+            check(call("clast_bed_beyond_measure")(held, placed, ctypes.byref(bulk), options.method, ctypes.byref(beyond)))
+        is_within = beyond.n < 0 or beyond.solid <= 0.01 * bulk.solid
+        if is_within or options.window or not given["pores"]:
+            break
+        options.window = True
+    if bulk.porosity < -1e-2:
+        raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
+                    f"{bulk.z_high:g}: it is smaller than what holds them (pores measures a part of a packing), or in another unit")
+    told = f"{beyond.n} of {len(b.grains)} grains reach beyond its sides, by up to {beyond.depth:.4g}"
+    share = f"{100 * beyond.solid / bulk.solid:.3g} % of the solid that counts as inside"
+    if not is_within and not options.window:
+        raise Error("CLAST_E_GEOMETRY", f"bed: {told}, with {share}; give what holds the grains (core leaves out what is near its walls), or pores "
+                    "for the porosity of this part of the packing")
+    if beyond.n > 0:
+        warn(f"bed: {told}" + (": a part of a packing; bulk and profile count what lies inside, contacts and stress do not" if options.window
+                               else f", with {share}"))
+    return profile, bulk, beyond
+
+
+def _check_images(b: _Bed, options: Any, period: Any) -> None:
+    """Refuses a periodic bed whose images lie on the grains, or not where the run's own do."""
+    covered, none, same = c.clast_bed_beyond(), c.clast_porosity_bulk(), 1e-3
+    for axis, own, given in zip("xyz", b.period, period):
+        if own > 0 and given > 0 and abs(given - own) > same * own:
+            raise Error("CLAST_E_GEOMETRY", f"bed: a period of {given:.4g} along {axis}, where the run repeats after {own:.4g}; leave out bed, or "
+                        "measure a part of the packing (box, with pores)")
+    sheared = (b.bed.shift - b.shift) / b.period[0] if b.period[2] > 0 and period[2] > 0 else 0.0
+    if abs(sheared - round(sheared)) > same:
+        raise Error("CLAST_E_GEOMETRY", f"bed: its images above lie {b.bed.shift:.4g} along x, those of the run {b.shift:.4g} (the seventh number); "
+                    "leave out bed")
+    placed = ctypes.byref(b.grains._owner.struct)
+    check(call("clast_bed_beyond_measure")(ctypes.byref(b.bed), placed, ctypes.byref(none), options.method, ctypes.byref(covered)))
+    share = covered.solid / b.grains.volume if len(b.grains) else 0.0
+    if share > 0.01:
+        raise Error("CLAST_E_GEOMETRY", f"bed: its images lie on {covered.n} of {len(b.grains)} grains, which share {100 * share:.3g} % of the solid: "
+                    "its period is not theirs; give what holds the grains, or measure a part of the packing (box, with pores)")
 
 
 def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
@@ -224,9 +255,10 @@ def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
     period = c.clast_period(low=(b.bed.low[0], b.bed.low[1], b.bed.floor))
     where = ctypes.byref(period) if call("clast_bed_period")(ctypes.byref(b.bed), period.length) else None
     knows = b.contacts.struct.n_column > 0
-    if not knows and b.bed.shift:
-        raise refuse("bed: contacts across the borders of a sheared box are those of runs of clast pack, which know them; this bed knows none")
-    if not knows:
+    if gap > 0 and b.bed.shift:
+        raise refuse("bed: contacts across the borders of a sheared box are those of runs of clast pack, which know them; this bed knows none: "
+                     "leave out gap")
+    if not knows and not b.bed.shift:
         check(call("clast_assembly_overlaps")(placed, where, ctypes.byref(found)))
     if gap > 0:
         check(call("clast_assembly_find_contacts_periodic")(placed, gap, where))

@@ -122,9 +122,9 @@ def check(status: int, name: str = "") -> None:
 
 
 def in_python(line: str) -> str:
-    """A line of the library's without names of C functions, its options as the keywords that they are here ("--mean-free-path")."""
+    """A line of the library's without names of C functions, its options as the keywords that they are here; commands to be typed stay."""
     line = re.sub(r"(?<!\S)clast_\w+: ", "", line, count=1)
-    line = re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), line)
+    line = re.sub(r"(\bclast(?: [a-z]+)+(?: [^ ;,`)]+)*)|(?<![\w-])--([a-z][a-z-]*)", lambda found: found[1] or found[2].replace("-", "_"), line)
     return re.sub(r"\b(by|without) -o\b", r"\1 output", line)
 
 

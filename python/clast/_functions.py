@@ -821,7 +821,7 @@ def fit(
     A call cannot be interrupted: Ctrl-C waits for its end.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        features: features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where the table has forms, else columns (auto, form, mixture, columns; default auto)
+        features: features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where columns are named as a form's, else columns (auto, form, mixture, columns; default auto)
         grains: study folder, or table of all beds' grains, with a column that names the bed (--group) (no default)
         name: name of the model (default fitted)
         target: column with the measured porosity (default porosity)
@@ -1241,7 +1241,7 @@ def porosity(
     `bed` is what holds the grains ("cylinder:52mm"); a run of `clast pack` knows its own.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's (no default)
+        bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT; none: the run's (no default)
         floor: height of the bottom, with --bed (as 5mm) (default 0)
         method: what a grain fills: its true shape, or the sphere of its volume (published) (exact, spheres; default exact)
         layer: height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too (default 0)

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import _bindings as c
 from ._boxes import warn_of_dense
-from ._core import Config, Monitor, Progress, call, check, encoded, note, people_write, refuse, text_of, warn
+from ._core import Config, Monitor, Progress, call, check, encoded, flag, note, people_write, refuse, text_of, warn
 from ._runs import Result
 from ._tables import Path
 
@@ -23,7 +23,7 @@ def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: 
     report = c.clast_aggregate_report()
     monitor = Monitor(progress)
     folder = None if output is None else encoded("output", output)
-    adds_body = bool(keys.get("printable")) and _is_whole(keys)
+    adds_body = keys.get("printable") is not None and flag("printable", keys["printable"]) and _is_whole(keys)
     resumed = _resumed(output, keys, ("printable", "neck", "spacing") if adds_body else ())
     try:
         with Config(c.clast_aggregate_config(), "clast_aggregate_fields", keys) as config:
@@ -129,6 +129,9 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
         if result.fall_reynolds > result.fall_reynolds_limit:
             warn(f"Reynolds number of the fastest fall is {result.fall_reynolds:.2g}, beyond the {result.fall_reynolds_limit:g} of the drag law"
                  + ("; take fall='form' or 'sphere'" if result.fall_reynolds_limit < 1 else ""))
+        if values["gathered"] > 0:
+            warn(f"{100 * values['gathered']:.3g} % of the mass comes to a floor or top that reflects and gathers there in a layer (diffusivity over "
+                 "speed) thinner than a step moves it: what meets there depends on the steps; take floor='deposit' or shorter steps")
         warn_of_dense(result.volume_fraction)
         return Result(values, _folder(output, resumed))
     finally:

@@ -35,9 +35,12 @@ class MeshCheck(Equal):
     n_inside_out: int
     n_nested: int
     n_doubled: int  #: nested parts that count twice in the volume
+    n_body: int  #: solid parts, each with its cavities
+    n_repeated: int  #: triangles that repeat another, wound alike: they count twice in the volume
     n_degenerate: int
     n_duplicate: int
     n_intersection: int
+    intersection_complete: bool  #: False: `n_intersection` is a lower bound, as the triangles overlap too densely
     extent: float
     volume: float
     area: float
@@ -51,10 +54,16 @@ class MeshCheck(Equal):
     def doubles(self) -> str:
         """What counts twice in the volume, in words; "" where nothing does."""
         if self.n_intersection > 0:
-            return f"cuts itself at {self.n_intersection} pair{'' if self.n_intersection == 1 else 's'} of triangles; its volume counts overlaps twice"
+            least = "" if self.intersection_complete else "at least "
+            return f"cuts itself at {least}{self.n_intersection} pair{'' if self.n_intersection == 1 else 's'} of triangles; its volume counts overlaps twice"
+        if not self.intersection_complete:
+            return "overlaps so densely that cuts were not looked for; its volume may count overlaps twice"
         if self.n_doubled > 0:
             return (f"has {self.n_doubled} of {self.n_part} parts that count twice in its volume (wound outward in a solid, or inward outside of "
                     "one); mesh_repair drops what bounds nothing")
+        if self.n_repeated > 0:
+            return (f"has {self.n_repeated} triangle{'' if self.n_repeated == 1 else 's'} that repeat another, wound alike; its volume counts twice "
+                    "what they bound; mesh_repair drops them")
         return ""
 
 
@@ -279,7 +288,10 @@ class Mesh:
         kind = choice("axes", given["axes"], c.KEYS["shape"]["axes"][5] or "")
         check(call("clast_grain_measure_hull" if given["hull"] else "clast_grain_measure")(self._struct(), ctypes.byref(grain)))
         if not given["hull"]:
-            warn_of_doubles(self.check(), "the surface")
+            found = self.check()
+            warn_of_doubles(found, "the surface")
+            if found.n_body > 1 and found.n_intersection == 0 and found.intersection_complete:
+                warn(f"the surface is {found.n_body} bodies that do not hang together, measured as one grain; mesh_repair(keep='largest') keeps one")
         long, middle, least = grain.axes[kind].lis
         return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
                      sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,

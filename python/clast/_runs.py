@@ -157,7 +157,7 @@ class Assembly(Fixed):
         return file_html(render(self, width=480, height=360).write, "png", f"{len(self)} grains")
 
     def _repr_html_(self) -> str:
-        numbers = html_table({"grains": len(self), "unit of length": self.unit, f"volume ({self.unit}3)": self.volume})
+        numbers = html_table({"grains": len(self), "unit of length": self.unit, f"volume ({self.unit}^3)": self.volume})
         return numbers + (self._picture() + self.view()._repr_html_() if len(self) else "")
 
     def table(self) -> Table:

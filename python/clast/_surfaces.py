@@ -91,7 +91,7 @@ def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = N
     found = made.check()
     values = {**_numbers(report), "volume": volume, "volume_change": volume / report.volume_before - 1.0, "hausdorff": apart.hausdorff,
               "mean_distance": apart.mean, "is_solid": found.is_solid and found.hull_volume > 0, "n_intersection": found.n_intersection,
-              "n_doubled": found.n_doubled}
+              "intersection_complete": found.intersection_complete, "n_doubled": found.n_doubled}
     if not values["is_solid"] or found.doubles:
         before = given.check()
         if not values["is_solid"] and before.is_solid:

@@ -15,7 +15,7 @@ typedef struct clx_evolution {
     clast_decomposition later;       ///< the run's own
     const clast_decomposition *mesh; ///< the one in use
     double *x_at_mesh;               ///< [n][d] positions when the mesh was made
-    int64_t n_at_mesh;               ///< live particles then
+    double n_at_mesh;                ///< real particles then
     int32_t *cell;                   ///< [n]
     double *volume;                  ///< [n_cell]
     clast_medium *medium;            ///< [n_cell], or NULL without field columns

@@ -41,8 +41,9 @@ static clast_status check_column(const double *column, int64_t n_snapshot, int64
         }
         CLX_CHECK(column[i] > 0.0 && isfinite(column[i]) &&
                       (!is_whole || (column[i] == floor(column[i]) && column[i] < 0x1p52)),
-                  CLAST_E_FORMAT, "the %s of particle %lld%s is %g; it must be a %snumber > 0",
-                  name, (long long)(i % n) + 1, where, column[i], is_whole ? "whole " : "");
+                  CLAST_E_FORMAT, "the %s of particle %lld%s is %g; it must be a %s", name,
+                  (long long)(i % n) + 1, where, column[i],
+                  is_whole ? "whole number > 0 and below 2^52" : "number > 0");
     }
 done:
     return status;
@@ -280,6 +281,15 @@ done:
     return status;
 }
 
+static double count_real(const clast_population *p)
+{
+    double n = 0.0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        n += p->monomers[i] == 0 ? 0.0 : p->weight != NULL ? p->weight[i] : 1.0;
+    }
+    return n;
+}
+
 static clast_status make_mesh(clx_evolution *r)
 {
     clast_status status = CLAST_OK;
@@ -301,7 +311,7 @@ static clast_status make_mesh(clx_evolution *r)
     for (int64_t i = 0; i < live.n; ++i) {
         r->cell[number[i]] = mesh->cells.of_point[i];
     }
-    r->n_at_mesh = live.n;
+    r->n_at_mesh = count_real(&r->population);
     memcpy(r->x_at_mesh, r->population.x,
            (size_t)(r->population.n * r->population.dimension) * sizeof *r->x_at_mesh);
     r->mesh = mesh;
@@ -552,15 +562,11 @@ done:
 
 /// Whether three quarters of the particles are left that several cells were made of: cells empty at
 /// their own pace, and what is alone in its cell meets nobody, for all that is near it in the next
-/// one.
+/// one. Parcels keep their number while their weights shrink, so it is weights that count.
 static bool is_thinned(const clx_evolution *r)
 {
-    int64_t n = 0;
-    for (int64_t i = 0; i < r->population.n; ++i) {
-        n += r->population.monomers[i] > 0 ? 1 : 0;
-    }
     return r->config->rebuild != CLAST_REBUILD_NEVER && r->mesh->cells.n > 1 &&
-           4 * n <= 3 * r->n_at_mesh;
+           4.0 * count_real(&r->population) <= 3.0 * r->n_at_mesh;
 }
 
 /// Refuses places that a file brings and no density has. Those of aggregates are not asked: on a

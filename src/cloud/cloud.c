@@ -125,58 +125,113 @@ done:
     return status;
 }
 
+/// What stands after the last "_" or in brackets of a name with a "/", "ft/s" of "u_ft/s", whose
+/// unit the table does not know; NULL else.
+static const char *unknown_unit(const clast_column *c)
+{
+    const char *open = strpbrk(c->name, "([");
+    const char *word = open != NULL ? open : strrchr(c->name, '_');
+    return strcmp(c->unit, "-") == 0 && word != NULL && strchr(word, '/') != NULL ? word + 1 : NULL;
+}
+
+/// The column that holds these numbers.
+static const clast_column *column_of(const clast_table *table, const double *number)
+{
+    int32_t k = 0;
+    while (k + 1 < table->n_column && table->column[k].number != number) {
+        ++k;
+    }
+    return &table->column[k];
+}
+
+/// Whether a column says its unit, of this dimension, by its name.
+static bool has_unit(const clast_column *c, const char *si_unit)
+{
+    double factor = 1.0;
+    return strcmp(c->unit, "-") != 0 && clast_unit_factor(c->unit, si_unit, &factor) == CLAST_OK;
+}
+
+clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
+                                       const char *si_unit, double *factor)
+{
+    CLX_ARGUMENTS(table, name, si_unit, factor);
+    CLX_WHOLE(table, table);
+    clast_status status = CLAST_OK;
+    double found = 1.0;
+    double *number = NULL;
+    CLX_TRY(clast_cloud_column(table, name, &number));
+    if (number != NULL && strcmp(si_unit, "-") != 0) {
+        const clast_column *c = column_of(table, number);
+        const char *unknown = unknown_unit(c);
+        if (has_unit(c, si_unit)) { // "x_t" is no time
+            CLX_TRY(clast_unit_factor(c->unit, si_unit, &found));
+        } else if (unknown != NULL || (strcmp(c->unit, "-") != 0 && strchr(c->unit, '/') != NULL)) {
+            status = clast_unit_factor(unknown != NULL ? unknown : c->unit, si_unit, &found);
+            clx_fail_prefix("%s: column '%s'", table->name, c->name);
+            goto done;
+        }
+    }
+    *factor = found;
+done:
+    return status;
+}
+
 /// Factor to SI of a column of this dimension: by its own unit, else by the one asked for.
 static clast_status factor_of(const clast_table *table, const double *column, const char *si_unit,
                               const char *asked, double *factor)
 {
     clast_status status = CLAST_OK;
     const bool is_asked = asked != NULL && asked[0] != '\0';
-    *factor = 1.0;
+    const clast_column *c = column_of(table, column);
+    double wanted = 1.0;
+    CLX_TRY(clast_cloud_column_factor(table, c->name, si_unit, factor));
     if (is_asked) {
-        CLX_TRY(clast_unit_factor(asked, si_unit, factor));
-    }
-    for (int32_t k = 0; k < table->n_column; ++k) {
-        double own = 1.0;
-        const clast_column *c = &table->column[k];
-        if (c->number != column || strcmp(c->unit, "-") == 0 ||
-            clast_unit_factor(c->unit, si_unit, &own) != CLAST_OK) {
-            continue; // "x_t" is no time
-        }
-        CLX_CHECK(!is_asked || own == *factor, CLAST_E_CONFIG,
+        CLX_TRY(clast_unit_factor(asked, si_unit, &wanted));
+        CLX_CHECK(!has_unit(c, si_unit) || wanted == *factor, CLAST_E_CONFIG,
                   "%s: column '%s' is in %s by its name, the unit asked for is %s", table->name,
                   c->name, c->unit, asked);
-        *factor = own;
+        *factor = wanted;
     }
 done:
     return status;
 }
 
-static clast_status take_columns(const clast_table *table, double *column[3], int32_t d,
-                                 double **taken)
+/// Refuses columns of which some say their unit and some none.
+static clast_status check_mixed(const clast_table *table, double *const column[3], int32_t d,
+                                const char *si_unit)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc(taken, table->n_row * d, sizeof **taken));
-    for (int64_t i = 0; i < table->n_row; ++i) {
-        for (int32_t j = 0; j < d && column[j] != NULL; ++j) {
-            (*taken)[i * d + j] = column[j][i];
-        }
+    const clast_column *with = NULL;
+    const clast_column *without = NULL;
+    for (int32_t j = 0; j < d; ++j) {
+        const clast_column *c = column_of(table, column[j]);
+        *(has_unit(c, si_unit) ? &with : &without) = c;
     }
+    CLX_CHECK(with == NULL || without == NULL, CLAST_E_FORMAT,
+              "%s: column '%s' is in %s by its name, column '%s' says no unit; give all of them "
+              "one, or none",
+              table->name, with->name, with->unit, without->name);
 done:
     return status;
 }
 
-/// Columns in SI; `asked` is the unit of those that name none.
-static clast_status take_lengths(const clast_table *table, double *column[3], int32_t d,
-                                 const char *asked, double **taken)
+/// d columns as rows, in SI; `asked` is the unit of those that name none.
+static clast_status take_columns(const clast_table *table, double *column[3], int32_t d,
+                                 const char *si_unit, const char *asked, double **taken)
 {
     clast_status status = CLAST_OK;
     double factor[3] = {1.0, 1.0, 1.0};
     for (int32_t j = 0; j < d; ++j) {
-        CLX_TRY(factor_of(table, column[j], "m", asked, &factor[j]));
+        CLX_TRY(factor_of(table, column[j], si_unit, asked, &factor[j]));
     }
-    CLX_TRY(take_columns(table, column, d, taken));
-    for (int64_t i = 0; i < table->n_row * d; ++i) {
-        (*taken)[i] *= factor[i % d];
+    if (asked == NULL || asked[0] == '\0') {
+        CLX_TRY(check_mixed(table, column, d, si_unit));
+    }
+    CLX_TRY(clx_alloc(taken, table->n_row * d, sizeof **taken));
+    for (int32_t j = 0; j < d && column[j] != NULL; ++j) {
+        for (int64_t i = 0; i < table->n_row; ++i) {
+            (*taken)[i * d + j] = column[j][i] * factor[j];
+        }
     }
 done:
     return status;
@@ -187,13 +242,11 @@ static clast_status take_property(const clast_table *table, const char *name, co
 {
     clast_status status = CLAST_OK;
     double *column[3] = {NULL};
-    double factor = 1.0;
     CLX_TRY(clast_cloud_column(table, name, &column[0]));
     if (column[0] != NULL) {
-        CLX_TRY(factor_of(table, column[0], si_unit, NULL, &factor));
-        CLX_TRY(take_columns(table, column, 1, taken));
+        CLX_TRY(take_columns(table, column, 1, si_unit, NULL, taken));
         for (int64_t i = 0; i < table->n_row; ++i) {
-            (*taken)[i] *= share * factor;
+            (*taken)[i] *= share;
         }
     }
 done:
@@ -219,13 +272,13 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     CLX_TRY(find_columns(table, &columns->columns, column, &made.dimension));
     CLX_CHECK(made.dimension >= 1, CLAST_E_FORMAT, "%s: no coordinate column is named",
               table->name);
-    CLX_TRY(take_lengths(table, column, made.dimension, columns->unit, &made.x));
+    CLX_TRY(take_columns(table, column, made.dimension, "m", columns->unit, &made.x));
     CLX_TRY(find_columns(table, &columns->velocity_columns, column, &n_velocity));
     CLX_CHECK(n_velocity == 0 || n_velocity == made.dimension, CLAST_E_FORMAT,
               "%s: %d velocity columns for %d coordinates", table->name, n_velocity,
               made.dimension);
     if (n_velocity > 0) {
-        CLX_TRY(take_columns(table, column, n_velocity, &made.velocity));
+        CLX_TRY(take_columns(table, column, n_velocity, "m/s", NULL, &made.velocity));
     }
     CLX_CHECK(!is_named(columns->radius_column) || !is_named(columns->diameter_column),
               CLAST_E_CONFIG, "give a radius column or a diameter column, not both");

@@ -4,7 +4,6 @@
 #include "base/status.h"
 
 #include <math.h>
-#include <string.h>
 
 double clx_aggregate_radius(const clast_collide_config *c, double monomers)
 {
@@ -49,17 +48,37 @@ static double merged_radius(const clast_population *p, const clast_collide_confi
     return cbrt(a * a * a + b * b * b);
 }
 
-/// Whether what two become lies where the other was, with the odds of its share of the mass: so
-/// the particles that are left lie as even as those before, and on average at the centre of mass.
-/// Independent of the cell's own draws.
-static bool is_others_place(const clast_population *p, const clast_collide_config *c, int64_t live,
-                            int64_t other, double share)
+/// Odds that what two become lies where `other` was. They keep the expected mass at each place, so
+/// that what is left lies as even as what was there: for equal weights the odds are the other's
+/// share of the mass. What the other keeps goes to the place that is free; where even that leaves
+/// too little at the other's place, the heavier lot of the two is there.
+static double odds_of_place(const clast_population *p, int64_t live, int64_t other)
+{
+    const double w = p->weight != NULL ? p->weight[live] : 1.0;
+    const double rest = p->weight != NULL ? (p->weight[other] - w) * p->mass[other] : 0.0;
+    const double together = w * (p->mass[live] + p->mass[other]) - rest;
+    if (rest == 0.0) {
+        const double mass = p->mass[live] + p->mass[other];
+        return mass > 0.0 ? p->mass[other] / mass : 0.5;
+    }
+    return together > 0.0 ? w * p->mass[other] / together : 0.0;
+}
+
+/// Draws whether the two change places, independent of the cell's own draws.
+static void place(clast_population *p, const clast_collide_config *c, int64_t live, int64_t other)
 {
     const uint64_t event = (uint64_t)live * UINT64_C(0x9E3779B97F4A7C15) +
                            (uint64_t)other * UINT64_C(0xBF58476D1CE4E5B9) +
                            (uint64_t)p->monomers[live];
     clx_rng rng = clx_rng_at(c->seed, CLX_STREAM_COLLISION_PLACE, event);
-    return clx_rng_uniform(&rng) < share;
+    if (clx_rng_uniform(&rng) >= odds_of_place(p, live, other)) {
+        return;
+    }
+    for (int64_t k = 0; k < p->dimension; ++k) {
+        const double x = p->x[live * p->dimension + k];
+        p->x[live * p->dimension + k] = p->x[other * p->dimension + k];
+        p->x[other * p->dimension + k] = x;
+    }
 }
 
 /// `live` takes up as many of the other's particles as it has itself.
@@ -69,8 +88,8 @@ static void take_up(clast_population *p, const clast_collide_config *c, int64_t 
     const double share = mass > 0.0 ? p->mass[other] / mass : 0.5;
     const int32_t d = p->dimension;
     p->radius[live] = merged_radius(p, c, live, other);
-    if (!c->keep_positions && live != other && is_others_place(p, c, live, other, share)) {
-        memcpy(p->x + live * d, p->x + other * d, (size_t)d * sizeof *p->x);
+    if (!c->keep_positions && live != other) {
+        place(p, c, live, other);
     }
     for (int32_t k = 0; k < d && p->velocity != NULL; ++k) {
         p->velocity[live * d + k] +=

@@ -338,8 +338,8 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
         {!c->structure, "meeting|walk_step|max_tries|keep", "without structure: drops merge"},
         {clx_evolve_meeting(c, collide.kernel) != CLAST_MEETING_DIFFUSIVE, "walk_step",
          "without meeting diffusive"},
-        {c->floor != CLAST_BORDER_DEPOSIT && c->sides != CLAST_BORDER_DEPOSIT, "bed_width",
-         "without a floor or sides that are deposit: nothing comes down"},
+        {c->floor != CLAST_BORDER_DEPOSIT, "bed_width",
+         "without a floor that is deposit: nothing lies there"},
         {input->points == NULL, "columns", "without points"},
         {input->field == NULL, "field_columns", "without field"},
         {0}};

@@ -2,6 +2,7 @@
 #include "evolve/state.h"
 
 #include "base/alloc.h"
+#include "evolve/walls.h"
 #include <math.h>
 #include <string.h>
 
@@ -73,11 +74,16 @@ static void measure_deposit(const clast_evolve *e, clast_evolve_result *r)
 static void count(const clast_evolve *e, clast_evolve_result *r)
 {
     clx_sum mass[CLX_BODY_MERGED + 1] = {{0}};
+    clx_sum on_walls = {0};
     int64_t n[CLX_BODY_MERGED + 1] = {0};
     for (int32_t i = 0; i < e->n_start; ++i) {
         const clx_evolve_body *b = &e->body[i];
         clx_sum_add(&mass[b->state], b->mass);
         ++n[b->state];
+        if (b->state == CLX_BODY_ON_FLOOR && !clx_walls_is_floor(e->input->domain, b->x)) {
+            clx_sum_add(&on_walls, b->mass);
+            ++r->n_wall;
+        }
         r->grains_most =
             b->state != CLX_BODY_MERGED && b->n > r->grains_most ? b->n : r->grains_most;
     }
@@ -87,6 +93,7 @@ static void count(const clast_evolve *e, clast_evolve_result *r)
     r->mass = e->config->weight * clx_sum_of(&mass[CLX_BODY_IN_FLUID]);
     r->mass_deposit = e->config->weight * clx_sum_of(&mass[CLX_BODY_ON_FLOOR]);
     r->mass_out = e->config->weight * clx_sum_of(&mass[CLX_BODY_OUT]);
+    r->mass_wall = e->config->weight * clx_sum_of(&on_walls);
 }
 
 /// The greatest Reynolds number at which a body falls, by its envelope's diameter.
@@ -121,6 +128,7 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                              .n_step = (int64_t)e->step,
                              .time = e->time,
                              .mass_start = e->mass_start,
+                             .gathered = e->gathered,
                              .mass_balance = e->mass_error,
                              .number_balance = e->number_error,
                              .n_cut = e->n_cut,

@@ -188,18 +188,9 @@ static void in_box(const leg *l, clx_evolve_body *b, double to[3])
     }
 }
 
-/// Whether straight down leads out of the domain there.
-static bool is_floor(const clast_domain *d, const double at[3])
-{
-    const double size = cbrt(clast_domain_volume(d));
-    const double below[3] = {at[0], at[1], at[2] - 1e-6 * size};
-    double u[3];
-    return !clast_domain_map(d, below, u);
-}
-
 static int32_t border_at(const clast_evolve *e, const double at[3])
 {
-    return is_floor(e->input->domain, at) ? e->config->floor : e->config->sides;
+    return clx_walls_is_floor(e->input->domain, at) ? e->config->floor : e->config->sides;
 }
 
 /// Whether a path that stays inside of a domain has met a wall that keeps it, by the bridge beside

@@ -1,7 +1,10 @@
 // How long a step may be: where bodies are and whom they meet are those of its beginning.
 #include "evolve/state.h"
 
+#include "evolve/walls.h"
+#include "math/vec3.h"
 #include <math.h>
+#include <stdio.h>
 
 /// How far the domain reaches along an axis; along z that is its height.
 static double extent_of(const clast_domain *d, int axis)
@@ -95,48 +98,126 @@ done:
     return status;
 }
 
-/// Share of the mass that the wind carries out of the domain along x and y before it comes down.
-static double share_blown_out(const clast_evolve *e)
+/// The wall before a body that goes straight on.
+typedef struct {
+    double time;    ///< until it comes there; INFINITY: never
+    int32_t border; ///< what the wall does; DEPOSIT where it lets bodies out too
+} wall;
+
+static int32_t border_of_box(const clast_evolve_config *c, int axis, bool is_up)
 {
-    const clast_evolve_config *c = e->config;
-    const clast_domain *d = e->input->domain;
-    const double height = extent_of(d, 2);
-    double mass = 0.0;
-    double blown = 0.0;
-    for (int32_t k = 0; k < e->n_live; ++k) {
-        const clx_evolve_body *b = &e->body[e->live[k]];
-        double u[3];
-        double unit[3];
-        velocity_of(e, b, u);
-        const bool leaves = u[2] < 0.0 ? c->floor == CLAST_BORDER_DEPOSIT : c->open_top;
-        const double stay =
-            leaves && fabs(u[2]) * c->duration > height ? height / fabs(u[2]) : c->duration;
-        const double to[3] = {b->x[0] + u[0] * stay, b->x[1] + u[1] * stay, b->x[2]};
-        mass += b->mass;
-        blown += clast_domain_map(d, to, unit) ? 0.0 : b->mass;
+    if (axis < 2) {
+        return c->sides;
     }
-    return blown / mass;
+    if (!is_up || c->floor == CLAST_BORDER_PERIODIC) {
+        return c->floor;
+    }
+    return c->open_top ? CLAST_BORDER_DEPOSIT : CLAST_BORDER_REFLECT;
 }
 
-clast_status clx_evolve_check_mirrors(const clast_evolve *e)
+/// Along an axis; in a domain that is no box along x and y at once.
+static wall wall_before(const clast_evolve *e, const double x[3], int axis, const double u[3])
+{
+    static const double far = 1e6; // of the domain's size: beyond all of its walls
+    const clast_evolve_config *c = e->config;
+    const clast_domain *d = e->input->domain;
+    const double v[3] = {axis < 2 ? u[0] : 0.0, axis < 2 ? u[1] : 0.0, axis < 2 ? 0.0 : u[2]};
+    double to[3];
+    clx_exit at;
+    if (u[axis] == 0.0) {
+        return (wall){(double)INFINITY, CLAST_BORDER_PERIODIC};
+    }
+    if (d->kind == CLAST_DOMAIN_BOX) {
+        const bool is_up = u[axis] > 0.0;
+        return (wall){((is_up ? d->high[axis] : d->low[axis]) - x[axis]) / u[axis],
+                      border_of_box(c, axis, is_up)};
+    }
+    const double most = fmin(c->duration, far * cbrt(clast_domain_volume(d)) / v3_norm(v));
+    v3_axpy(to, x, most, v);
+    if (!clx_walls_exit(d, x, to, &at)) {
+        return (wall){(double)INFINITY, CLAST_BORDER_PERIODIC};
+    }
+    return (wall){at.share * most, clx_walls_is_floor(d, at.at) ? c->floor : c->sides};
+}
+
+/// A body's velocity, of the wind the greatest between its height and that where it ends.
+static void greatest_velocity(const clast_evolve *e, const clx_evolve_body *b, double u[3])
+{
+    clx_evolve_body end = *b;
+    double there[3];
+    velocity_of(e, b, u);
+    end.x[2] += u[2] * fmin(e->config->duration, wall_before(e, b->x, 2, u).time);
+    velocity_of(e, &end, there);
+    u[0] = fabs(there[0]) > fabs(u[0]) ? there[0] : u[0];
+}
+
+/// What comes to walls that reflect, by mass, and stays nearer to them than a step moves it.
+typedef struct {
+    double mass;               ///< of all bodies
+    double aside, up, settled; ///< blown to the sides, to the top; at the floor or top without wind
+    double limit; ///< time_step, or without it step_error, below which no layer is that thin
+} layers;
+
+static void add_body(const clast_evolve *e, const clx_evolve_body *b, layers *all)
+{
+    const clast_evolve_config *c = e->config;
+    const bool is_blown_up = e->wind[2] > fmax(0.0, b->speed);
+    double stay = c->duration;
+    double u[3];
+    wall before[3];
+    bool gathers[3];
+    greatest_velocity(e, b, u);
+    for (int k = 0; k < 3; ++k) {
+        before[k] = wall_before(e, b->x, k, u);
+        stay = before[k].border == CLAST_BORDER_DEPOSIT ? fmin(stay, before[k].time) : stay;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double step = c->time_step > 0.0 ? fabs(u[k]) : extent_of(e->input->domain, k);
+        const double limit = b->diffusivity / (fabs(u[k]) * step);
+        gathers[k] = before[k].border == CLAST_BORDER_REFLECT && before[k].time < stay &&
+                     limit < (c->time_step > 0.0 ? c->time_step : c->step_error);
+        all->limit = gathers[k] && (k < 2 || is_blown_up) ? fmin(all->limit, limit) : all->limit;
+    }
+    all->mass += b->mass;
+    all->aside += gathers[0] || gathers[1] ? b->mass : 0.0;
+    all->up += gathers[2] && is_blown_up ? b->mass : 0.0;
+    all->settled += gathers[2] && !is_blown_up ? b->mass : 0.0;
+}
+
+/// The key that would follow such a layer, and its greatest value; none where nothing spreads.
+static const char *shorter_steps(const clast_evolve_config *c, double limit, char words[64])
+{
+    const bool is_time = c->time_step > 0.0;
+    words[0] = '\0';
+    if (limit > (is_time ? 0.0 : 1e-6)) { // the least step_error that is taken
+        (void)snprintf(words, 64, ", or %s below %s", is_time ? "time_step" : "step_error",
+                       clx_unit_text(limit, is_time ? "s" : "-"));
+    }
+    return words;
+}
+
+clast_status clx_evolve_check_mirrors(clast_evolve *e)
 {
     clast_status status = CLAST_OK;
     const clast_evolve_config *c = e->config;
-    const motion m = motion_of(e);
-    bool is_thin = false; // the layer of diffusivity over speed, beside what a step moves
-    for (int k = 0; k < 2; ++k) {
-        const double step = c->step_error * extent_of(e->input->domain, k);
-        is_thin = is_thin || m.spread < step * m.path[k];
+    const bool is_box = e->input->domain->kind == CLAST_DOMAIN_BOX;
+    layers all = {.limit = (double)INFINITY};
+    char steps[64];
+    for (int32_t k = 0; e->flow.u == NULL && k < e->n_live; ++k) {
+        add_body(e, &e->body[e->live[k]], &all);
     }
-    if (c->sides != CLAST_BORDER_REFLECT || e->flow.u != NULL || !is_thin) {
-        return CLAST_OK;
-    }
-    const double share = share_blown_out(e);
-    CLX_CHECK(share <= c->step_error, CLAST_E_CONFIG,
-              "wind: it carries %.3g %% of the mass into sides that reflect, where it gathers in a "
-              "layer (diffusivity over speed) thinner than a step moves it; take sides: deposit, "
-              "in a box periodic, or a larger eddy_diffusivity",
-              100.0 * share);
+    const bool is_aside = all.aside > c->step_error * all.mass;
+    CLX_CHECK(!is_aside && all.up <= c->step_error * all.mass, CLAST_E_CONFIG,
+              "wind: it carries %.3g %% of the mass into %s, where it gathers in a layer "
+              "(diffusivity over speed) thinner than a step moves it; take %s or a "
+              "larger eddy_diffusivity%s",
+              100.0 * (is_aside ? all.aside : all.up) / all.mass,
+              is_aside || !is_box ? "sides that reflect" : "a top that reflects",
+              !is_box    ? "sides: deposit"
+              : is_aside ? "sides: deposit or periodic"
+                         : "open_top",
+              shorter_steps(c, all.limit, steps));
+    e->gathered = all.settled > c->step_error * all.mass ? all.settled / all.mass : 0.0;
 done:
     return status;
 }

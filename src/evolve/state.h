@@ -139,6 +139,7 @@ struct clast_evolve {
     int32_t pair_resolved, pair_n; ///< whether it resolved the cloud; particles then
     uint64_t pair_step;            ///< when
     double mass_start;             ///< of all real particles
+    double gathered;               ///< share of it, as in the result
     double mass_error;             ///< greatest, relative
     int64_t number_error;
     clast_range_use range;
@@ -204,10 +205,12 @@ double clx_evolve_step_of(const clast_evolve *e);
 /// from wherever it is, and meets nobody.
 clast_status clx_evolve_check_time_step(const clast_evolve *e);
 
-/// Refuses a wind that carries more than a share step_error of the mass into sides that reflect,
-/// where it gathers in a layer (diffusivity over speed) thinner than it moves in a step: what meets
-/// there would be what steps are. A field is taken as it is: it may turn the mass aside before.
-clast_status clx_evolve_check_mirrors(const clast_evolve *e);
+/// Refuses a wind that carries more than a share step_error of the mass into sides or a top that
+/// reflect, where it gathers in a layer (diffusivity over speed) thinner than a step moves it: what
+/// meets there would be what steps are. What falls onto such a floor, or rises to such a top
+/// without a wind, is told (`gathered`). A field is taken as it is: it may turn the mass aside
+/// before.
+clast_status clx_evolve_check_mirrors(clast_evolve *e);
 
 /// move.c: every body in the fluid for a time dt, onto the floor too.
 ///

@@ -157,6 +157,14 @@ bool clx_walls_exit(const clast_domain *d, const double from[3], const double to
     return true;
 }
 
+bool clx_walls_is_floor(const clast_domain *d, const double at[3])
+{
+    const double size = cbrt(clast_domain_volume(d));
+    const double below[3] = {at[0], at[1], at[2] - 1e-6 * size};
+    double u[3];
+    return !clast_domain_map(d, below, u);
+}
+
 int32_t clx_walls_count(const clast_domain *d)
 {
     switch (d->kind) {

@@ -14,6 +14,9 @@ typedef struct clx_exit {
 bool clx_walls_exit(const clast_domain *domain, const double from[3], const double to[3],
                     clx_exit *exit);
 
+/// Whether a place on a wall, of a box too, is floor: straight down leads out of the domain there.
+CLX_SHARED bool clx_walls_is_floor(const clast_domain *domain, const double at[3]);
+
 /// Walls that clx_walls_distance tells apart; 0 of a box and of a caller's map.
 int32_t clx_walls_count(const clast_domain *domain);
 

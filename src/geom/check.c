@@ -44,6 +44,7 @@ static clast_status count_facets(const clast_mesh *mesh, const clx_topology *top
     bool *mark = NULL;
     CLX_TRY(clx_alloc(&mark, (int64_t)mesh->n_tri + mesh->n_vert, sizeof *mark));
     CLX_TRY(clx_find_duplicates(mesh, topology, mark, &result->n_duplicate));
+    CLX_TRY(clx_count_repeated(mesh, &result->n_repeated));
     memset(mark, 0, (size_t)mesh->n_tri + (size_t)mesh->n_vert);
     result->n_unused_vertex = mesh->n_vert;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -203,21 +204,22 @@ clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles)
     clx_topology topology = {0};
     clx_cuts cuts = {0};
     clast_mesh_check_result made = {0};
-    int32_t n_repeated = 0;
     if (clx_is_star_shaped(mesh)) { // most grains, in a tenth of the time
-        *doubles = (clx_doubles){0};
+        *doubles = (clx_doubles){.intersection_complete = true};
         return CLAST_OK;
     }
     CLX_TRY(clx_topology_build(mesh, &topology));
     CLX_TRY(clx_check_parts(mesh, &topology, &made));
-    CLX_TRY(clx_count_repeated(mesh, &n_repeated));
+    CLX_TRY(clx_count_repeated(mesh, &made.n_repeated));
     CLX_TRY(clx_mesh_cuts(mesh, &cuts));
     *doubles = (clx_doubles){.n_part = made.n_part,
                              .n_doubled = made.n_doubled,
-                             .n_repeated = n_repeated,
-                             .n_intersection = cuts.n_pair};
+                             .n_repeated = made.n_repeated,
+                             .n_body = made.n_body,
+                             .n_intersection = cuts.n_pair,
+                             .intersection_complete = cuts.complete};
     for (int32_t i = 0; i < made.n_part; ++i) {
-        doubles->n_body += clx_part_facing(&made, i) > 0 && made.part[i].winding == 1;
+        doubles->n_apart += clx_part_facing(&made, i) > 0 && made.part[i].depth == 0;
     }
 done:
     clast_mesh_check_free(&made);

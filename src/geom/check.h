@@ -41,18 +41,18 @@ bool clx_is_star_shaped(const clast_mesh *mesh);
 
 /// What makes a surface's volume count a region twice, or its form that of several bodies.
 typedef struct clx_doubles {
-    int32_t n_part, n_doubled; ///< as in clast_mesh_check_result
-    int32_t n_repeated;        ///< of clx_count_repeated
-    int32_t n_body;            ///< solid parts, each with its cavities
+    int32_t n_part, n_doubled, n_repeated, n_body; ///< as in clast_mesh_check_result
+    int32_t n_apart;                               ///< bodies that lie in no other
     int64_t n_intersection;
+    bool intersection_complete;
 } clx_doubles;
 
 /// The counts of clast_mesh_check alone, in less than its time, of a closed surface. n_part and
-/// n_body are 0 where the surface is star-shaped and nothing had to be counted.
+/// the bodies are 0 where the surface is star-shaped and nothing had to be counted.
 clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles);
 
-/// "1 of its 2 parts counts twice in its volume ...", or of cuts or repeated triangles; "" where
-/// each region counts once.
+/// "1 of its 2 parts counts twice in its volume ...", or of cuts (not looked for, too) or repeated
+/// triangles; "" where each region counts once.
 void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text);
 
 /// Volumes and areas, each in two ways.

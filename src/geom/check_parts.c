@@ -352,6 +352,7 @@ static void count_nested(clast_mesh_check_result *result)
         result->n_inside_out += p->inside_out;
         result->n_nested += p->closed && p->depth > 0;
         result->n_doubled += (facing > 0 && p->winding > 1) || (facing < 0 && p->winding < 0);
+        result->n_body += facing > 0 && p->winding == 1;
     }
 }
 

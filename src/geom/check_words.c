@@ -157,9 +157,14 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
     text[0] = '\0';
     if (doubles->n_intersection > 0) {
         (void)snprintf(text, size,
-                       "it cuts itself at %lld pair%s of triangles; its volume counts overlaps "
+                       "it cuts itself at %s%lld pair%s of triangles; its volume counts overlaps "
                        "twice",
+                       doubles->intersection_complete ? "" : "at least ",
                        (long long)doubles->n_intersection, s(doubles->n_intersection));
+    } else if (!doubles->intersection_complete) {
+        (void)snprintf(text, size,
+                       "whether it cuts itself was not looked for, so densely do its triangles "
+                       "overlap; its volume may count overlaps twice");
     } else if (doubles->n_doubled > 0) {
         (void)snprintf(text, size,
                        "%d of its %d parts count%s twice in its volume (wound outward in a solid, "

@@ -398,10 +398,10 @@ clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_c
     done_so_far.area_before = clast_mesh_area(mesh);
     CLX_TRY(take_steps(&made, config != NULL ? config : &defaults, &done_so_far));
     CLX_CHECK(made.n_tri > 0, CLAST_E_GEOMETRY,
-              "nothing is left to repair: of %d triangles %d had no area, %d repeated others and "
-              "%d shared no edge with another",
-              mesh->n_tri, done_so_far.n_degenerate + done_so_far.n_collapsed,
-              done_so_far.n_duplicate, done_so_far.n_loose);
+              "nothing is left to repair: %d triangles had no area, %d repeated others (those made "
+              "to fill holes too) and %d shared no edge with another",
+              done_so_far.n_degenerate + done_so_far.n_collapsed, done_so_far.n_duplicate,
+              done_so_far.n_loose);
     CLX_TRY(drop_unused(&made, &done_so_far));
     done_so_far.n_triangle_after = made.n_tri;
     done_so_far.volume_after = clx_cone_volume(&made);

@@ -30,9 +30,16 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
     CLX_TRY(clx_find_doubles(mesh, &found));
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
-              "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",
-              path, (long long)found.n_intersection);
+              "%s cuts itself: %s%lld pairs of triangles; see clast mesh check, or --accept-faults",
+              path, found.intersection_complete ? "" : "at least ",
+              (long long)found.n_intersection);
     clx_doubles_words(&found, sizeof words, words);
+    CLX_CHECK(found.intersection_complete, CLAST_E_GEOMETRY, "%s: %s; or --accept-faults", path,
+              words);
+    CLX_CHECK(words[0] != '\0' || found.n_apart < 2, CLAST_E_GEOMETRY,
+              "%s: %d bodies that do not hang together, no one rigid grain; keep one: clast mesh "
+              "repair --keep largest, or --accept-faults",
+              path, found.n_apart);
     if (words[0] != '\0') {
         CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
         status = clx_fail(CLAST_E_GEOMETRY, "%s: %s; drop %s: %s, or --accept-faults", path, words,

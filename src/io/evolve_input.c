@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/path.h"
 #include "io/config_files.h"
+#include "io/points.h"
 #include "io/shape_word.h"
 #include <clast/aggregate_run.h>
 #include <stdio.h>
@@ -62,12 +63,15 @@ static clast_status load_domain(const char *option, const char *text, clast_doma
 }
 
 /// Rows of three coordinates with what else the columns name; `option` stands before messages.
+/// Points are bodies, which no faces join; a field's may be nodes of a mesh.
 static clast_status load_cloud(const char *option, const char *path,
                                const clast_cloud_columns *columns, clast_cloud *cloud)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    CLX_TRY(clast_cloud_read(path, NULL, &table));
+    bool has_faces = false;
+    CLX_TRY(columns->velocity_columns.n > 0 ? clx_points_read(path, NULL, &table, &has_faces)
+                                            : clast_cloud_read(path, NULL, &table));
     CLX_TRY(clast_cloud_from_table(&table, columns, cloud));
     CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT,
               "%s has %d coordinates of three; name its columns (columns)", path, cloud->dimension);

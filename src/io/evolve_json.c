@@ -14,6 +14,8 @@ static json_t *deposit(const clast_evolve_result *r)
     json_t *o = json_object();
     clx_json_set_count(o, "n", r->n_deposit);
     clx_json_set_number(o, "mass", r->mass_deposit);
+    clx_json_set_count(o, "n_wall", r->n_wall);
+    clx_json_set_number(o, "mass_wall", r->mass_wall);
     (void)json_object_set_new(o, "envelope_kind", json_string("ellipsoid of equal moments"));
     clx_json_set_number(o, "envelope_diameter", r->deposit_diameter);
     clx_json_set_number(o, "porosity", r->deposit_porosity);
@@ -59,6 +61,7 @@ clast_status clast_evolve_result_json(const clast_evolve_result *r, bool times, 
     clx_json_set_number(o, "mass_in_fluid", r->mass);
     clx_json_set_number(o, "mass_out", r->mass_out);
     clx_json_set_number(o, "mass_balance", r->mass_balance);
+    clx_json_set_number(o, "gathered", r->gathered);
     clx_json_set_count(o, "grains_most", r->grains_most);
     clx_json_set_number(o, "volume_fraction", r->volume_fraction);
     clx_json_set_number(o, "fall_reynolds", r->fall_reynolds);

@@ -137,7 +137,7 @@ static clast_status warn(clx_grains_task *task, const char *text)
 static clast_status note_bodies(clx_grains_task *task, const clx_doubles *found)
 {
     char text[160];
-    if (found->n_body < 2 || found->n_intersection > 0) {
+    if (found->n_body < 2 || found->n_intersection > 0 || !found->intersection_complete) {
         return CLAST_OK;
     }
     (void)snprintf(text, sizeof text,
@@ -165,7 +165,7 @@ static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
     if (words[0] == '\0') {
         goto done;
     }
-    if (found.n_intersection == 0) {
+    if (found.n_intersection == 0 && found.intersection_complete) {
         CLX_TRY(clast_mesh_cure(mesh, task->path, sizeof cure, cure));
     }
     (void)snprintf(text, sizeof text, "%s; %s%s", words,
@@ -440,6 +440,7 @@ static clast_status take_clump(clx_grains_task *task, const clast_table *table)
     CLX_TRY(clast_grain_measure_clump(&spheres, &grain));
     CLX_TRY(clx_grains_add(task, "", &record));
     record->kind = CLAST_GRAINS_CLUMP;
+    record->in_metres = unit_m > 0.0;
     record->unit_m = unit_m;
     record->grain = grain;
 done:
@@ -467,11 +468,10 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
     bool has_faces = false;
     CLX_TRY(
         clx_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table, &has_faces));
-    if (kind == CLAST_GRAINS_CLUMP ||
-        (kind == CLAST_GRAINS_AUTO && clx_spheres_are_named(&table))) {
+    kind = kind == CLAST_GRAINS_AUTO ? clx_grains_kind_of_columns(task, &table) : kind;
+    if (kind == CLAST_GRAINS_CLUMP) {
         CLX_TRY(take_clump(task, &table));
-    } else if (kind == CLAST_GRAINS_POINTS ||
-               (kind == CLAST_GRAINS_AUTO && clx_points_are_named(&table))) {
+    } else if (kind == CLAST_GRAINS_POINTS) {
         CLX_TRY(has_faces ? refuse_faces(task) : CLAST_OK);
         double unit_m = 0.0;
         CLX_TRY(points_of_table(&table, &points, &unit_m));

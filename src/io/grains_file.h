@@ -25,6 +25,9 @@ clast_status clx_grains_note(clx_grains_task *task, const char *text);
 /// What a file's bytes are, where nobody says it; CLAST_GRAINS_AUTO: by the columns of its table.
 clast_grains_kind clx_grains_kind_of(const clx_grains_task *task);
 
+/// What a table's columns make of it, where nobody says it: a table where the option names columns.
+clast_grains_kind clx_grains_kind_of_columns(const clx_grains_task *task, const clast_table *table);
+
 /// Refuses files whose surfaces would have one name in the folder.
 ///
 /// @return CLAST_E_USAGE with both files

@@ -2,6 +2,7 @@
 #include "io/grains_file.h"
 
 #include "base/path.h"
+#include "io/spheres_table.h"
 #include "io/text.h"
 #include <clast/mesh.h>
 #include <clast/volume.h>
@@ -60,4 +61,16 @@ clast_grains_kind clx_grains_kind_of(const clx_grains_task *task)
         return CLAST_GRAINS_AUTO; // points or a table: by its columns
     }
     return kind_of_text(task);
+}
+
+clast_grains_kind clx_grains_kind_of_columns(const clx_grains_task *task, const clast_table *table)
+{
+    const char *columns = task->options->columns;
+    if (columns != NULL && columns[0] != '\0') {
+        return CLAST_GRAINS_TABLE;
+    }
+    if (clx_spheres_are_named(table)) {
+        return CLAST_GRAINS_CLUMP;
+    }
+    return clx_points_are_named(table) ? CLAST_GRAINS_POINTS : CLAST_GRAINS_TABLE;
 }

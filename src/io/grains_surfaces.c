@@ -47,8 +47,7 @@ static clast_status read_kind(clx_grains_task *task, surface_names *names)
     *names = names_of_kind(kind);
     if (kind == CLAST_GRAINS_AUTO) {
         CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
-        *names = clx_points_are_named(&table) && !clx_spheres_are_named(&table) ? NAMES_FILE
-                                                                                : NAMES_NONE;
+        *names = names_of_kind(clx_grains_kind_of_columns(task, &table));
     }
 done:
     clast_table_free(&table);

@@ -2,6 +2,7 @@
 #include "io/grains_file.h"
 
 #include "base/alloc.h"
+#include "shape/form_set.h"
 #include <clast/field.h>
 #include <clast/form.h>
 #include <clast/table.h>
@@ -54,6 +55,8 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
     CLX_TRY(clast_form_set_of(table, task->options->columns, &set));
     double unit = 0.0;
     const bool is_sieve = is_sieve_size(&set, &unit);
+    bool mixes_units = false;
+    CLX_TRY(clx_form_set_mixes_units(table, task->options->columns, &mixes_units));
     for (int64_t i = 0; i < set.n; ++i) {
         clast_grain_record *record = NULL;
         (void)snprintf(text, sizeof text, ":%lld", (long long)set.row[i] + 1);
@@ -61,6 +64,7 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
         record->kind = CLAST_GRAINS_TABLE;
         record->has_surface = false;
         record->has_size = is_sieve && !isnan(set.size[i]);
+        record->in_metres = mixes_units;
         record->unit_m = unit;
         for (int a = 0; a < CLAST_N_AXES; ++a) { // whatever they are, these are the L, I, S
             clast_form_lengths(set.flatness[i], set.elongation[i],
@@ -90,10 +94,9 @@ static clast_status find_unit(const clast_grains *grains, double unit_m, bool *i
     const clast_grain_record *against = NULL;
     for (const clast_grain_record *r = grains->record; r < grains->record + grains->n; ++r) {
         if (r->has_size && r->unit_m > 0.0) {
-            const bool is_clump = r->kind == CLAST_GRAINS_CLUMP; // read in metres
             own = own != NULL ? own : r;
-            other = is_clump || r->unit_m != own->unit_m ? r : other;
-            against = !is_clump && r->unit_m != unit_m ? r : against;
+            other = r->in_metres || r->unit_m != own->unit_m ? r : other;
+            against = !r->in_metres && r->unit_m != unit_m ? r : against;
         } else if (r->has_size) {
             none = r;
         }

@@ -302,7 +302,8 @@ static clast_status load_start(const clast_pack_config *config, clast_pack_sourc
                                      .shape = made->shape,
                                      .start_snapshot = report.snapshot,
                                      .n_start_snapshot = report.n_snapshot,
-                                     .start_step = report.frame.step};
+                                     .start_step = report.frame.step,
+                                     .start_shift = clx_start_shift(&config->dem, &report.frame)};
 done:
     return status;
 }

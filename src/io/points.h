@@ -16,10 +16,15 @@ clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table,
                             bool *has_faces);
 
-/// clast_cloud_parse that sets has_faces where a VTK file has some.
+/// clast_cloud_parse that takes files with faces too, and sets has_faces where a VTK or PLY file
+/// has some.
 clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
                               const clast_points_options *options, clast_table *table,
                               bool *has_faces);
+
+/// clast_cloud_read that takes files with faces too: a flow's field has its mesh's nodes.
+clast_status clx_points_read(const char *path, const clast_points_options *options,
+                             clast_table *table, bool *has_faces);
 
 /// Grains as `clast export` places them in a .vtu of surfaces (field data) or points: columns x, y,
 /// z, grain, shape, scale, density, orientation_wxyz_0 to _3; names: a row for each shape.
@@ -40,7 +45,8 @@ typedef struct clx_dump_head {
 /// clx_points_dump with the head of the snapshot.
 clast_status clx_dump_read(const char *name, const void *bytes, size_t n, int64_t frame,
                            clast_table *table, clx_dump_head *head);
-clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table);
+clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces);
 clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast_table *table);
 
 /// Whether the bytes begin with a count, a line of words, and so many rows "NAME x y z".

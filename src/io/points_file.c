@@ -76,7 +76,7 @@ clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
         return clx_points_vtx(name, bytes, n, table, has_faces);
     }
     if (is_word(bytes, n, "ply")) {
-        return clx_points_ply(name, bytes, n, table);
+        return clx_points_ply(name, bytes, n, table, has_faces);
     }
     if (clx_points_is_xyz(bytes, n)) {
         return clx_points_xyz(name, bytes, n, table);
@@ -84,18 +84,39 @@ clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
 }
 
+/// Vertices of a surface are no particles: a body of a frame has 42 of them.
+static clast_status refuse_faces(const char *name, clast_table *table)
+{
+    clast_table_free(table);
+    return clx_fail(CLAST_E_FORMAT,
+                    "%s: faces join its points, so they are no particles but vertices of surfaces; "
+                    "take the table of the bodies (particles.csv, deposit.csv), or write the "
+                    "points alone",
+                    name);
+}
+
 clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
                                const clast_points_options *options, clast_table *table)
 {
     CLX_ARGUMENTS(name, table);
     CLX_ARRAY(bytes, n);
-    return clx_points_parse(name, bytes, n, options, table, NULL); // a cloud may have faces
+    bool has_faces = false;
+    const clast_status status = clx_points_parse(name, bytes, n, options, table, &has_faces);
+    return status == CLAST_OK && has_faces ? refuse_faces(name, table) : status;
 }
 
 clast_status clast_cloud_read(const char *path, const clast_points_options *options,
                               clast_table *table)
 {
     CLX_ARGUMENTS(path, table);
+    bool has_faces = false;
+    const clast_status status = clx_points_read(path, options, table, &has_faces);
+    return status == CLAST_OK && has_faces ? refuse_faces(path, table) : status;
+}
+
+clast_status clx_points_read(const char *path, const clast_points_options *options,
+                             clast_table *table, bool *has_faces)
+{
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
@@ -106,7 +127,7 @@ clast_status clast_cloud_read(const char *path, const clast_points_options *opti
         CLX_TRY(clx_points_check_options(path, options, false, true));
         CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, NULL, table));
     } else {
-        CLX_TRY(clast_cloud_parse(path, bytes, (size_t)n, options, table));
+        CLX_TRY(clx_points_parse(path, bytes, (size_t)n, options, table, has_faces));
     }
 done:
     clx_free(bytes);

@@ -121,7 +121,13 @@ done:
     return status;
 }
 
-clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table)
+static bool joins_points(const clx_ply_element *e)
+{
+    return e->n_row > 0 && (clx_word_is(e->name, "face") || clx_word_is(e->name, "tristrips"));
+}
+
+clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table,
+                            bool *has_faces)
 {
     clast_status status = CLAST_OK;
     clx_ply ply = {0};
@@ -138,6 +144,9 @@ clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast
                 .end = (const uint8_t *)end,
                 .text = clx_text_begin(ply.body, (size_t)(end - ply.body), '\0', false)};
     r.text.line = ply.body_line;
+    for (int32_t k = 0; k < ply.n_element && has_faces != NULL; ++k) {
+        *has_faces = *has_faces || joins_points(&ply.element[k]);
+    }
     for (int32_t k = 0; k < ply.n_element; ++k) {
         const clx_ply_element *e = &ply.element[k];
         if (clx_word_is(e->name, "vertex")) {

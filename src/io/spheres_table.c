@@ -72,7 +72,7 @@ bool clx_spheres_are_named(const clast_table *table)
     columns c = {{NULL}, false};
     find_names(table, &c);
     return c.column[0] != NULL && c.column[1] != NULL && c.column[2] != NULL &&
-           c.column[RADIUS] != NULL;
+           c.column[RADIUS] != NULL && !clx_form_set_is_named(table);
 }
 
 /// What a table of unnamed columns is asked for, in the words of who asks.

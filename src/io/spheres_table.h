@@ -3,7 +3,8 @@
 #include <clast/state.h>
 #include <clast/table.h>
 
-/// True when the table's columns are named as those of spheres: x, y, z and a radius or diameter.
+/// True when the table's columns are named as those of spheres: x, y, z and a radius or diameter,
+/// and none as forms: those are of grains that lie there.
 bool clx_spheres_are_named(const clast_table *table);
 
 /// True for "x", "x_um", "x (um)", "x [um]" when the wanted name is "x" and the SI unit m; "d_agg"
@@ -13,8 +14,7 @@ bool clx_column_is(const char *column, const char *wanted, const char *si_unit);
 /// The column "x" of a table, bare or else with a unit of length: "x_mm", "x (um)"; NULL if none.
 const clast_column *clx_column_find(const clast_table *table, const char *name);
 
-/// True when the table's columns are named as those of points, x, y and z, and none as forms: those
-/// are of grains that lie there.
+/// True when the table's columns are named as those of points, x, y and z, and none as forms.
 bool clx_points_are_named(const clast_table *table);
 
 /// The spheres of a table: by the options, by the columns' names, or by place.

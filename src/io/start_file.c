@@ -9,12 +9,16 @@
 #include <clast/state.h>
 #include <clast/status.h>
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
 /// Density of grains that are given none [kg/m^3], as in pack/density.c.
 static const double USUAL = 2650.0;
+
+/// Share by which sides that were written down may differ from a cell's.
+static const double ROUNDED = 0.01;
 
 static bool is_folder(const char *path)
 {
@@ -70,11 +74,16 @@ done:
     return status;
 }
 
-static clast_status read_state(const clast_pack_config *c, clast_assembly *a)
+static clast_status read_state(const clast_pack_config *c, clast_assembly *a,
+                               clast_packing_frame *frame)
 {
     clast_status status = CLAST_OK;
+    clast_packing_frame found; // its step is of a run, not of a snapshot
     CLX_TRY(refuse_options(c, "state"));
     CLX_TRY(clast_state_read_assembly(c->start, a));
+    CLX_TRY(clast_state_read_frame(c->start, &found));
+    found.step = frame->step;
+    *frame = found;
     CLX_TRY(to_metres(c, a));
 done:
     return status;
@@ -275,6 +284,18 @@ done:
     return finish(config, status, &made, assembly);
 }
 
+double clx_start_shift(const clast_dem_config *c, const clast_packing_frame *frame)
+{
+    const double side[3] = {c->width, c->depth > 0.0 ? c->depth : c->width, c->height};
+    bool is_same = c->domain == CLAST_DEM_CELL && frame->tilt[0] == 0.0 && frame->tilt[2] == 0.0;
+    for (int k = 0; k < 3; ++k) {
+        is_same = is_same && frame->has_box[k] && frame->is_periodic[k] &&
+                  fabs(frame->high[k] - frame->low[k] - side[k]) <= ROUNDED * side[k];
+    }
+    const double s = frame->tilt[1];
+    return is_same ? s - side[0] * floor(s / side[0] + 0.5) : 0.0;
+}
+
 clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly,
                             clast_packing_report *report)
 {
@@ -283,7 +304,8 @@ clast_status clx_start_read(const clast_pack_config *config, clast_assembly *ass
     const bool is_state = clx_path_is(config->start, "h5");
     CLX_CHECK(!is_folder(config->start), CLAST_E_CONFIG, "%s is a folder; give the state.h5 in it",
               config->start);
-    CLX_TRY(is_state ? read_state(config, &made) : read_others(config, &made, report));
+    CLX_TRY(is_state ? read_state(config, &made, &report->frame)
+                     : read_others(config, &made, report));
 done:
     return finish(config, status, &made, assembly);
 }

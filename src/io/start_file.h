@@ -21,3 +21,7 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
 /// report tells.
 clast_status clx_start_read(const clast_pack_config *config, clast_assembly *assembly,
                             clast_packing_report *report);
+
+/// How far a new cell's images above are shifted along x [m]: as the start's, where that was
+/// periodic with these sides; else 0.
+double clx_start_shift(const clast_dem_config *config, const clast_packing_frame *frame);

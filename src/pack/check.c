@@ -238,7 +238,7 @@ clast_status clx_pack_check_idle(const clast_pack_config *config, const clast_pa
     CLX_TRY(check_others(config, input));
     CLX_TRY(check_grains(config, input));
     CLX_TRY(clx_pack_check_bottom(config, input));
-    CLX_TRY(clx_walls_check_idle(config));
+    CLX_TRY(clx_walls_check_idle(config, input));
 done:
     return status;
 }

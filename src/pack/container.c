@@ -50,16 +50,86 @@ static int32_t find_name(const clast_text_list *list, int most, const char *name
     return -1;
 }
 
-/// Options that name the container, but not the floor in which its bottom lies.
-static clast_status check_bottom(const char *option, const clast_text_list *list, int most)
+static clast_status fail(const char *option, const clast_text_list *list, int32_t i,
+                         const char *what)
 {
-    const int32_t i = find_name(list, most, "container");
-    return i < 0 || find_name(list, most, "floor") >= 0
+    return clx_fail(CLAST_E_CONFIG,
+                    "%s %d, '%s': the container's bottom lies in the floor, which pushes in its "
+                    "place; give --no-floor, or %s",
+                    option, i + 1, list->item[i], what);
+}
+
+/// Motions of two walls by their words.
+static bool moves_alike(const clx_wall_words *a, const clx_wall_words *b)
+{
+    const clast_dem_wall_motion *m = &a->wall.motion;
+    const clast_dem_wall_motion *n = &b->wall.motion;
+    return v3_distance(m->velocity, n->velocity) == 0.0 &&
+           v3_distance(m->amplitude, n->amplitude) == 0.0 && m->period == n->period &&
+           v3_distance(m->axis, n->axis) == 0.0 && v3_distance(m->pivot, n->pivot) == 0.0 &&
+           m->rate == n->rate && m->swing == n->swing && strcmp(a->table, b->table) == 0;
+}
+
+/// What a stage does with a wall: bits by clx_wall_drive_kind.
+static uint32_t drives_of(const clx_wall_stage *s, int32_t wall)
+{
+    uint32_t drives = 0;
+    for (int32_t k = 0; k < s->n; ++k) {
+        drives |= s->drive[k].wall == wall ? 1U << s->drive[k].kind : 0U;
+    }
+    return drives;
+}
+
+/// Stages that do with the container what they do not with the floor; a servo, or one direction
+/// each, would part the two.
+static clast_status check_stages(const clast_pack_config *c, const clast_pack_input *input,
+                                 int32_t container, int32_t floor)
+{
+    clast_status status = CLAST_OK;
+    const uint32_t as_one = 1U << CLX_WALL_RUNS | 1U << CLX_WALL_OPENS;
+    for (int32_t i = 0; i < c->stages.n && input->n_wall == c->wall.n; ++i) {
+        clx_wall_stage s = {.n = 0};
+        CLX_TRY(clx_wall_stage_read(c, i, input, &s));
+        const uint32_t drives = drives_of(&s, container);
+        const bool is_one =
+            drives == 0 || (drives == drives_of(&s, floor) && (drives & ~as_one) == 0);
+        CLX_TRY(is_one ? CLAST_OK
+                       : fail("stage", &c->stages, i, "let the floor move or open with it"));
+    }
+done:
+    return status;
+}
+
+/// A container that moves or opens with the floor in the place of its bottom does so with it; the
+/// floor of one at rest may move, as a piston.
+static clast_status check_wall(const clast_pack_config *c, const clast_pack_input *input)
+{
+    clast_status status = CLAST_OK;
+    const int32_t container = find_name(&c->wall, 1, "container");
+    const int32_t floor = find_name(&c->wall, 1, "floor");
+    clx_wall_words words[3] = {{.idle = NULL}, {.idle = NULL}, {.idle = NULL}}; // the last: at rest
+    if (container < 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_wall_read(c, container, &words[0]));
+    if (floor >= 0) {
+        CLX_TRY(clx_wall_read(c, floor, &words[1]));
+    }
+    CLX_TRY(floor >= 0 && (moves_alike(&words[0], &words[1]) || moves_alike(&words[0], &words[2]))
+                ? CLAST_OK
+                : fail("wall", &c->wall, container, "give the floor the same motion, too"));
+    CLX_TRY(check_stages(c, input, container, floor));
+done:
+    return status;
+}
+
+/// Contacts of the container, but not of the floor in which its bottom lies.
+static clast_status check_contacts(const clast_text_list *list)
+{
+    const int32_t i = find_name(list, 2, "container");
+    return i < 0 || find_name(list, 2, "floor") >= 0
                ? CLAST_OK
-               : clx_fail(CLAST_E_CONFIG,
-                          "%s %d, '%s': the container's bottom lies in the floor, which pushes in "
-                          "its place; give --no-floor, or name the floor, too",
-                          option, i + 1, list->item[i]);
+               : fail("contacts", list, i, "name the floor, too");
 }
 
 clast_status clx_pack_check_bottom(const clast_pack_config *config, const clast_pack_input *input)
@@ -77,8 +147,8 @@ clast_status clx_pack_check_bottom(const clast_pack_config *config, const clast_
         ++i;
     }
     if (i < mesh->n_tri) {
-        CLX_TRY(check_bottom("wall", &config->wall, 1));
-        CLX_TRY(check_bottom("contacts", &config->contacts, 2));
+        CLX_TRY(check_wall(config, input));
+        CLX_TRY(check_contacts(&config->contacts));
     }
 done:
     return status;

@@ -393,6 +393,24 @@ clast_status clx_pack_rows(clast_pack *p)
     return clx_dem_agree(p->dem, status);
 }
 
+/// Drops the rows of this step, which only an early end (max_steps) leaves: what is decided at the
+/// step comes before them. That of walls stays in states from before, whose means begin with it.
+static clast_status drop_early_rows(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    const int64_t step = clast_dem_n_step(p->dem);
+    clast_table *const table[] = {&p->series, &p->load.table,
+                                  p->walls_row < step ? &p->walls : NULL};
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
+        const int64_t n = table[k] != NULL ? table[k]->n_row : 0;
+        if (n > 0 && clast_table_numbers(table[k], "step")[n - 1] >= (double)step) {
+            CLX_TRY(clast_table_resize(table[k], n - 1));
+        }
+    }
+done:
+    return status;
+}
+
 static clast_status series_row_due(clast_pack *p)
 {
     const bool is_due = clast_dem_n_step(p->dem) % steps_of(p, p->config.series_time) == 0;
@@ -404,6 +422,7 @@ static clast_status decide(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const int64_t step = clast_dem_n_step(p->dem);
+    CLX_TRY(drop_early_rows(p));
     CLX_TRY(clx_pack_fill_cell(p));
     CLX_TRY(clx_pack_outlets(p));
     if (p->phase == CLAST_PACK_LOAD) {
@@ -485,7 +504,8 @@ clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
         pack->clocked_steps += (double)n * clast_dem_n_grain(pack->dem);
         n_step -= n;
     }
-    /* nothing is decided at the last step, however it was reached: only its row is written */
+    /* nothing is decided at the last step, however it was reached: only its row is written, which
+     * a run that goes on writes anew */
     if (clast_pack_is_over(pack)) {
         CLX_TRY(series_row_due(pack));
     }

@@ -64,6 +64,9 @@ clast_status clx_pack_start_place(clast_pack *p)
     const clast_assembly *a = p->input.start;
     clast_dem_grain *grain = NULL;
     CLX_TRY(clx_alloc(&grain, a->n_grain, sizeof *grain));
+    if (p->dem->cell != NULL) {
+        p->dem->cell->shift = p->input.start_shift;
+    }
     for (int32_t i = 0; i < a->n_grain; ++i) {
         clast_dem_grain *g = &grain[i];
         *g = (clast_dem_grain){

@@ -204,6 +204,30 @@ done:
     return status;
 }
 
+clast_status clx_wall_stages_use(const clast_pack_config *c, const clast_pack_input *input,
+                                 int32_t wall, uint32_t *used)
+{
+    CLAST_ASSERT(wall >= 0 && wall < c->wall.n);
+    clast_status status = CLAST_OK;
+    *used = c->dem.domain == CLAST_DEM_CELL || input->n_wall < c->wall.n ? 3U : 0U;
+    for (int32_t i = 0; i < c->stages.n && *used != 3U; ++i) {
+        clx_wall_stage s = {.n = 0};
+        CLX_TRY(clx_wall_stage_read(c, i, input, &s));
+        const bool has_stress =
+            s.end == CLX_UNTIL_STRESS && s.until > 0.0 && v3_norm2(input->wall[wall].press) > 0.0;
+        for (int32_t k = 0; k < s.n; ++k) {
+            const clx_wall_drive *d = &s.drive[k];
+            if (d->wall == wall && d->kind != CLX_WALL_OPENS) {
+                const bool is_pressed = d->kind == CLX_WALL_PRESSED && !d->is_force;
+                *used |= d->kind != CLX_WALL_RUNS || has_stress ? 1U : 0U;
+                *used |= is_pressed || has_stress ? 2U : 0U;
+            }
+        }
+    }
+done:
+    return status;
+}
+
 clast_status clx_wall_stages_run_all(const clast_pack_config *c, const clast_pack_input *input)
 {
     clast_status status = CLAST_OK;

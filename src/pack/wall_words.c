@@ -165,11 +165,13 @@ static const char *read_motion(const char *name, const char *const next[2], clx_
     return "expected move, vibrate, axis, about, rotate, swing, table, press or area, not";
 }
 
-/// Why a word does nothing, or undoes another, or NULL; *given: the words so far.
-static const char *idle_word(const clast_pack_config *c, const char *name, uint32_t *given)
+/// Words by the bits of clx_wall_words.given.
+static const char *const names[] = {"press", "area",   "move",    "about", "axis",
+                                    "table", "rotate", "vibrate", "swing"};
+
+/// Why a word undoes another, or NULL; *given: the words so far.
+static const char *idle_word(const char *name, uint32_t *given)
 {
-    static const char *const names[] = {"press", "area",   "move",    "about", "axis",
-                                        "table", "rotate", "vibrate", "swing"};
     for (uint32_t k = 0; k < sizeof names / sizeof *names; ++k) {
         if (strcmp(name, names[k]) != 0) {
             continue;
@@ -178,7 +180,7 @@ static const char *idle_word(const clast_pack_config *c, const char *name, uint3
             return "it is given twice:";
         }
         *given |= 1U << k;
-        return k < 2 && c->stages.n == 0 ? "no stage presses the wall (stages); leave out" : NULL;
+        return NULL;
     }
     return NULL;
 }
@@ -249,7 +251,6 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
     const char *at = NULL;
     char word[3][CLX_WALL_PATH] = {"", "", ""};
     clx_wall_words w = {.file = ""};
-    uint32_t given = 0;
     CLX_TRY(read_head(c, i, &at, &w));
     while (at != NULL && (at = clx_next_word(at, word[0], sizeof word[0])) != NULL) {
         int taken = 0;
@@ -259,7 +260,7 @@ clast_status clx_wall_read(const clast_pack_config *c, int32_t i, clx_wall_words
             word[k][0] = next != NULL ? word[k][0] : '\0';
             after = next;
         }
-        const char *idle = idle_word(c, word[0], &given);
+        const char *idle = idle_word(word[0], &w.given);
         if (idle != NULL && w.idle == NULL) {
             w.idle = idle;
             (void)snprintf(w.idle_word, sizeof w.idle_word, "%s", word[0]);
@@ -279,13 +280,25 @@ done:
     return status;
 }
 
-clast_status clx_walls_check_idle(const clast_pack_config *c)
+clast_status clx_walls_check_idle(const clast_pack_config *c, const clast_pack_input *input)
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < c->wall.n; ++i) {
         clx_wall_words w = {.idle = NULL};
+        uint32_t used = 0;
         CLX_TRY(clx_wall_read(c, i, &w));
         CLX_TRY(w.idle == NULL ? CLAST_OK : fail(c, i, w.idle, w.idle_word));
+        CLX_TRY(clx_wall_stages_use(c, input, i, &used));
+        for (uint32_t k = 0; k < 2; ++k) {
+            CLX_TRY((w.given & ~used) >> k & 1U
+                        ? fail(c, i,
+                               k == 0 ? "no stage presses the wall, or moves it along that "
+                                        "direction (stages); leave out"
+                                      : "no stage presses the wall by a pressure, or until one "
+                                        "(stages); leave out",
+                               names[k])
+                        : CLAST_OK);
+        }
     }
 done:
     return status;

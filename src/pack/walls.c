@@ -518,10 +518,10 @@ done:
 }
 
 /// A wall's numbers: where it is, mean force and torque since the last row, work.
-static void measure_wall(clast_pack *p, int32_t i, double time, double x[N_OF_WALL])
+static void measure_wall(const clast_pack *p, int32_t i, double time, double x[N_OF_WALL])
 {
     clast_dem_wall now;
-    clx_pack_wall *w = &p->wall[i];
+    const clx_pack_wall *w = &p->wall[i];
     clast_dem_read_wall(p->dem, i, &now);
     v3_copy(x, now.offset);
     x[3] = now.angle;
@@ -530,8 +530,24 @@ static void measure_wall(clast_pack *p, int32_t i, double time, double x[N_OF_WA
         x[7 + k] = time > 0.0 ? (now.moment[k] - w->row[3 + k]) / time : now.torque[k];
     }
     x[10] = now.work;
-    v3_copy(w->row, now.impulse);
-    v3_copy(w->row + 3, now.moment);
+}
+
+/// The next row's means are since this step; not since an early end's, whose row is written anew
+/// when the run goes on.
+static void begin_row(clast_pack *p)
+{
+    const int64_t step = clast_dem_n_step(p->dem);
+    const int64_t most = p->config.max_steps;
+    if (p->phase != CLAST_PACK_DONE && most > 0 && step >= most) {
+        return;
+    }
+    p->walls_row = step;
+    for (int32_t i = 0; i < p->n_wall; ++i) {
+        clast_dem_wall now;
+        clast_dem_read_wall(p->dem, i, &now);
+        v3_copy(p->wall[i].row, now.impulse);
+        v3_copy(p->wall[i].row + 3, now.moment);
+    }
 }
 
 clast_status clx_pack_walls_row(clast_pack *p)
@@ -565,7 +581,7 @@ clast_status clx_pack_walls_row(clast_pack *p)
             table->column[c++].number[row] = x[k];
         }
     }
-    p->walls_row = step;
+    begin_row(p);
 done:
     return status;
 }

@@ -11,15 +11,16 @@ typedef struct clx_wall_words {
     char file[CLX_WALL_PATH];  ///< empty: a wall of the domain
     char unit[16];             ///< of that file
     char table[CLX_WALL_PATH]; ///< empty: none
-    const char *idle;          ///< what is wrong with a word that does nothing, or NULL
+    const char *idle;          ///< what is wrong with a word that undoes another, or NULL
     char idle_word[16];
+    uint32_t given; ///< bits: 0 press, 1 area, then those of the motion
 } clx_wall_words;
 
 /// Reads option `wall` number i. CLAST_E_CONFIG names it and what is wrong.
 clast_status clx_wall_read(const clast_pack_config *config, int32_t i, clx_wall_words *out);
 
 /// Refuses words of walls that do nothing: given twice, or to be pressed by no stage.
-clast_status clx_walls_check_idle(const clast_pack_config *config);
+clast_status clx_walls_check_idle(const clast_pack_config *config, const clast_pack_input *input);
 
 /// Number of a wall of the domain among the simulation's, or -1; the direction into the domain.
 int32_t clx_wall_of_domain(const clast_dem_config *config, const char *name, double inward[3]);
@@ -60,6 +61,10 @@ typedef struct clx_wall_stage {
 
 clast_status clx_wall_stage_read(const clast_pack_config *config, int32_t number,
                                  const clast_pack_input *input, clx_wall_stage *stage);
+
+/// Bits of clx_wall_words.given, press and area, that a stage looks at for a wall of the options.
+clast_status clx_wall_stages_use(const clast_pack_config *config, const clast_pack_input *input,
+                                 int32_t wall, uint32_t *used);
 
 /// Refuses a wall whose own motion no stage runs.
 clast_status clx_wall_stages_run_all(const clast_pack_config *config,

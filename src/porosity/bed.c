@@ -59,7 +59,7 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
         CLX_CHECK(
             ((is_box || is_periodic) && n == 4) || (is_periodic && n >= 6), CLAST_E_CONFIG,
             "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or, in all "
-            "three directions, periodic:X0,Y0,Z0,X1,Y1,Z1, not '%s'",
+            "three directions, periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT], not '%s'",
             text);
         made.kind = is_box ? CLAST_BED_BOX : n >= 6 ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC;
         for (int k = 0; k < 2; ++k) {

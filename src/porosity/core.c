@@ -127,6 +127,48 @@ static void find_beyond(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
+/// What of each grain lies beyond the sides, between two heights.
+static clast_status measure_beyond(beyond_search *s)
+{
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    if (s->bed->kind == CLAST_BED_MESH) {
+        CLX_TRY(clast_bvh_create(s->bed->surface, &s->surface));
+    }
+    CLX_TRY(clx_touch_set_init(s->assembly, &set));
+    s->set = &set;
+    clx_parallel_for(s->assembly->n_grain, BLOCK, find_beyond, s);
+done:
+    s->set = NULL;
+    clast_bvh_destroy(s->surface);
+    s->surface = NULL;
+    clx_touch_set_free(&set);
+    return status;
+}
+
+clast_status clx_bed_shares_beyond(const clast_bed *bed, const clast_assembly *assembly,
+                                   clast_porosity_method method, double *share)
+{
+    clast_status status = CLAST_OK;
+    beyond_search s = {.assembly = assembly,
+                       .bed = bed,
+                       .method = method,
+                       .z = {-HUGE_VAL, HUGE_VAL},
+                       .share = share};
+    if (bed->kind == CLAST_BED_MESH) { // slices end at its rim
+        double low[3];
+        double high[3];
+        clast_mesh_bounds(bed->surface, low, high);
+        s.z[0] = low[2];
+        s.z[1] = high[2];
+    }
+    CLX_TRY(clx_alloc(&s.depth, assembly->n_grain, sizeof *s.depth));
+    CLX_TRY(measure_beyond(&s));
+done:
+    clx_free(s.depth);
+    return status;
+}
+
 clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly *assembly,
                                       const clast_porosity_bulk *bulk, clast_porosity_method method,
                                       clast_bed_beyond *beyond)
@@ -135,27 +177,18 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
     CLX_WHOLE(assembly, assembly);
     CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
-    clx_touch_set set = {0};
     clast_bed_beyond made = {0};
     double period[3];
-    beyond_search s = {.assembly = assembly,
-                       .bed = bed,
-                       .set = &set,
-                       .method = method,
-                       .z = {bulk->z_low, bulk->z_high}};
+    beyond_search s = {
+        .assembly = assembly, .bed = bed, .method = method, .z = {bulk->z_low, bulk->z_high}};
     CLX_CHECK((unsigned)method <= CLAST_POROSITY_SPHERES, CLAST_E_ARGUMENT,
               "porosity: there is no method %d", (int)method);
     if (clast_bed_period(bed, period)) {
-        *beyond = made;
-        return CLAST_OK;
+        return clx_images_measure(bed, assembly, beyond);
     }
-    if (bed->kind == CLAST_BED_MESH) {
-        CLX_TRY(clast_bvh_create(bed->surface, &s.surface));
-    }
-    CLX_TRY(clx_touch_set_init(assembly, &set));
     CLX_TRY(clx_alloc(&s.share, assembly->n_grain, sizeof *s.share));
     CLX_TRY(clx_alloc(&s.depth, assembly->n_grain, sizeof *s.depth));
-    clx_parallel_for(assembly->n_grain, BLOCK, find_beyond, &s);
+    CLX_TRY(measure_beyond(&s));
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         made.n += s.share[i] > 0.0 ? 1 : 0;
         made.depth = fmax(made.depth, s.depth[i]);
@@ -165,8 +198,6 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
 done:
     clx_free(s.share);
     clx_free(s.depth);
-    clast_bvh_destroy(s.surface);
-    clx_touch_set_free(&set);
     return status;
 }
 

@@ -32,6 +32,7 @@ typedef struct {
 typedef struct {
     double *solid;   ///< [n_slice] zero between blocks
     double *shifted; ///< [n_slice + 1] edges as an image sees them
+    double *whole;   ///< [n_slice] a grain of which a part counts, zero between grains; else NULL
 } bench;
 
 /// Blocks of grains, added in block order afterwards.
@@ -42,6 +43,7 @@ typedef struct {
     const double *edge;
     int64_t first, n_block; ///< blocks of this round
     double period;          ///< in height, 0: none; grains begin in the first image
+    double *beyond;         ///< [n_grain] share of each that does not count, or NULL
     bench *bench;           ///< [workers]
     reached *block;         ///< [n_block]
 } gathering;
@@ -83,8 +85,14 @@ static clast_status add_grain(const gathering *g, int32_t i, const bench *at)
         for (int32_t k = range[0]; k <= range[1]; ++k) {
             at->shifted[k] = g->edge[k] + shift;
         }
+        const bool is_part = g->beyond != NULL && g->beyond[i] > 0.0;
         CLX_TRY(clx_grain_slabs(g->assembly, i, g->method, range[1] - range[0],
-                                at->shifted + range[0], at->solid + range[0]));
+                                at->shifted + range[0],
+                                (is_part ? at->whole : at->solid) + range[0]));
+        for (int32_t k = range[0]; k < range[1] && is_part; ++k) {
+            at->solid[k] += (1.0 - g->beyond[i]) * at->whole[k];
+            at->whole[k] = 0.0;
+        }
     }
 done:
     return status;
@@ -156,22 +164,27 @@ static void add_blocks(gathering *g, double *solid)
 /// Solid volume of all grains in slices. Blocks go in rounds, so that memory stays bounded.
 /// O(grains times the slices that one reaches + slices times workers).
 static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
-                          clast_porosity_method method, int32_t n, const double *edge,
+                          const clast_porosity_options *options, int32_t n, const double *edge,
                           double *solid)
 {
     clast_status status = CLAST_OK;
     const int64_t n_block = (assembly->n_grain + BLOCK - 1) / BLOCK;
     const int64_t most = 64;
     const int32_t n_bench = clx_parallel_workers();
-    gathering g = {.assembly = assembly, .method = method, .n_slice = n, .edge = edge};
+    gathering g = {.assembly = assembly, .method = options->method, .n_slice = n, .edge = edge};
     double period[3];
-    (void)clast_bed_period(bed, period);
+    const bool is_window = !clast_bed_period(bed, period) && options->window;
     g.period = period[2];
+    if (is_window) {
+        CLX_TRY(clx_alloc(&g.beyond, assembly->n_grain, sizeof *g.beyond));
+        CLX_TRY(clx_bed_shares_beyond(bed, assembly, options->method, g.beyond));
+    }
     CLX_TRY(clx_alloc(&g.block, most, sizeof *g.block));
     CLX_TRY(clx_alloc(&g.bench, n_bench, sizeof *g.bench));
     for (int32_t k = 0; k < n_bench; ++k) {
         CLX_TRY(clx_alloc(&g.bench[k].solid, n, sizeof *g.bench[k].solid));
         CLX_TRY(clx_alloc(&g.bench[k].shifted, n + 1LL, sizeof *g.bench[k].shifted));
+        CLX_TRY(clx_alloc(&g.bench[k].whole, is_window ? n : 0, sizeof *g.bench[k].whole));
     }
     for (g.first = 0; g.first < n_block; g.first += most) {
         g.n_block = n_block - g.first < most ? n_block - g.first : most;
@@ -185,7 +198,9 @@ done:
     for (int32_t k = 0; k < n_bench && g.bench != NULL; ++k) {
         clx_free(g.bench[k].solid);
         clx_free(g.bench[k].shifted);
+        clx_free(g.bench[k].whole);
     }
+    clx_free(g.beyond);
     clx_free(g.bench);
     clx_free(g.block);
     return status;
@@ -224,7 +239,7 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
         bed->kind != CLAST_BED_PERIODIC_3D) { // what lies above a container's rim lies outside
         edge[n] = HUGE_VAL;
     }
-    CLX_TRY(slabs(assembly, bed, options->method, n, edge, solid));
+    CLX_TRY(slabs(assembly, bed, options, n, edge, solid));
     for (int32_t k = 0; k < n; ++k) {
         porosity[k] = volume[k] > 0.0 ? 1.0 - solid[k] / volume[k] : 1.0;
     }
@@ -340,6 +355,9 @@ static clast_status find_top(const clast_assembly *assembly, const clast_bed *be
                             strcmp(assembly->unit, "m") == 0 ? "m" : "-"),
               options->cut);
     *top = high[k];
+    if (options->cut >= 1.0 && options->window) {
+        return CLAST_OK; // the highest grain may lie beyond the sides
+    }
     if (!options->at_slice && options->cut >= 1.0) {
         *top = highest(assembly, bed, options);
     } else if (!options->at_slice && k + 1 < profile->n_row) {
@@ -379,7 +397,7 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
     const double edge[2] = {cuts_low ? made.z_low : clx_lowest_edge(assembly, bed, options),
                             made.z_high};
     double solid[1] = {0.0};
-    CLX_TRY(slabs(assembly, bed, options->method, 1, edge, solid));
+    CLX_TRY(slabs(assembly, bed, options, 1, edge, solid));
     made.solid = solid[0];
     const double whole[2] = {made.z_low, made.z_high};
     double volume = 0.0;

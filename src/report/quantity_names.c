@@ -25,8 +25,8 @@ static const struct {
 } endings[] = {{"_kg/m^3", "kg/m^3"}, {"_kg/m3", "kg/m^3"}, {"_kg_m3", "kg/m^3"}, {"_1/m", "1/m"},
                {"_m/s", "m/s"},       {"_m3", "m^3"},       {"_m2", "m^2"},       {"_kg", "kg"},
                {"_rad", "rad"},       {"_deg", "deg"},      {"_Pa", "Pa"},        {"_J", "J"},
-               {"_N", "N"},           {"_Nm", "N m"},       {"_um", "um"},        {"_mm", "mm"},
-               {"_m", "m"},           {"_s", "s"}};
+               {"_N", "N"},           {"_Nm", "N m"},       {"_N/m^3", "N/m^3"},  {"_um", "um"},
+               {"_mm", "mm"},         {"_m", "m"},          {"_s", "s"}};
 
 /// What a name may begin with; the rest is a known name: "mean_d_agg" is "Aggregate diameter,
 /// mean".

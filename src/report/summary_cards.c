@@ -404,13 +404,18 @@ static bool is_column(const clx_run *run, const char *key)
 }
 
 /// Numbers that one of the run's tables has anyway: history.csv those of the list "events" and of
-/// {"M1": [], "M2": []}; stress.csv, a quantity a row, those of the object "stress".
+/// {"M1": [], "M2": []}; stress.csv, a quantity a row, those of the object "stress"; terms.csv,
+/// with a unit a row, those of the list "terms".
 static bool is_in_table(const clx_run *run, const char *key, const json_t *value)
 {
     const char *name = NULL;
     json_t *inner = NULL;
+    if (json_is_object(json_array_get(value, 0))) {
+        const clast_table *own = clx_run_table(run, key);
+        return own != NULL && clast_table_find(own, "unit") >= 0;
+    }
     if (json_is_array(value)) {
-        return is_column(run, key) && !json_is_object(json_array_get(value, 0));
+        return is_column(run, key);
     }
     json_object_foreach((json_t *)value, name, inner)
     {

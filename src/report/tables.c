@@ -22,6 +22,7 @@ typedef struct {
     const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
     const clast_column *of;       ///< values that errors and limits tell of, or NULL
     bool is_error;
+    bool is_per;   ///< of one such unit: a coefficient
     bool is_name;  ///< its texts are keys
     bool is_given; ///< by the user: its name tells no quantity and no unit
 } shown;
@@ -38,8 +39,9 @@ static bool is_one_of(const char *text, const char *const *names, size_t n)
 /// Text column "unit" of tables that name a quantity a row (name, value, unit), or NULL.
 static const clast_column *units_of(const clast_table *table)
 {
-    const bool has_name =
-        clast_table_find(table, "name") >= 0 || clast_table_find(table, "quantity") >= 0;
+    const bool has_name = clast_table_find(table, "name") >= 0 ||
+                          clast_table_find(table, "quantity") >= 0 ||
+                          clast_table_find(table, "term") >= 0;
     const int32_t unit = clast_table_find(table, "unit");
     if (table->column == NULL || !has_name || unit < 0) {
         return NULL;
@@ -101,6 +103,38 @@ static const clast_column *column_of_value(const clast_table *table)
     return of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
 }
 
+/// Unit of a term of the run's model, which a column of features has, too; "" where it is not
+/// known.
+static const char *unit_of_term(const clx_run *run, const char *name)
+{
+    const clast_table *terms = clx_run_table(run, "terms");
+    const clast_column *unit = terms != NULL ? units_of(terms) : NULL;
+    const int32_t term = unit != NULL ? clast_table_find(terms, "term") : -1;
+    for (int64_t i = 0; term >= 0 && terms->column[term].text != NULL && i < terms->n_row; ++i) {
+        if (strcmp(terms->column[term].text[i], name) == 0) {
+            return unit->text[i];
+        }
+    }
+    return "";
+}
+
+/// Units of a column whose rows have their own; a row's limits share one, coefficients are of SI.
+static void set_row_unit(shown *s, const clast_table *table)
+{
+    static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
+    static const char *const per[] = {"coefficient", "standard_error"};
+    const char *name = s->column->name;
+    const bool is_model = clast_table_find(table, "term") >= 0;
+    s->is_per = is_model && is_one_of(name, per, sizeof per / sizeof *per);
+    if (s->is_per || is_one_of(name, valued, sizeof valued / sizeof *valued)) {
+        s->row_unit = units_of(table);
+    }
+    if (s->row_unit != NULL && is_model) {
+        const int32_t of = clast_table_find(table, "high");
+        s->of = of >= 0 && table->column[of].number != NULL ? &table->column[of] : NULL;
+    }
+}
+
 /// Texts of the column are keys: of quantities, of features.
 static bool holds_names(const clast_table *table, const char *column)
 {
@@ -112,20 +146,17 @@ static bool holds_names(const clast_table *table, const char *column)
 
 static shown show(const clx_run *run, const clast_table *table, int32_t c, const char *place)
 {
-    static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
     const clast_column *column = &table->column[c];
     shown s = {.run = run, .column = column, .place = place};
     s.is_given = clx_given_column(run, table->name, column->name);
-    s.quantity =
-        s.is_given ? (clx_quantity){.unit = "", .words = ""} : clx_quantity_of(column->name, place);
+    s.quantity = s.is_given ? (clx_quantity){.unit = unit_of_term(run, column->name), .words = ""}
+                            : clx_quantity_of(column->name, place);
     s.scale = scale_of(table, c, s.quantity.unit);
     s.of = column_of_value(table);
     s.is_error = !s.is_given &&
                  (strcmp(column->name, "error") == 0 || strcmp(column->name, "deviation") == 0);
     s.is_name = holds_names(table, column->name);
-    if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
-        s.row_unit = units_of(table);
-    }
+    set_row_unit(&s, table);
     return s;
 }
 
@@ -155,6 +186,24 @@ static void put_head(clx_file *file, const shown *s)
     (void)clx_file_print(file, "</th>");
 }
 
+/// Unit of a coefficient of a quantity in this unit.
+static const char *unit_per(const char *unit, char out[CLX_QUANTITY_SIZE])
+{
+    const char *over = strchr(unit, '/');
+    if (unit[0] == '\0' || strcmp(unit, "-") == 0) {
+        return "-";
+    }
+    if (over == NULL) {
+        const bool is_product = strchr(unit, ' ') != NULL;
+        (void)snprintf(out, CLX_QUANTITY_SIZE, is_product ? "1/(%s)" : "1/%s", unit);
+    } else if (strncmp(unit, "1/", 2) == 0) {
+        (void)snprintf(out, CLX_QUANTITY_SIZE, "%s", over + 1);
+    } else {
+        (void)snprintf(out, CLX_QUANTITY_SIZE, "%s/%.*s", over + 1, (int)(over - unit), unit);
+    }
+    return out;
+}
+
 static void put_number(clx_file *file, const shown *s, int64_t row)
 {
     CLAST_ASSERT(row >= 0);
@@ -163,7 +212,13 @@ static void put_number(clx_file *file, const shown *s, int64_t row)
     const double of = s->of != NULL ? s->of->number[row] : 0.0;
     const double value = s->is_error && fabs(told) <= 1e-12 * fabs(of) ? 0.0 : told;
     if (s->row_unit != NULL) {
-        clx_quantity_put_like(file, value, s->row_unit->text[row], of != 0.0 ? of : value);
+        char per[CLX_QUANTITY_SIZE];
+        const char *unit = s->row_unit->text[row];
+        if (s->is_per) { // as it is: no unit reads best for an infinite number
+            clx_quantity_put_like(file, value, unit_per(unit, per), HUGE_VAL);
+        } else {
+            clx_quantity_put_like(file, value, unit, of != 0.0 ? of : value);
+        }
     } else if (!isfinite(value)) {
         (void)clx_file_print(file, "\342\200\223");
     } else if (s->quantity.words[0] != '\0') {

@@ -1,8 +1,10 @@
 // A filling under way: the surface closed, checked and measured, before the first sphere.
 #include "shape/fill.h"
 
+#include "base/alloc.h"
 #include "base/monitor.h"
 #include "base/status.h"
+#include "math/sort.h"
 #include <math.h>
 
 /// Least mean thickness, as a share of the extent, of a solid that is filled: distances are floats
@@ -53,15 +55,39 @@ static int32_t farthest_vertex(const clast_mesh *mesh, const double from[3])
     return farthest;
 }
 
+/// The vertex farthest from the median of all; their mean and the centroid go along with it.
+static clast_status find_stray(const clast_mesh *mesh, int32_t *stray)
+{
+    clast_status status = CLAST_OK;
+    double median[3] = {0};
+    double *x = NULL;
+    CLX_TRY(clx_alloc(&x, mesh->n_vert, sizeof *x));
+    for (int k = 0; k < 3; ++k) {
+        for (int32_t i = 0; i < mesh->n_vert; ++i) {
+            x[i] = mesh->vert[i][k];
+        }
+        CLX_TRY(clx_sort_doubles(x, mesh->n_vert));
+        median[k] = x[mesh->n_vert / 2];
+    }
+    *stray = farthest_vertex(mesh, median);
+done:
+    clx_free(x);
+    return status;
+}
+
 /// 3 V / A is the radius of a sphere, and no more than three times the half thickness of a plate.
 static clast_status check_thickness(const clx_fill *fill)
 {
     clast_status status = CLAST_OK;
     const clast_mesh *mesh = fill->solid.mesh;
     const double thickness = 3.0 * fill->mass.volume / clast_mesh_area(mesh);
-    const int32_t at = farthest_vertex(mesh, fill->mass.centroid);
-    CLX_CHECK(
-        thickness >= THICKNESS_LIMIT * fill->extent, CLAST_E_GEOMETRY,
+    int32_t at = 0;
+    if (thickness >= THICKNESS_LIMIT * fill->extent) {
+        return CLAST_OK;
+    }
+    CLX_TRY(find_stray(mesh, &at));
+    status = clx_fail(
+        CLAST_E_GEOMETRY,
         "the solid is %.3g long and %.3g thick on average (3 V / A); its walls are told apart "
         "down to %g of its length; is vertex %d at (%g, %g, %g) an error?",
         fill->extent, thickness, THICKNESS_LIMIT, at, mesh->vert[at][0], mesh->vert[at][1],

@@ -32,7 +32,8 @@ static const char *const names[N_ROLE][N_NAME] = {
 typedef struct {
     int32_t at[N_ROLE];
     bool by_length;
-    double factor[3]; ///< of L, I and S: from their column's unit into that of S
+    bool mixes_units; ///< L, I and S are in different ones
+    double factor[3]; ///< of these: into metres then, else 1
 } roles;
 
 const char *clast_row_fault_text(clast_row_fault fault)
@@ -158,8 +159,9 @@ static clast_status find_factors(const clast_table *table, roles *r)
               "table %s: %d of the 3 columns of L, I and S say their unit of length; give all of "
               "them one, or none",
               table->name, n_unit);
+    r->mixes_units = metre[0] != metre[2] || metre[1] != metre[2];
     for (int k = 0; k < 3; ++k) {
-        r->factor[k] = metre[k] == metre[2] ? 1.0 : metre[k] / metre[2];
+        r->factor[k] = r->mixes_units ? metre[k] : 1.0;
     }
 done:
     return status;
@@ -181,6 +183,14 @@ static clast_status find_roles(const clast_table *table, const char *columns, ro
         CLX_TRY(find_factors(table, r));
     }
 done:
+    return status;
+}
+
+clast_status clx_form_set_mixes_units(const clast_table *table, const char *columns, bool *mixes)
+{
+    roles r;
+    const clast_status status = find_roles(table, columns, &r);
+    *mixes = status == CLAST_OK && r.mixes_units;
     return status;
 }
 
@@ -311,6 +321,9 @@ static void label_size(const clast_table *table, const roles *r, clast_form_set 
         return;
     }
     const bool has_unit = metres_of(&table->column[c], unit) > 0.0;
+    if (r->mixes_units) {
+        (void)snprintf(unit, sizeof unit, "m");
+    }
     plain_name(&table->column[c], plain);
     if (r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0) {
         (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",

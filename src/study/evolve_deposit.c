@@ -4,6 +4,7 @@
 #include "study/evolve_folder.h"
 
 #include "base/alloc.h"
+#include "evolve/walls.h"
 #include "io/rigid_grain.h"
 #include <clast/assembly.h>
 #include <clast/cloud.h>
@@ -82,6 +83,7 @@ static clast_status add_body(const clast_evolve *evolve, int64_t node, double ma
         memcpy(turn, body.orientation[0], sizeof turn);
     }
     CLX_TRY(shape_of(&body, node, bed, &id));
+    CLAST_ASSERT(id >= 0 && bed->shape != NULL);
     CLX_TRY(clast_assembly_add_grain(bed, id, place, turn, scale,
                                      mass / (bed->shape[id].volume * scale * scale * scale)));
 done:
@@ -266,11 +268,14 @@ clast_status clx_evolve_write_bed(const char *folder, double width, const clast_
     CLX_TRY(clast_evolve_table(evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
     for (int64_t i = 0; i < deposit.n_row; ++i) {
         const double place[3] = {clast_table_numbers(&deposit, "x_m")[i],
-                                 clast_table_numbers(&deposit, "y_m")[i], 0.0};
-        CLX_TRY(add_body(evolve, (int64_t)clast_table_numbers(&deposit, "node")[i],
-                         clast_table_numbers(&deposit, "mass_kg")[i], place, &bed));
+                                 clast_table_numbers(&deposit, "y_m")[i],
+                                 clast_table_numbers(&deposit, "z_m")[i]};
+        if (clx_walls_is_floor(domain, place)) {
+            CLX_TRY(add_body(evolve, (int64_t)clast_table_numbers(&deposit, "node")[i],
+                             clast_table_numbers(&deposit, "mass_kg")[i], place, &bed));
+        }
     }
-    if (deposit.n_row > 0) {
+    if (bed.n_grain > 0) {
         CLX_TRY(place_all(domain, width, &bed, result));
         CLX_TRY(clx_path_join(path, folder, "deposit.h5"));
         CLX_TRY(clast_state_write_assembly(&bed, path, NULL));

@@ -10,11 +10,11 @@ clast_status clx_evolve_write_results(const char *folder, const char *config,
                                       const clast_domain *domain, const clast_evolve *evolve,
                                       clast_evolve_result *result);
 
-/// deposit.h5: the bodies on the floor, one rigid grain each, by the time when they came, in a
-/// column about z of this width, or as wide as the widest of them, each above the place where it
-/// came down and free of those before: what clast pack --start settles.
-/// Not written where nothing came down. Sets result->bed_width, bed_height, bed_mass and
-/// bed_least.
+/// deposit.h5: the bodies on the floor (not those on sides or a ceiling), one rigid grain each, by
+/// the time when they came, in a column about z of this width, or as wide as the widest of them,
+/// each above the place where it came down and free of those before: what clast pack --start
+/// settles. Not written where nothing lies on the floor. Sets result->bed_width, bed_height,
+/// bed_mass and bed_least.
 clast_status clx_evolve_write_bed(const char *folder, double width, const clast_domain *domain,
                                   const clast_evolve *evolve, clast_evolve_result *result);
 

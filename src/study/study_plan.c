@@ -6,9 +6,11 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include "porosity/unit_columns.h"
 #include <clast/table.h>
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const clast_field clast_study_fields[] = {
@@ -117,7 +119,7 @@ static clast_status check_new_key(const axes *all, const char *key)
 }
 
 /// "key = a | b" as a column of an axis: a new one, or the one that is there (zip).
-static clast_status add_vary(axes *all, const char *text, bool is_zip, bool join)
+static clast_status add_vary(axes *all, const char *text, bool join)
 {
     clast_status status = CLAST_OK;
     const char *equals = strchr(text, '=');
@@ -144,12 +146,6 @@ static clast_status add_vary(axes *all, const char *text, bool is_zip, bool join
         CLX_TRY(copy_trimmed(begin, end, word));
         CLX_TRY(clast_table_set_text(&to->values, to->values.n_column - 1, i, word));
         begin = end + 1;
-        for (int64_t k = 0; k < i && !is_zip; ++k) {
-            CLX_CHECK(strcmp(to->values.column[0].text[k], word) != 0, CLAST_E_CONFIG,
-                      "vary: '%s' names the value '%s' twice: the same runs; option seeds repeats "
-                      "them with other random numbers",
-                      text, word);
-        }
     }
 done:
     return status;
@@ -196,6 +192,87 @@ done:
     return status;
 }
 
+/// A row's values as one text, to be compared: quantities in SI, so that 1g and 1000mg are one.
+typedef struct {
+    char *text;
+    int64_t row;
+} row_key;
+
+static int by_text(const void *a, const void *b)
+{
+    const row_key *x = a;
+    const row_key *y = b;
+    const int order = strcmp(x->text, y->text);
+    return order != 0 ? order : (x->row > y->row) - (x->row < y->row);
+}
+
+static clast_status make_key(const clast_table *values, int64_t row, row_key *key)
+{
+    enum { NUMBER = 24 };
+    clast_status status = CLAST_OK;
+    size_t size = 1;
+    size_t n = 0;
+    for (int32_t c = 0; c < values->n_column; ++c) {
+        size += values->column[c].number != NULL ? NUMBER : strlen(values->column[c].text[row]) + 1;
+    }
+    CLX_TRY(clx_alloc(&key->text, (int64_t)size, 1));
+    for (int32_t c = 0; c < values->n_column; ++c) {
+        const clast_column *column = &values->column[c];
+        char number[NUMBER];
+        if (column->number != NULL) {
+            (void)clx_number_print(number, sizeof number, "%.13g", column->number[row]);
+        }
+        n += (size_t)snprintf(key->text + n, size - n, "%s\x1f",
+                              column->number != NULL ? number : column->text[row]);
+    }
+    key->row = row;
+done:
+    return status;
+}
+
+/// Two rows of an axis that are the same, counted from 1.
+static clast_status refuse_rows(const clast_table *values, int64_t a, int64_t b)
+{
+    static const char *const why = "the same runs; option seeds repeats them with other random "
+                                   "numbers";
+    const clast_column *first = &values->column[0];
+    return strcmp(values->name, "table") == 0
+               ? clx_fail(CLAST_E_CONFIG, "table: rows %lld and %lld are the same: %s",
+                          (long long)a + 1, (long long)b + 1, why)
+               : clx_fail(CLAST_E_CONFIG,
+                          "vary: values %lld and %lld of '%s'%s are the same ('%s', '%s'): %s",
+                          (long long)a + 1, (long long)b + 1, first->name,
+                          values->n_column > 1 ? " and of the others" : "", first->text[a],
+                          first->text[b], why);
+}
+
+/// Refuses rows that would be run twice.
+static clast_status check_rows(const clast_table *values)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n = values->n_row;
+    clx_unit_columns read = {0};
+    row_key *key = NULL;
+    CLX_TRY(clx_unit_columns_read(values, &read));
+    CLX_TRY(clx_alloc(&key, n, sizeof *key));
+    for (int64_t i = 0; i < n; ++i) {
+        CLX_TRY(make_key(&read.table, i, &key[i]));
+    }
+    qsort(key, (size_t)n, sizeof *key, by_text);
+    for (int64_t i = 1; i < n; ++i) {
+        if (strcmp(key[i - 1].text, key[i].text) == 0) {
+            CLX_TRY(refuse_rows(values, key[i - 1].row, key[i].row));
+        }
+    }
+done:
+    for (int64_t i = 0; key != NULL && i < n; ++i) {
+        clx_free(key[i].text);
+    }
+    clx_free(key);
+    clx_unit_columns_free(&read);
+    return status;
+}
+
 static clast_status find_axes(const clast_study_config *config, axes *all)
 {
     clast_status status = CLAST_OK;
@@ -205,7 +282,10 @@ static clast_status find_axes(const clast_study_config *config, axes *all)
     }
     for (int32_t i = 0; i < config->vary.n; ++i) {
         const bool is_zip = config->design == CLAST_STUDY_ZIP;
-        CLX_TRY(add_vary(all, config->vary.item[i], is_zip, is_zip && i > 0));
+        CLX_TRY(add_vary(all, config->vary.item[i], is_zip && i > 0));
+    }
+    for (int32_t i = 0; i < all->n; ++i) {
+        CLX_TRY(check_rows(&all->item[i].values));
     }
     const bool has_run = find_key(all, "run") != NULL;
     CLX_CHECK(!has_run && (config->seeds == 1 || find_key(all, "seed") == NULL), CLAST_E_CONFIG,

@@ -122,6 +122,12 @@ class BoxModel(Case):
         table.write_text("size,count\n1,3\n")
         self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
                           says=["sizes.csv", "columns size and number"])
+        # a box's own spectrum was refused: its numbers are called n, and it has many times
+        run = ("agglomerate", "--box-model", "--constant", "1", "--n-step", "2", "--json")
+        first = clast(*run, "--concentration", "2", "-o", self.folder / "first").json
+        on = clast(*run, "--initial", "table", "--initial-file", self.folder / "first/spectrum.csv").json
+        self.assertAlmostEqual(on["n_particle"][0], first["n_particle"][-1], places=9)
+        self.assertAlmostEqual(on["moments"]["M1"][0], 2.0, delta=2e-2)
         table.write_text("size,number\n1,3\n-4,1\n")
         self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
                           says=["sizes.csv", "row 2", "-4"])

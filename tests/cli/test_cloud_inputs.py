@@ -104,6 +104,56 @@ class CloudInputs(Case):
         b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)
         self.assertEqual((a.code, a.json["n_particle"]), (0, b.json["n_particle"]))
 
+    def test_velocities_and_flow_have_the_units_of_their_names(self):
+        """u_cm/s, G_1/min, eps_cm2/s3 were read as SI: 159, 82 and 6 particles were left for 300, 291 and 285."""
+        rng = random.Random(2)
+        rows = [[rng.random() for _ in range(3)] + [rng.gauss(0, 1) for _ in range(3)] for _ in range(300)]
+
+        def left(head, columns, *options, fails=()):
+            path = self.write("flow.csv", [row[:3] + list(columns(row)) for row in rows], f"x,y,z,{head}\n")
+            ask = ("agglomerate", path, "--domain", CUBE, "--out-of-range", "extrapolate", "--monomer-radius", "1cm", *options)
+            return self.assert_fails(fails[0], *ask, says=fails[1:]) if fails else clast(*ask, "--json").json["n_particle"][-1]
+
+        ballistic, words = ("--kernel", "ballistic", "--velocity-columns"), [f"{a}_{{}},{b}_{{}},{c}_{{}}" for a, b, c in ["uvw"]][0]
+        wanted = left("u,v,w", lambda row: row[3:], *ballistic, "u,v,w")
+        self.assertLess(wanted, 290)
+        for unit, scale in (("m/s", 1), ("cm/s", 100), ("mm/s", 1000)):
+            head = words.replace("{}", unit)
+            self.assertEqual(left(head, lambda row, k=scale: [k * v for v in row[3:]], *ballistic, head), wanted)
+        left("u_mm/s,v,w", lambda row: row[3:], *ballistic, "u_mm/s,v,w", fails=(3, "column 'u_mm/s' is in mm/s", "column 'w' says no unit"))
+        for option, value, kernel, names in (
+                ("--shear-column", 100, ("shear_laminar",), (("G", 1), ("G_1/min", 60), ("G (1/h)", 3600))),
+                ("--dissipation-column", 0.1, ("shear_turbulent", "--density", 1000), (("e", 1), ("eps_cm2/s3", 1e4), ("eps [mm^2/s^3]", 1e6))),
+                ("--speed-rms-column", 1, ("inertial", "--particle-density", 1000), (("u", 1), ("urms_cm/s", 100)))):
+            found = {left(name, lambda row, k=scale: [k * value], "--kernel", *kernel, option, name) for name, scale in names}
+            self.assertEqual(len(found), 1, option)
+            self.assertLess(found.pop(), 290)
+        left("G_1/week", lambda row: [1.0], "--kernel", "shear_laminar", "--shear-column", "G_1/week",
+             fails=(2, "column 'G_1/week'", "unknown unit '1/week'; known here: 1/s"))
+        fixed = {left(f"c,{name}", lambda row, k=scale: [0, k], "--constant", 0.01, "--fixed-column", "c", "--fixed-volume-column", name)
+                 for name, scale in (("v", 0.5), ("v_cm3", 5e5))}
+        self.assertEqual(len(fixed), 1)
+
+    def test_some_coordinates_with_a_unit_and_some_without_are_refused(self):
+        """x_mm, y_mm beside z: z was taken as metres."""
+        path = self.write("mixed.csv", [[1e3 * p[0], 1e3 * p[1], 1e3 * p[2]] for p in ROWS], "x_mm,y_mm,z\n")
+        for command in (("decompose", path), ("agglomerate", path, "--constant", 1), ("evolve", "--points", path, "--curve", "20um")):
+            self.assert_fails(3, *command, "--domain", CUBE, says=("is in mm by its name, column 'z' says no unit",))
+        wanted = self.answer(CSV, CUBE)
+        self.assert_same(self.answer(path, CUBE, "--unit", "mm", "--domain-unit", "m"), wanted)
+        own = self.write("own.csv", [[1e3 * p[0], 1e2 * p[1], 1e6 * p[2]] for p in ROWS], "x_mm,y_cm,z_um\n")
+        self.assert_same(self.answer(own, CUBE), wanted)
+
+    def test_vertices_of_surfaces_are_no_particles(self):
+        """50 bodies of a frame were 2100 particles, one a vertex; decompose's own cells were points. A field has a mesh's nodes."""
+        cells = self.folder / "run/cells.vtu"
+        self.assertEqual(clast("decompose", CSV, "--domain", CUBE, "-o", cells.parent).code, 0)
+        self.assertEqual(self.answer(cells.parent / "points.vtp", CUBE)["n"], N)
+        for path in (cells, ROOT / "data/standin63/grain00.ply"):
+            for command in (("decompose", path), ("agglomerate", path, "--constant", 1), ("evolve", "--points", path, "--curve", "20um")):
+                self.assert_fails(3, *command, "--domain", CUBE, says=("faces join its points", "particles.csv"))
+        self.assert_fails(3, "evolve", "--field", cells, "--particles", 5, "--curve", "20um", "--domain", CUBE, says=("no column of numbers named 'u'",))
+
     def test_ply_and_xyz_hold_the_same_points(self):
         wanted = self.answer(CSV, CUBE)
         for kind in ("ascii", "binary_little_endian", "binary_big_endian"):

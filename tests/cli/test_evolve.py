@@ -271,6 +271,25 @@ class Evolve(Case):
                     self.assertLess(abs(sum(at) / len(at)), 3e-5)
                     self.assertGreater(max(at) - min(at), 2.4e-4)
 
+    def test_a_bed_has_no_bodies_of_walls(self):
+        """deposit.h5 had what stuck to sides and ceiling too, as if it lay on the floor."""
+        for domain, wind, weight in (("box:0,0,0,5mm,5mm,5mm", "0.03,0,0", 1), ("cylinder:0,0,0,1,0,0,2mm,5mm", "0,0.05,0", 3)):
+            with self.subTest(domain):
+                run = self.folder / domain[:3]
+                made = clast("evolve", "--domain", domain, "--curve", "20um", "--particles", 200, "--sides", "deposit", "--wind", wind, "--weight", weight,
+                             "--kernel", "constant", "--constant", "1e-30", "--duration", "1s", "--bed-width", "100um", "-q", "-o", run)
+                self.assertEqual(made.code, 0, made.err)
+                deposit, centre = self.bed_of(run)
+                axis = -2e-5 if domain[0] == "c" else 1e-9  # of a horizontal pipe the wall below its axis is floor
+                below = sum(row["z_m"] < axis for row in deposit)
+                self.assertTrue(50 < len(centre) < 190, len(centre))
+                self.assertLess(abs(len(centre) - below), 3)
+                out = json.loads((run / "summary.json").read_text())["deposit"]
+                self.assertEqual(out["n_wall"], 200 - len(centre))
+                self.assertAlmostEqual((out["mass"] - out["mass_wall"]) / (weight * out["bed_mass"]), 1.0, 9)
+                self.assertRegex(made.out, rf"on walls +{out['n_wall']} bodies, [\d.]+ ug, not on the floor\n")
+                self.assertEqual("of the 3 that it stands for" in made.out, weight == 3)
+
     def test_a_bed_of_weighted_bodies_says_that_each_comes_once(self):
         run = self.folder / "run"
         made = clast(*self.EVEN[:-2], "--particles", 30, "--weight", 3, "--bed-width", "0.2mm", "-o", run)
@@ -371,14 +390,47 @@ class Evolve(Case):
                 (still, "viscosity", 1e-4, and_still), (still, "fluid-density", 2, and_still), (still, "mean-free-path", "1um", and_still),
                 (still, "fall", "sphere", "without gravity and brownian"), (still, "collision-radius", "volume", "with kernel constant"),
                 ([*box, "--kernel", "constant"], "dissipation", 1, "with kernel constant"), (box, "checkpoint-time", "5s", "without -o"),
-                ([*box, "--floor", "reflect", "-o", self.folder / "never"], "bed-width", "1mm", "without a floor or sides that are deposit")):
+                ([*box, "--floor", "reflect", "-o", self.folder / "never"], "bed-width", "1mm", "without a floor that is deposit: nothing lies there")):
             with self.subTest(option):
                 refused = self.assert_fails(2, *words, f"--{option}", value, says=(f" does nothing {why}",))
                 self.assertIn(option, refused.err.replace("_", "-"))
         self.assertEqual(clast(*box, "--no-brownian", "--temperature", "500K", "--quiet").code, 0)  # the kernel looks at it
-        aside = clast(*box, "--floor", "reflect", "--sides", "deposit", "--wind", "2,0,0", "--bed-width", "1mm", "-q", "-o", self.folder / "aside")
-        self.assertEqual(aside.code, 0, aside.err)
-        self.assertTrue((self.folder / "aside/deposit.h5").exists())
+        self.assert_fails(2, *box, "--floor", "reflect", "--sides", "deposit", "--wind", "2,0,0", "--bed-width", "1mm", "-o", self.folder / "aside",
+                          says=("bed_width does nothing without a floor that is deposit",))  # a bed of what stuck to a wall was written
+
+    def test_layers_at_walls_that_reflect_are_refused_or_told(self):
+        """A layer of diffusivity over speed that no step follows: 5 to 248 events by time_step, 114 to 527 at the top by step_error."""
+        drops = ("evolve", "--curve", "20um", "--particles", 1000, "--kernel", "constant", "--constant", "1e-9", "--no-structure", "--rows", 1, "--domain")
+        cube = (*drops, "box:0,0,0,0.1,0.1,0.1", "--duration", "10s")
+        along = (*cube, "--floor", "periodic", "--sides", "reflect", "--gravity", 0, "--wind", "0.05,0,0", "--eddy-diffusivity", "1e-5")
+        for step in ("10ms", "5s"):
+            self.assert_fails(2, *along, "--time-step", step, says=("100 % of the mass", "into sides that reflect", "or time_step below 4 ms"))
+        self.assert_fails(2, *along, says=("into sides that reflect", "or step_error below 0.002"))
+        self.assertEqual(clast(*along, "--time-step", "3ms").code, 0)  # was refused
+        shaft = clast(*drops, "box:0,0,0,1,1,1000", "--release", "box:0,0,0,1,1,10", "--wind", "1e-4,0,0", "--sides", "reflect", "--duration", "12h")
+        self.assertEqual(shaft.code, 0, shaft.err)  # "100 %": the whole shaft was taken for the way down
+        sheared = (*drops, "box:0,0,0,0.1,0.1,1", "--release", "box:0,0,0.99,0.1,0.1,1", "--wind", "0.5,0,0", "--wind-shear", -0.5, "--sides", "reflect")
+        self.assert_fails(2, *sheared, "--eddy-diffusivity", "2e-5", "--duration", "60s", says=("into sides that reflect",))  # calm where they start
+        self.assert_fails(2, *cube, "--wind", "0,0,0.05", says=("wind", "into a top that reflects", "take open_top"))
+        self.assertEqual(clast(*cube, "--wind", "0,0,0.05", "--open-top").code, 0)
+        floor = (*cube, "--floor", "reflect")
+        self.assertRegex(clast(*floor).err, r"^clast evolve: warning: 100 % of the mass comes to a floor or top that reflects .* depends on the steps .*\n$")
+        self.assertEqual(clast(*floor, "--json", "-q").json["gathered"], 1)
+        for words in ((*floor, "--eddy-diffusivity", "1e-3"), (*floor, "--sides", "deposit", "--wind", "10,0,0"), cube):  # 3 cm; blown out before
+            calm = clast(*words, "--json")
+            self.assertEqual((calm.code, calm.err, calm.json["gathered"]), (0, "", 0))
+
+    def test_a_vortex_takes_no_steps_of_its_grid(self):
+        """A field without compression took 610, 325 and 165 steps on 6, 11 and 21 nodes an axis: the error of the interpolation between them."""
+        for n in (6, 11):
+            field = self.folder / f"vortex{n}.csv"
+            at = [(i / (n - 1), 2 * math.pi * i / (n - 1)) for i in range(n)]
+            field.write_text("x,y,z,u,v,w\n" + "".join(f"{0.01 * x!r},{0.01 * y!r},{z},{math.sin(a) * math.cos(b)!r},{-math.cos(a) * math.sin(b)!r},0\n"
+                                                       for x, a in at for y, b in at for z in (0, 0.01)))
+            out = clast("evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--particles", 50, "--curve", "1um", "--kernel", "constant", "--constant", "1e-30",
+                        "--field", field, "--gravity", 0, "--no-brownian", "--floor", "periodic", "--duration", "1s", "--rows", 10, "--json")
+            self.assertEqual((out.code, out.err), (0, ""))
+            self.assertEqual(out.json["n_step"], 10)
 
     def test_bad_input_is_one_line(self):
         box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s"]

@@ -144,6 +144,24 @@ class Fit(Case):
         self.assertEqual(answer["beds"][0]["porosity"], answer["beds"][1]["porosity"])
         self.assertTrue(answer["beds"][0]["in_range"])
 
+    def test_named_columns_are_candidates(self):
+        """Two or three numbers within 0 and 1 were taken for a form: "sand,mu" as flatness and elongation, p 0.005, without a word."""
+        rows = [(k, 0.2 + 0.6 * math.sin(k) ** 2, 0.1 + 0.5 * math.cos(2 * k) ** 2, 0.02 + 0.05 * math.sin(3 * k) ** 2) for k in range(1, 25)]
+        path = self.write("sample,sand,mu,moisture,porosity\n" + "".join(f"{k},{a!r},{b!r},{m!r},{0.3 + 0.1 * b + 0.002 * k!r}\n" for k, a, b, m in rows))
+        said = clast("fit", path, "--n-permutation", 0)
+        self.assertIn("counts the rows; if it says nothing of a bed, name the candidates: --features columns --columns a,b\n", said.err)
+        for columns in ("sand,mu", "sand,mu,moisture"):
+            fit = clast("fit", path, "--columns", columns, "--n-permutation", 0, "--json")
+            self.assertEqual((fit.code, fit.json["kind"], fit.json["n_bed"]), (0, "columns", 24))
+            self.assertEqual({r["feature"] for r in fit.json["ranking"]}, set(columns.split(",")))
+            self.assertEqual(fit.err, f"clast fit: {path}: columns {columns} are candidates; --features form takes them as a form\n")
+        self.assertEqual(clast("fit", path, "--columns", "sand,mu", "--n-permutation", 0, "--features", "form", "--json").json["kind"], "single_form")
+        for names in ("flatness_mean,elongation_mean", "mean FL,mean-EL", "S/I,I/L", "major (mm),I_mm,S_mm"):
+            n = names.count(",") + 1
+            text = f"{names},porosity\n" + "".join(",".join(repr(x) for x in sorted((a, b, m), reverse=True)[:n]) + f",{0.3 + 0.1 * b!r}\n" for _, a, b, m in rows)
+            fit = clast("fit", self.write(text), "--columns", names, "--n-permutation", 0, "--json")
+            self.assertEqual((fit.code, fit.err, fit.json["kind"]), (0, "", "single_form"), names)
+
     def test_columns_of_words_are_told(self):
         # units of two dimensions, and a bare length among them: words
         fit = clast("fit", self.study(["1mm", "2s", "3mm", "4mm"]), "--target", "porosity_bulk", "--columns", "wall_ratio", "--n-fold", 5)

@@ -39,6 +39,17 @@ class Load(Case):
                           "--still-speed", "1um/s", "--max-damping-time", "0.4s", "-q",
                           says=["its mean height has moved by", "in 10 ms (height_change 10 um)", "(still_speed 1 um/s)"])
 
+    def test_an_early_end_at_a_row_goes_on(self):
+        """The row of --max-steps stayed: what the servo set at its step was not in it."""
+        cell = [*CELL, *FAST, "--stages", "isotropic 20kPa until stress", "--stages", "shear 5/s 20kPa until strain 0.02", "--energy", "--series-time", "1ms"]
+        whole, run = self.folder / "whole", self.folder / "run"
+        self.assertEqual(clast(*cell, "-o", whole).code, 0)
+        self.assertEqual(clast(*cell, "--max-steps", "600", "-o", run).code, 0)
+        for more in (("--max-steps", "10000"), ("--max-steps", "28400"), ()):
+            self.assertEqual(clast("pack", "--resume", run, *more, "-q", "-j", "1").code, 0)
+        for file in ("state.h5", "load.csv", "series.csv", "summary.json"):
+            self.assertEqual((whole / file).read_bytes(), (run / file).read_bytes(), file)
+
     def test_bed_is_pressed_and_its_energy_found(self):
         run = self.folder / "run"
         result = clast(*CELL, *FAST, "--stages", "isotropic 20kPa until rest", "--energy", "--json", "-o", run)

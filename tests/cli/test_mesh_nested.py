@@ -35,6 +35,20 @@ def sphere(path, *given, n=24):
     path.write_text("\n".join(lines) + "\n")
 
 
+def lenses(path, *lows, n=5000):
+    """OFF of bipyramids of n sectors, from these heights up: the boxes of a quarter of their triangles meet."""
+    vertices, facets = [], []
+    for low in lows:
+        first = len(vertices)
+        vertices += [(math.cos(2 * math.pi * k / n), math.sin(2 * math.pi * k / n), low) for k in range(n)] + [(0, 0, low + 1), (0, 0, low - 1)]
+        for k in range(n):
+            here, after = first + k, first + (k + 1) % n
+            facets += [(here, after, first + n), (after, here, first + n + 1)]
+    lines = [f"OFF\n{len(vertices)} {len(facets)} 0", *("{} {} {}".format(*v) for v in vertices), *("3 {} {} {}".format(*f) for f in facets)]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
 class Nested(Case):
     def setUp(self):
         super().setUp()
@@ -115,6 +129,29 @@ class Nested(Case):
         self.assertEqual(clast("mesh", "repair", crumb, "--keep", "largest", "-o", out).code, 0)
         self.assertEqual(clast("shape", out).err, "")
 
+    def test_several_bodies_are_no_grain(self):
+        """Density 766 and porosity 0.69 of two cubes five apart, as of one rigid grain; a body in a cavity stays where it is."""
+        crumb = boxes(self.folder / "crumb.off", (2, 0, 1), (0.1, 9, 1))
+        options = ("--core-size", "100um", "--size", "20um", "--core-density", "2500kg/m3", "-q", "-o", self.folder / "run")
+        for core, coat in ((crumb, "sphere"), ("sphere", crumb)):
+            self.assert_fails(3, "aggregate", "--core", core, "--coat", coat, *options,
+                              says=["crumb.off: 2 bodies that do not hang together", "clast mesh repair --keep largest", "--accept-faults"])
+        self.assert_fails(3, "evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--particles", 5, "--shapes", crumb, "--curve", "20um", "--duration", "1ms",
+                          says=["2 bodies that do not hang together"])
+        self.assertEqual(clast("aggregate", "--core", crumb, "--coat", "sphere", "--accept-faults", *options).code, 0)
+
+    def test_cuts_that_were_not_looked_for_are_told(self):
+        """400 copies of a grain were a solid of density 223218, convexity 109, "bodies that do not hang together"."""
+        dense, out = lenses(self.folder / "dense.off", 0, 0.1), self.folder / "out.ply"
+        self.assertIs(clast("mesh", "check", dense, "--json").json["intersection_complete"], False)
+        shape = clast("shape", dense)
+        self.assertEqual((shape.code, shape.err.count("\n")), (0, 1), shape.err)
+        self.assertIn("dense.off: whether it cuts itself was not looked for", shape.err)
+        self.assert_fails(3, "aggregate", "--core", dense, "--core-size", "100um", "--coat", "sphere", "--size", "20um", "-q", "-o", self.folder / "run",
+                          says=["whether it cuts itself was not looked for", "--accept-faults"])
+        self.assertIn("the input may count volume twice", clast("mesh", "hull", dense, "-o", out).out)
+        self.assertIn("was not looked for", clast("mesh", "form", dense, "--flatness", 0.6, "-o", out).err)
+
     def test_aggregates_refuse_it(self):
         """Core row: porosity -0.125, density 2812 of a material of 2500."""
         options = ("--core-size", "100um", "--coat", "sphere", "--size", "20um", "--core-density", "2500kg/m3", "-q")
@@ -163,6 +200,17 @@ class Nested(Case):
         self.assertIn("1 of its 2 parts counts twice", result.err)
         self.assertEqual(clast("fill", self.doubled, "--spheres", 2, "--json").json["n_doubled"], 1)
         self.assertEqual(clast("fill", self.island, "--spheres", 2).err, "")
+
+    def test_commands_tell_repeated_facets(self):
+        """A cube of facets written twice had a hull that added -1 and a half of its volume filled, without a word."""
+        path, out = boxes(self.folder / "twice.off", (1, 0, 1)), self.folder / "out.ply"
+        head, *rest = path.read_text().splitlines()[1:]
+        path.write_text("\n".join(["OFF", "8 24 0", *rest, *rest[8:]]) + "\n")
+        found = clast("mesh", "check", path, "--json").json
+        self.assertEqual((found["n_repeated"], found["n_body"]), (12, 1))
+        for command in (("fill", path, "--spheres", 2), ("mesh", "form", path, "--flatness", 0.6, "-o", out)):
+            self.assertIn("12 of its triangles repeat another, wound alike", clast(*command).err)
+        self.assertIn("counts volume twice", clast("mesh", "hull", path, "-o", out).out)
 
     def test_hull_and_form_tell_it(self):
         """The hull added -8 to a surface of volume 72."""

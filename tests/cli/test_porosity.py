@@ -312,7 +312,7 @@ class Porosity(Case):
             self.assert_fails(3, "porosity", path, "--bed", bed, *more, says=[f"--bed: {n} of 125 grains reach beyond its sides", "--pores"])
         text = clast("porosity", path, "--bed", "box:0.5,0.5,4.5,4.5", *more, "--pores", 20000)
         self.assertEqual(text.code, 0, text.err)
-        self.assertIn("beyond the sides    80 grains, by up to 0.5 model units: bulk and profile count them whole, ", text.out)
+        self.assertIn("beyond the sides    80 grains, by up to 0.5 model units: a part of a packing; bulk and profile count what lies inside", text.out)
         found = clast("porosity", path, "--bed", "box:0.5,0.5,4.5,4.5", *more, "--pores", 20000, "--json").json
         self.assertAlmostEqual(found["max_beyond"], 0.5, 12)
         self.assertAlmostEqual(found["pore_porosity"], 1 - 3.141592653589793 / 6, 2)
@@ -323,6 +323,57 @@ class Porosity(Case):
         found = clast("porosity", path, "--bed", "box:0,0,5,5", *more, "--json").json
         self.assertEqual((found["n_beyond"], found["max_beyond"], found["solid_beyond"]), (0, 0, 0))
         self.assertNotIn("n_beyond", clast("porosity", path, "--bed", "periodic:0,0,5,5", *more, "--json").json)
+
+    def test_a_window_is_measured_by_pores(self):
+        """Refused as holding 2.05 times its room, or measured up to a top of the solid that it does not hold (12.05 for 10.20)."""
+        path, close = self.lattice(6), 1 - 3.141592653589793 / 6
+        for bed in ("box:1.5,1.5,4.5,4.5", "box:1,1,5,5", "cylinder:2,3,3"):
+            words = ("porosity", path, "--bed", bed, "--layer", 0.1, "--cut", 1)
+            self.assert_fails(3, *words, says=["--pores"])
+            found = clast(*words, "--pores", 40000, "--json")
+            self.assertEqual(found.code, 0, found.err)
+            self.assertAlmostEqual(found.json["top"], 6, 12)
+            self.assertAlmostEqual(found.json["bulk"], found.json["pore_porosity"], 2)
+            if bed.startswith("box"):
+                self.assertAlmostEqual(found.json["bulk"], close, 2)
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,1,1", "--layer", 0.1, says=["between z = 0 model units and 6"])
+
+    def test_a_periodic_bed_repeats_as_its_grains_do(self):
+        """A smaller period than the packing's had a porosity of 0.2772 for 0.4408, and no word but of the run's own contacts."""
+        path = self.lattice(6)
+        more = ["--layer", 0.1, "--cut", 0.9]
+        for bed in ("periodic:0,0,5,5", "periodic:0,0,0,6,6,5", "periodic:0,0,0,6,6,5.5,2"):
+            for pores in ([], ["--pores", 100]):
+                self.assert_fails(3, "porosity", path, "--bed", bed, *more[:2], *pores, says=["--bed: its images lie on", "its period is not theirs"])
+        for bed in ("periodic:0,0,6,6", "periodic:-1,2,5,8", "periodic:0,0,0,6,6,6,1"):
+            self.assertEqual(clast("porosity", path, "--bed", bed, *more).code, 0, bed)
+        # grains that overlap by themselves do so across the borders too
+        thick = self.spheres([(i + 0.5, j + 0.5, k + 0.5, 0.6) for i in range(4) for j in range(4) for k in range(4)], "thick.csv")
+        self.assertEqual(clast("porosity", thick, "--bed", "periodic:0,0,4,4", *more).code, 0)
+        run = self.folder / "run"
+        made = clast("pack", "--domain", "periodic", "--trim", 0, "--curve", "4mm", "--mass", "4g", "--width", "24mm", "--height", "3cm", "--shaking-time", 0,
+                     "--rule", "speed", "--initial-speed", 0.5, "-o", run, "-q")
+        self.assertEqual(made.code, 0, made.err)
+        own = clast("porosity", run, "--cut", 0.9, "--json").json["bulk"]
+        moved = clast("porosity", run, "--cut", 0.9, "--bed", "periodic:-3mm,-12mm,21mm,12mm", "--json")
+        self.assertAlmostEqual(moved.json["bulk"], own, 12)
+        for bed, says in (("periodic:-11.9mm,-12mm,11.9mm,12mm", "a period of 23.8 mm along x, where the run repeats after 24 mm"),
+                          ("periodic:-12mm,-13mm,12mm,13mm", "a period of 26 mm along y"),
+                          ("periodic:-12mm,-12mm,0mm,12mm,12mm,4mm", "its images lie on")):
+            self.assert_fails(3, "porosity", run, "--cut", 0.9, "--bed", bed, says=[says])
+
+    def test_a_sheared_box_needs_no_contacts(self):
+        """Its seventh number was refused for every packing, though no contacts were asked for."""
+        path = self.spheres([(i + 0.5 + 0.25 * k, j + 0.5, k + 0.5, 0.5) for i in range(4) for j in range(4) for k in range(4)])
+        bed = ("--bed", "periodic:0,0,0,4,4,4,1", "--layer", 0.1)
+        found = clast("porosity", path, *bed, "--local", "--pores", 5000, "--json")
+        self.assertEqual(found.code, 0, found.err)
+        for key, places in (("bulk", 12), ("local_mean", 12), ("pore_porosity", 1)):
+            self.assertAlmostEqual(found.json[key], 1 - 3.141592653589793 / 6, places)
+        self.assertNotIn("n_overlap", found.json)
+        self.assertIn("overlaps            not searched for across the borders of a sheared box", clast("porosity", path, *bed).out)
+        self.assert_fails(2, "porosity", path, *bed, "--gap", 1e-6, says=["sheared box", "leave out --gap"])
+        self.assert_fails(2, "porosity", path, "--bed", "periodic:0", says=["periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT]"])
 
     def test_a_cut_of_one_ends_with_the_highest_grain(self):
         """It ended at the end of the profile's empty slice, by the height of the slices: 0.56 and 0.48 of one bed."""

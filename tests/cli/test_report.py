@@ -127,6 +127,8 @@ class Report(Case):
             ["pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "10g", "--max-steps", "4000"],
             ["pack", "--curve", "4mm", "--mass", "2g", "--domain", "cell", "--width", "16mm", "--height", "16mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
              "--load-rate", "4/s", "--seed", "3", "--stages", "isotropic 20kPa until rest", "--max-steps", "600", "--energy"],
+            ["pack", "--curve", "4mm", "--mass", "6g", "--width", "24mm", "--height", "80mm", "--fluid-density", "0", "--shaking-time", "0", "--shake-amplitude", "0"],
+            ["porosity", os.path.join(self.folder.name, "2"), "--bed", "cylinder:11.5mm", "--pores", "20", "--chains", "--fields", "10mm"],
             ["porosity", packed, "--trim", "1mm", "--local", "--pores", "20"],
             ["decompose", os.path.join(DATA, "d2sd/points_b3_n500.csv"), *cube, "--beta-dt", "1e-6", "--sizes", "2"],
             ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1", "--pairs"],
@@ -151,6 +153,9 @@ class Report(Case):
                 if "--load-rate" in words:
                     self.assertRegex(text, r"Stress, with that of motion\s+Fabric\s+xx\s+[-.\d]+\s+[kM]?Pa")
                     self.assertRegex(text, r"Cell along x\s+[.\d]+\s+mm")
+                if "--bed" in words:
+                    self.assertIn("Bulk porosity (of a part of the packing)", re.sub(r"\s+", " ", text))
+                    self.assertRegex(text, r"Farthest that one is beyond them\s+\d+\.\d+\s+\S*m\s+Their solid beyond the sides\s+\d+\.\d+\s+\S*m\u00b3")
                 if "--box-model" in words:  # they were "Particles placed" and bare numbers
                     self.assertRegex(text, r"Number density\s+3\s+1\s+1\.000\s\u00d7\s10\u00b9\u00b2\s+1/m\u00b3")
                     self.assertRegex(text, r"Collisions since the start that stuck\s+3\s+1\s+0\s+1/m\u00b3")
@@ -310,6 +315,21 @@ class Report(Case):
         text = seen(page)
         for words in ("Mass", "(kg)", "Length", "Simulated", "Quantity", "SI units"):
             self.assertNotIn(words, text)
+
+    def test_a_models_terms_have_the_units_of_their_features(self):
+        """A unit was headed "Unit of lengths in these results", a coefficient in 1/m and the limits had none."""
+        beds, out = os.path.join(self.folder.name, "beds.csv"), os.path.join(self.folder.name, "model")
+        with open(beds, "w", encoding="utf-8") as file:
+            file.write("d50,speed,clay,porosity\n" + "".join(
+                f"{2 + 0.1 * (k * 5 % 17):.1f}mm,{k * 7 % 13}m/s,{0.01 * (k * 3 % 11)},{0.3 + 0.01 * (k * 5 % 17) + 0.002 * (k * 7 % 13)}\n" for k in range(24)))
+        self.assertEqual(clast("fit", beds, "--use", "d50,speed,clay", "--n-permutation", 0, "-q", "-o", out).code, 0)
+        self.assertEqual(clast("report", out).code, 0)
+        page = self.page(os.path.join(out, "report.html"))
+        text = re.sub(r"\s+", " ", seen(page))
+        self.assertNotIn("Unit of lengths", text)
+        self.assertEqual(text.count("Terms of the model"), 1)  # there was a list, too
+        self.assertRegex(text, r"d50 100\.0 1/m [^a-z]*1/m .*? 2\.000 mm 3\.600 mm speed 0\.002000 s/m")
+        self.assertRegex(text, r"Row Porosity d50 \(mm\) speed \(m/s\) clay 1 0\.3000 2\.000 0 0")
 
     def test_what_varied_in_a_study_keeps_its_name(self):
         """A column of texts was headed "Half-angle of the cone (\u00b0)" above "20 deg", one of numbers "Rays tried"."""

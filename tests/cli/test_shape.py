@@ -327,6 +327,31 @@ class Units(Case):
         self.assertEqual((unit, grain["kind"]), ("m", "table"))
         self.assertAlmostEqual(grain["L"], 0.03, 15)
 
+    def test_rows_with_a_size_too_are_grains_and_no_spheres(self):
+        """They were one clump of spheres of the diameters, without a word."""
+        table = self.folder / "rows.csv"
+        for columns, form, options in (("diameter_mm,L_mm,I_mm,S_mm", ".5,.4,.3", ()), ("r,L,I,S", "3,2,1", ()), ("D_mm,flatness,elongation", ".8,.7", ()),
+                                       ("d,a,b,c", "3,2,1", ("--columns", "a,b,c"))):
+            table.write_text(f"x,y,z,{columns}\n1,2,3,.4,{form}\n5,6,7,.6,{form}\n")
+            result = clast("shape", table, *options, "--json")
+            self.assertEqual((result.code, [grain["kind"] for grain in result.json["grains"]]), (0, ["table", "table"]), (columns, result.err))
+        table.write_text("x_mm,y_mm,z_mm,d_mm\n1,2,3,4\n5,6,7,8\n")
+        self.assertEqual([grain["kind"] for grain in clast("shape", table, "--json").json["grains"]], ["clump"])
+
+    def test_rows_of_several_units_are_in_metres(self):
+        """10 mm were 10000 of "the files' units", beside 10 of a table without any; the mean was of both."""
+        mixed, none, one = (self.folder / name for name in ("mixed.csv", "none.csv", "one.csv"))
+        mixed.write_text("L_mm,I_mm,S_um\n10,8,5000\n20,10,5000\n")
+        none.write_text("L,I,S\n10,8,5\n20,10,5\n")
+        one.write_text("L_mm,I_mm,S_mm\n10,8,5\n")
+        self.assert_fails(2, "shape", none, mixed, says=("mixed.csv:2 says a unit of length that others do not share", "none.csv:2 says none", "--unit"))
+        both = clast("shape", none, mixed, "--unit", "mm", "--json")
+        self.assertEqual([round(grain["L"], 12) for grain in both.json["grains"]], [0.01, 0.02, 0.01, 0.02], both.err)
+        self.assertEqual(clast("shape", mixed, "--unit", "mm").code, 0)  # it said 1e-06 m, which is that of S alone
+        for files, n_note in (((none, one), 1), ((none, none), 0)):
+            said = clast("shape", *files, "--statistics", self.folder / f"forms{n_note}", "--resamples", 10).err
+            self.assertEqual(said.count("one.csv:1 says its unit of length and"), n_note, said)
+
     def test_a_bad_size_takes_no_form_away(self):
         """Lengths of D = -5 were -0.0089, and the statistics left four known forms out."""
         table = self.folder / "d.csv"

@@ -73,6 +73,28 @@ class Starts(Case):
             self.assert_fails(2, "export", run, "-o", self.folder / f"no.{ending}", says=(says,))
         self.assert_fails(2, "export", self.bed("--shapes", "ellipsoid:2,1,1"), "-o", self.folder / "no.conf", says=("spheres and polyhedra",))
 
+    def test_a_sheared_cell_is_a_start(self):
+        """Its images above came back upright: "grains 5 and 11 begin inside of each other"."""
+        run = self.folder / "run"
+        made = clast("pack", "--curve", "4mm", "--mass", "2g", *LONE[:2], "--width", "18mm", "--height", "18mm", *LONE[6:11], "--seed", "3", "--load-rate", "8/s",
+                     "--stages", "isotropic 10kPa until stress", "--stages", "shear 5/s 10kPa until strain 0.2", "-q", "-j", "1", "-o", run, "--json")
+        self.assertEqual(made.code, 0, made.err)
+        with open(run / "load.csv", encoding="utf-8") as file:
+            last = list(csv.DictReader(file))[-1]
+        sides = [word for key in ("width", "depth", "height") for word in (f"--{key}", f"{1e3 * float(last[key + '_m']):.6g}mm")]
+        self.assertEqual(clast("export", run, "-o", self.folder / "bed.dump").code, 0)
+        for start in (run / "state.h5", self.folder / "bed.dump"):
+            again = self.folder / "again"
+            held = clast("pack", "--start", start, *LONE, *sides, "--force", "-o", again, "--json")
+            self.assertEqual(held.code, 0, held.err)
+            self.assertEqual(held.json["n_contact"], made.json["n_contact"])
+            self.assertLess(held.json["deepest_overlap_start"], 0.05)
+            shifts = []
+            for path in (run, again):
+                self.assertEqual(clast("export", path, "-o", self.folder / "box.dump").code, 0)
+                shifts.append(float((self.folder / "box.dump").read_text().split("xz yz pp pp pp\n")[1].split()[2 + 3]))
+            self.assertAlmostEqual(*shifts, 7)
+
     def test_names_that_break_a_format_are_refused(self):
         """A newline in a shape's name began a line of Rockable's library; a blank in the file's own name cut it off in shapeFile."""
         for name in ("two\nlines.ply", "a b.ply", "a#b.ply", "a\x7fb.ply"):

@@ -241,7 +241,19 @@ class Study(Case):
         self.assertLessEqual(len(list((self.folder / "out/runs").glob("[0-9]*[0-9]"))), 2)
         done = clast("study", self.plan(text.replace("fillde", "filled")), *out, "--json")
         self.assertEqual((done.code, done.json["n_before"] >= 1, done.json["n_run"]), (0, True, 5), done.err)
-        self.assert_fails(2, "study", self.plan(text), "-o", self.folder / "two", "--vary", "spheres=3|4|3", says=["'3' twice", "seeds"])
+        self.assert_fails(2, "study", self.plan(text), "-o", self.folder / "two", "--vary", "spheres=3|4|3", says=["values 1 and 3 of 'spheres' are the same", "seeds"])
+
+    def test_a_run_that_is_named_twice_is_refused(self):
+        """Two rows of a table, and 1g beside 1000mg, were run with one seed, and counted as two beds."""
+        table = self.folder / "table.csv"
+        study = ["study", "--run", "pack", "-o", self.folder / "out"]
+        for text, says in (("friction,mass\n0.1,1g\n0.2,1g\n0.1,1g\n", "rows 1 and 3"), ("friction,mass\n0.1,1g\n0.1,1000mg\n", "rows 1 and 2"),
+                           ("mass,seed\n1g,3\n2g,3\n2g,4\n1g,3\n", "rows 1 and 4")):
+            table.write_text(text)
+            self.assert_fails(2, *study, "--table", table, says=[f"table: {says} are the same: the same runs; option seeds repeats them"])
+        self.assert_fails(2, *study, "--vary", "mass=1g|2g|1000mg", says=["vary: values 1 and 3 of 'mass' are the same ('1g', '1000mg')"])
+        self.assert_fails(2, *study, "--design", "zip", "--vary", "mass=1g|1g", "--vary", "friction=0.1|0.1", says=["of 'mass' and of the others are the same"])
+        self.assertFalse((self.folder / "out").exists())
 
     def test_a_run_that_fails_is_named(self):
         plan = self.plan("run: fill\nargument: [absent.stl]\nvary: [spheres = 5 | 9]\n")

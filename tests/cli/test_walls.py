@@ -61,6 +61,17 @@ class Walls(Case):
         said = "the container's bottom lies in the floor, which pushes in its place; give --no-floor"
         self.assert_fails(2, *bed, *up, says=("wall 1, 'container move 0,0,10mm/s': " + said,))
         self.assert_fails(2, *bed, *bouncy, says=("contacts 1, 'grains container restitution 0.8': " + said,))
+        # the floor, named beside it as the refusal said, stayed behind just so
+        still, floor = ("--wall", "container"), ("--wall", "floor")
+        for words in ((*up, *floor), (*up, "--wall", "floor move 0,0,9mm/s")):
+            self.assert_fails(2, *bed, *words, says=("wall 1, 'container move 0,0,10mm/s': " + said, "give the floor the same motion"))
+        for stage in ("open container until time 1ms", "container=1mm/s until time 1ms", "open container floor=1mm/s until time 1ms"):
+            press = (" press 0,0,1",) if "=" in stage else ("",)
+            self.assert_fails(2, *bed, "--wall", "container" + press[0], *floor, "--stages", stage, says=(f"stage 1, '{stage}': " + said, "with it"))
+        for words in ((*up, "--wall", "floor move 0,0,10mm/s"), (*still, *floor, "--stages", "open container open floor until time 1ms"),
+                      (*still, "--wall", "floor", "--stages", "floor=1mm/s until time 1ms")):  # one of both, and a piston
+            result = clast(*bed, *words, "--max-steps", "1")
+            self.assertEqual(result.code, 0, (words, result.err))
         self.assertEqual(clast(*bed, *bouncy, "--contacts", "floor grains restitution 0.8", "--max-steps", "1").code, 0)
         self.assertEqual(clast(*bed, "--contacts", "grains walls restitution 0.8", "--max-steps", "1").code, 0)
         self.assert_fails(2, *bed, "--container", self.folder / "low.stl", says=("below the floor at z = 0: move it, or give --no-floor",))
@@ -170,6 +181,20 @@ class Walls(Case):
         for name in ("state.h5", "walls.csv", "load.csv", "series.csv", "summary.json"):
             self.assertEqual((whole / name).read_bytes(), (cut / name).read_bytes(), name)
 
+    def test_an_early_end_at_a_row_goes_on(self):
+        """The row of --max-steps stayed: without the fill that came at its step, and the grains that left at it."""
+        load = ROOT / "examples/load"
+        silo = [*BED, "--seed", "1", "--mass", "6g", "--domain", "cylinder", "--width", "16mm", "--no-floor", "--wall", f"plate {load / 'orifice.off'} m", "--wall",
+                f"gate {load / 'gate.off'} m", "--outlet", "z<-10mm", "--stages", "open gate until time 0.1s"]
+        whole, run = self.folder / "whole", self.folder / "run"
+        self.assertEqual(clast(*silo, "-o", whole).code, 0)
+        self.assertEqual(clast(*silo, "--max-steps", "6000", "-o", run).code, 0)
+        self.assertLess(rows(run / "walls.csv")[-1]["n_grain"], rows(whole / "walls.csv")[3]["n_grain"])  # its fill is to come
+        for more in (("--max-steps", "44000"), ()):
+            self.assertEqual(clast("pack", "--resume", run, *more, "-q", "-j", "1").code, 0)
+        for name in ("state.h5", "walls.csv", "series.csv", "summary.json"):
+            self.assertEqual((whole / name).read_bytes(), (run / name).read_bytes(), name)
+
     def test_materials_slide_by_their_own_friction(self):
         """Two balls on one belt: mu g t^2 / 2 each."""
         start, run = self.folder / "start.csv", self.folder / "run"
@@ -249,8 +274,16 @@ class Walls(Case):
         for words in ("move 0,0,10mm/s", "vibrate 0,0,0.2mm 20ms", "axis 0,0,1", "rotate 30rpm", "swing 5deg 20ms", "about 0,0,1mm", f"table {table}"):
             once = "axis 0,0,1 rotate 30rpm" + ("" if words in ("axis 0,0,1", "rotate 30rpm") else " " + words)
             self.assert_fails(2, *bed, "--wall", f"{wall} {once} {words}", says=("wall 1", f"it is given twice: '{words.split()[0]}'"))
-        for words in ("press 0,0,-1", "area 1m^2"):  # they did nothing
-            self.assert_fails(2, *bed, "--wall", f"{wall} {words}", says=("wall 1", f"no stage presses the wall (stages); leave out '{words.split()[0]}'"))
+        unused = {"press": "no stage presses the wall, or moves it along that direction (stages); leave out 'press'",
+                  "area": "no stage presses the wall by a pressure, or until one (stages); leave out 'area'"}
+        for word, words, stage in (("press", "press 0,0,-1", None), ("area", "area 1m^2", None), ("press", "press 0,0,-1", "hold until time 1ms"),
+                                   ("area", "press 0,0,-1 area 1m^2", "plate=1mm/s until time 5ms"), ("area", "press 0,0,-1 area 1m^2", "plate=1N until rest"),
+                                   ("area", "area 1m^2", "open plate until time 1ms")):  # they did nothing
+            stages = ("--stages", stage) if stage else ()
+            self.assert_fails(2, *bed, "--wall", f"{wall} {words}", *stages, says=("wall 1", unused[word]))
+        for words, stage in (("area 1m^2 press 0,0,-1", "plate=1kPa until rest"), ("area 1m^2 press 0,0,-1", "plate=-1mm/s until stress 1kPa"),
+                             ("area 1m^2 press 0,0,-1", "plate=1N until stress 1kPa"), ("press 0,0,-1", "plate=1N until rest")):
+            self.assertEqual(clast(*bed, "--wall", f"{wall} {words}", "--stages", stage, "--max-steps", "1").code, 0, stage)
         self.assert_fails(2, *bed, "--wall", wall + " press 0,0,-1 press 0,0,1", "--stages", "plate=1kPa", says=("wall 1", "it is given twice: 'press'"))
         self.assert_fails(2, *bed, "--wall", wall, "--wall", wall, says=("wall 2", "has this name"))
         self.assert_fails(2, *bed, "--wall", wall + " move 0,0,-40m/s", says=("wall 1", "faster than half"))

@@ -186,7 +186,13 @@ class Numbers(unittest.TestCase):
             window = clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm", pores=500)
         said = command("porosity", path, "--bed", "box:0mm,0mm,3mm,3mm", "--layer", "0.2mm", "--pores", 500)
         self.assertEqual((window.n_beyond, window.max_beyond, window.porosity), (said["n_beyond"], said["max_beyond"], said["bulk"]))
+        self.assertAlmostEqual(window.porosity, float(said["pore_porosity"]), places=1)
         self.assertEqual(found.n_beyond, -1)
+        with self.assertRaisesRegex(clast.Error, "^bed: its images lie on .* of 128 grains"):  # 0.2772 for 0.4408
+            clast.porosity(path, bed="periodic:0mm,0mm,3mm,3mm", layer="0.2mm")
+        sheared = clast.porosity(path, bed="periodic:0mm,0mm,0mm,4mm,4mm,8mm,1mm")
+        self.assertAlmostEqual(sheared.porosity, 1 - np.pi / 6, places=12)
+        self.assertEqual(sheared.n_overlap, -1)
         for keys, line in (({}, "^bed: .* does not say what holds the grains"), (dict(bed="cylinder:1mm"), "^bed: grains take"),
                            (dict(bed=bed, trim="2"), "2"), (dict(bed=bed, trim=-1.0), "^trim: -1.0 lies outside")):
             with self.assertRaisesRegex(clast.Error, line):

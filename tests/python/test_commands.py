@@ -324,6 +324,8 @@ class Commands(unittest.TestCase):
         self.assertIn("printable", caught.output[0])
         again = clast.aggregate(resume=self.folder / "run", printable=True)
         self.assertTrue(again.printable["resolved"])
+        with self.assertRaisesRegex(clast.Error, "leave printable out"):
+            clast.aggregate(resume=self.folder / "run", printable="no")  # a new body took the old one's place
 
     def said(self, *words):
         """What the command says on both streams, without its JSON."""

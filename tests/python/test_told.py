@@ -48,6 +48,44 @@ class Case(unittest.TestCase):
         return [str(one.message) for one in caught]
 
 
+CUBE = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+FACETS = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+
+
+class Surfaces(Case):
+    def test_facets_written_twice(self):
+        """Volume 2 and convexity 2 of a cube, in silence."""
+        twice = clast.Mesh(CUBE, FACETS + FACETS)
+        found = twice.check()
+        self.assertEqual((found.n_repeated, found.n_body), (12, 1))
+        self.assertRegex("; ".join(self.heard(twice.shape)), "^the surface has 12 triangles that repeat another")
+        self.assertTrue(np.isnan(clast.mesh_hull(twice).added_volume))
+
+    def test_several_bodies(self):
+        two = clast.Mesh(CUBE + [[x + 5, y, z] for x, y, z in CUBE], FACETS + [[8 + corner for corner in facet] for facet in FACETS])
+        self.assertRegex("; ".join(self.heard(two.shape)), "^the surface is 2 bodies that do not hang together")
+        path = pathlib.Path(FOLDER.name, "two.ply")
+        two.write(path)
+        self.assertEqual(len(self.heard(lambda: clast.shape(path))), 1)
+        self.assertIn("clast mesh repair --keep largest keeps one", self.heard(lambda: clast.shapes(path))[0])  # as it is typed
+
+    def test_cuts_that_were_not_looked_for(self):
+        """Two lenses of 20000 triangles that cut each other: n_intersection 0, and no word."""
+        n, k = 5000, np.arange(5000)
+        ring = np.column_stack([np.cos(2 * np.pi * k / n), np.sin(2 * np.pi * k / n), 0 * k])
+        lens, after = np.vstack([ring, [0, 0, 1], [0, 0, -1]]), (k + 1) % n
+        facets = np.vstack([np.column_stack([k, after, 0 * k + n]), np.column_stack([after, k, 0 * k + n + 1])])
+        dense = clast.Mesh(np.vstack([lens, lens + [0, 0, 0.1]]), np.vstack([facets, facets + n + 2])).check()
+        self.assertEqual((dense.n_intersection, dense.intersection_complete), (0, False))
+        self.assertIn("cuts were not looked for", dense.doubles)
+
+    def test_a_vertex_that_strays(self):
+        """The centroid went with it: "is vertex 0 at (0, 0, 0) an error?", it was asked."""
+        far = np.array(CUBE, float)
+        far[3, 1] = 1e300
+        self.refused("is vertex 3 at ", lambda: clast.fill(clast.Mesh(far, FACETS), spheres=2))
+
+
 class Porosity(Case):
     def test_a_run_knows_its_contacts(self):
         """Coordination came of the pairs within `gap`, directions of the run's own contacts: two sets in one table."""
@@ -120,6 +158,12 @@ class Warnings(Case):
         told = self.said("evolve", *(word for key, value in keys.items() for word in (f"--{key}", value)))
         line = re.search(r"Reynolds number of the fastest fall .*? drag law", told)[0]
         self.assertEqual([one[:len(line)] for one in self.heard(lambda: clast.evolve(**keys))], [line])
+
+    def test_evolve_above_a_floor_that_reflects(self):
+        keys = {"domain": "box:0,0,0,0.1,0.1,0.1", "curve": "20um", "particles": 100, "kernel": "constant", "constant": 1e-9, "duration": "10s"}
+        [told] = self.heard(lambda: clast.evolve(floor="reflect", **keys))
+        self.assertRegex(told, r"^100 % of the mass comes to a floor or top that reflects .* take floor='deposit' or shorter steps$")
+        self.assertEqual(self.heard(lambda: clast.evolve(**keys)), [])
 
     def test_a_bed_heavier_than_asked_for(self):
         keys = {**PACK, "mass": "1mg"}
@@ -340,6 +384,11 @@ class Models(Case):
         self.assertEqual(self.heard(lambda: clast.fit({**beds, "b": k * k}, group="a", n_permutation=0, n_term=1)),
                          ["1 column of words is no candidate: site", "column 'a' names the bed and is no candidate"])
         self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, columns="a", n_term=1)), [])
+        mixed = {"sand": 0.2 + 0.6 * np.sin(k) ** 2, "mu": 0.1 + 0.5 * np.cos(2 * k) ** 2, "porosity": 0.3 + 0.01 * np.sin(3 * k)}  # were a form
+        self.assertEqual(self.heard(lambda: clast.fit(mixed, n_permutation=0, columns="sand,mu")),
+                         ["columns sand,mu are candidates; features='form' takes them as a form"])
+        form = {"mean FL": mixed["sand"], "elongation_mean": mixed["mu"], "porosity": mixed["porosity"]}
+        self.assertEqual(clast.fit(form, n_permutation=0, columns="mean FL,elongation_mean").model.kind, "single_form")
         self.assertEqual(self.heard(lambda: clast.fit(beds, n_permutation=0, features="columns", use="a")), [])
         study = {"run": k + 1, "size": [f"{100 + 10 * i}um" for i in range(20)], "seed": k, "exit_code": 0 * k, "note": ["n"] * 20,
                  "porosity": 0.3 + 0.001 * k + 1e-4 * np.sin(k * k)}

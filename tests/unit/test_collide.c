@@ -492,6 +492,37 @@ static void what_is_left_lies_where_its_members_did(void **state)
     CHECK_ABS(square / left, 1.0 / 12.0, 4.0 * sqrt(1.0 / 180.0 / left));
 }
 
+/* Parcels of unequal weights stood on one another: the lighter one moved onto the place of the
+ * other, which lived on there. 3 and 2 of mass 1 become 1 of mass 1 and 2 of mass 2, and each place
+ * holds on average the mass that it had. 4000 trials, 4 sd. */
+static void parcels_keep_their_places_and_the_mass_there(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    const double volume = 1.0;
+    int n_hit = 0;
+    int n_moved = 0;
+    clast_collide_config c = kernel("constant");
+    for (int r = 0; r < N; ++r) {
+        clast_population p = singles(2);
+        const clast_collide_cells cells = one_cell(&volume);
+        const double first = position[0];
+        int64_t n_event = 0;
+        p.weight = weight;
+        weight[0] = 3.0;
+        weight[1] = 2.0;
+        c.seed = (uint64_t)r;
+        CHECK_OK(clast_collide(&p, &cells, 0.1, 1, &c, &n_event));
+        if (n_event == 1) {
+            assert_true(position[0] != position[3]);
+            ++n_hit;
+            n_moved += position[3] == first ? 1 : 0;
+        }
+    }
+    const double share = 2.0 / 3.0; /* 3 = 1 (1 - share) + 4 share */
+    CHECK_ABS((double)n_moved / n_hit, share, 4.0 * sqrt(share * (1.0 - share) / n_hit));
+}
+
 /* Two parcels of 3 and 1: the rate of the event is K max(w) / V, and it leaves 2 singles and 1
  * pair. In 4000 trials 1 - exp(-3 K t / V) collide (4 sd), momentum to the last bit. */
 static void a_heavy_parcel_keeps_what_did_not_collide(void **state)
@@ -748,6 +779,7 @@ int main(void)
         cmocka_unit_test(collectors_meet_the_whole_cell),
         cmocka_unit_test(parcels_meet_the_exact_solutions),
         cmocka_unit_test(what_is_left_lies_where_its_members_did),
+        cmocka_unit_test(parcels_keep_their_places_and_the_mass_there),
         cmocka_unit_test(a_heavy_parcel_keeps_what_did_not_collide),
         cmocka_unit_test(particles_of_one_parcel_collide_at_their_rate),
         cmocka_unit_test(a_step_of_too_many_events_ends),

@@ -367,6 +367,12 @@ static void a_wind_into_mirrors_is_refused(void **state)
     check_mirrors(CLAST_OK, "wind=0.4,0,0", "sides=periodic");
     check_mirrors(CLAST_OK, "wind=0.4,0,0", "domain=cylinder:0,0,0,1,0,0,1mm,1"); // down before
     check_mirrors(CLAST_E_CONFIG, "wind=0,0.4,0", "domain=cylinder:0,0,0,1,0,0,1mm,1");
+    check_mirrors(CLAST_E_CONFIG, "wind=0,0,0.4", "open_top=no");
+    assert_non_null(strstr(clast_error_detail(), "into a top that reflects"));
+    check_mirrors(CLAST_OK, "wind=0,0,0.4", "open_top=yes");
+    check_mirrors(CLAST_OK, "wind=0,0,-0.4", "floor=reflect"); // told
+    check_mirrors(CLAST_E_CONFIG, "wind=0,0,0.4", "domain=sphere:0.5");
+    assert_non_null(strstr(clast_error_detail(), "take sides: deposit or"));
 }
 
 int main(void)

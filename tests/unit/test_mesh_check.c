@@ -226,6 +226,7 @@ static void star_shaped_surfaces_need_no_search(void **state)
     assert_true(clx_is_star_shaped(&mesh));
     CHECK_OK(clx_find_doubles(&mesh, &found));
     assert_int_equal(found.n_doubled + found.n_intersection, 0);
+    assert_true(found.intersection_complete);
     mesh_flip_all(&mesh);
     assert_false(clx_is_star_shaped(&mesh));
     clast_mesh_free(&mesh);
@@ -235,6 +236,7 @@ static void star_shaped_surfaces_need_no_search(void **state)
     CHECK_OK(clx_find_doubles(&mesh, &found));
     assert_int_equal(found.n_part, 2);
     assert_int_equal(found.n_doubled, 1);
+    assert_int_equal(found.n_apart, 1);
     assert_int_equal(found.n_intersection, 0);
     clast_mesh_free(&mesh);
 }

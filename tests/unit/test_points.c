@@ -157,11 +157,11 @@ static clast_status read_h5_once(void *context)
 
 static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
                           "property list uchar int near\nproperty float y\nproperty float z\n"
-                          "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                          "element face 0\nproperty list uchar int vertex_index\nend_header\n"
                           "0.5 2 7 8 1 2\n3 0 4 -0.5\n2 0 1\n";
 static const char xyz[] = "2\n at t = 3 s\nHe 0.5 1 2 10\nFe\t3 4 -0.5 20\n3\nnext frame\n";
 
-static void surfaces_and_xyz_give_points(void **state)
+static void vertices_and_xyz_give_points(void **state)
 {
     (void)state;
     const char *const text[2] = {ply, xyz};
@@ -176,6 +176,26 @@ static void surfaces_and_xyz_give_points(void **state)
         check_row(&table, "z", 2.0, -0.5);
         clast_table_free(&table);
         CHECK_STATUS(clast_cloud_parse("a", text[k], n[k] - 30, NULL, &table), CLAST_E_FORMAT);
+        assert_null(table.column);
+    }
+}
+
+/* A frame of 50 bodies was read as 2100 particles, one a vertex. */
+static void vertices_of_a_surface_are_no_cloud(void **state)
+{
+    (void)state;
+    static const char vtk_surface[] =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 "
+        "float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+    char surface[sizeof ply];
+    (void)snprintf(surface, sizeof surface, "%s", ply);
+    memcpy(strstr(surface, "face 0"), "face 1", 6);
+    const char *const text[2] = {surface, vtk_surface};
+    for (int k = 0; k < 2; ++k) {
+        clast_table table = {0};
+        CHECK_STATUS(clast_cloud_parse("a", text[k], strlen(text[k]), NULL, &table),
+                     CLAST_E_FORMAT);
+        assert_non_null(strstr(clast_error_detail(), "faces join its points"));
         assert_null(table.column);
     }
 }
@@ -210,7 +230,8 @@ int main(void)
         cmocka_unit_test(binary_numbers_of_every_type_are_read),
         cmocka_unit_test(names_that_repeat_are_told_apart),
         cmocka_unit_test(hdf5_arrays_and_folders_are_columns),
-        cmocka_unit_test(surfaces_and_xyz_give_points),
+        cmocka_unit_test(vertices_and_xyz_give_points),
+        cmocka_unit_test(vertices_of_a_surface_are_no_cloud),
         cmocka_unit_test(every_refused_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -209,6 +209,55 @@ static void cubic_lattice_has_its_porosity(void **state)
     clast_assembly_free(&a);
 }
 
+/* A window through the middle of balls holds what the lattice does; whole, they take 16/9 of it. */
+static void a_window_of_a_lattice_has_its_porosity(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_bed_beyond beyond = {0};
+    lattice(&a, 6);
+    CHECK_OK(clast_bed_parse("box:1.5,1.5,4.5,4.5", &bed));
+    for (int k = 0; k < 2; ++k) {
+        const clast_porosity_options options = {.layer = 0.5, .cut = 1.0, .window = k > 0};
+        clast_table profile = {0};
+        clast_porosity_bulk bulk = {0};
+        CHECK_OK(clast_porosity_profile(&a, &bed, &options, &profile));
+        CHECK_OK(clast_porosity_measure(&a, &bed, &profile, &options, &bulk));
+        CHECK_OK(clast_bed_beyond_measure(&bed, &a, &bulk, options.method, &beyond));
+        CHECK_ABS(bulk.top, 6.0, 1e-12);
+        CHECK_ABS(bulk.solid - (k == 0 ? beyond.solid : 0.0), 9.0 * CLAST_PI, 0.01);
+        assert_int_equal(beyond.n, 192);
+        clast_table_free(&profile);
+    }
+    clast_assembly_free(&a);
+}
+
+/* Of a period that is theirs grains cover nothing, wherever the first image begins; of a smaller
+ * one the sixth plane lies in the first. */
+static void images_cover_grains_that_repeat_otherwise(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bed;
+        double solid; // in balls
+    } cases[] = {{"periodic:0,0,6,6", 0.0},       {"periodic:-1.3,2.1,4.7,8.1", 0.0},
+                 {"periodic:0,0,0,6,6,6,2", 0.0}, {"periodic:0,0,6,5", 36.0},
+                 {"periodic:0,0,0,6,6,5", 36.0},  {"periodic:0,0,0,6,6,5,2", 36.0}};
+    const clast_porosity_bulk none = {0};
+    clast_assembly a = {0};
+    lattice(&a, 6);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        clast_bed bed;
+        clast_bed_beyond covered = {.n = -1};
+        CHECK_OK(clast_bed_parse(cases[k].bed, &bed));
+        CHECK_OK(clast_bed_beyond_measure(&bed, &a, &none, CLAST_POROSITY_EXACT, &covered));
+        CHECK_ABS(covered.solid, cases[k].solid * CLAST_PI / 6.0, 1e-9);
+        assert_int_equal(covered.n, cases[k].solid > 0.0 ? 72 : 0);
+    }
+    clast_assembly_free(&a);
+}
+
 /// Grains in a hopper below the bed were all of the first slice, whose porosity fell below 0; what
 /// dips into the floor by less than a slice still is.
 static void what_lies_below_the_bed_is_of_no_slice(void **state)
@@ -272,7 +321,7 @@ static void profile_is_the_same_for_any_threads(void **state)
     (void)state;
     clast_assembly a = {0};
     clast_bed bed;
-    const clast_porosity_options options = {CLAST_POROSITY_EXACT, 0.03, 0.5, 0.0, false};
+    const clast_porosity_options options = {CLAST_POROSITY_EXACT, 0.03, 0.5, 0.0, false, false};
     clast_table profile[2] = {{0}, {0}};
     lattice(&a, 8);
     for (int32_t i = 0; i < a.n_grain; ++i) {
@@ -349,17 +398,17 @@ static void options_that_cannot_be_are_refused(void **state)
     const double nan = (double)NAN;
     const double inf = (double)INFINITY;
     const clast_porosity_options bad[] = {
-        {(clast_porosity_method)9, 0.1, 0.5, 0.0, false},
-        {(clast_porosity_method)-1, 0.1, 0.5, 0.0, false},
-        {CLAST_POROSITY_EXACT, nan, 0.5, 0.0, false},
-        {CLAST_POROSITY_EXACT, inf, 0.5, 0.0, false},
-        {CLAST_POROSITY_EXACT, 0.0, 0.5, 0.0, false},
-        {CLAST_POROSITY_EXACT, 0.1, nan, 0.0, false},
-        {CLAST_POROSITY_EXACT, 0.1, 0.5, -1.0, false},
-        {CLAST_POROSITY_EXACT, 0.1, 0.5, nan, false},
+        {(clast_porosity_method)9, 0.1, 0.5, 0.0, false, false},
+        {(clast_porosity_method)-1, 0.1, 0.5, 0.0, false, false},
+        {CLAST_POROSITY_EXACT, nan, 0.5, 0.0, false, false},
+        {CLAST_POROSITY_EXACT, inf, 0.5, 0.0, false, false},
+        {CLAST_POROSITY_EXACT, 0.0, 0.5, 0.0, false, false},
+        {CLAST_POROSITY_EXACT, 0.1, nan, 0.0, false, false},
+        {CLAST_POROSITY_EXACT, 0.1, 0.5, -1.0, false, false},
+        {CLAST_POROSITY_EXACT, 0.1, 0.5, nan, false, false},
     };
     const clast_bed bed = {.kind = CLAST_BED_CYLINDER, .radius = 3.0};
-    const clast_porosity_options good = {CLAST_POROSITY_EXACT, 0.1, 0.999, 0.0, false};
+    const clast_porosity_options good = {CLAST_POROSITY_EXACT, 0.1, 0.999, 0.0, false, false};
     clast_assembly a = {0};
     clast_table profile = {0};
     clast_table none = {0};
@@ -426,9 +475,29 @@ static void pores_of_periods_that_cannot_be_are_refused(void **state)
 static clast_status make_profile(void *context)
 {
     const clast_bed bed = {.kind = CLAST_BED_CYLINDER, .radius = 3.0};
-    const clast_porosity_options options = {CLAST_POROSITY_EXACT, 0.1, 0.5, 0.0, false};
+    const clast_porosity_options options = {CLAST_POROSITY_EXACT, 0.1, 0.5, 0.0, false, false};
     clast_table profile = {0};
     const clast_status status = clast_porosity_profile(context, &bed, &options, &profile);
+    clast_table_free(&profile);
+    return status;
+}
+
+static clast_status measure_parts(void *context)
+{
+    clast_status status = CLAST_OK;
+    const clast_bed bed[2] = {
+        {.kind = CLAST_BED_BOX, .high = {1.0, 1.0}},
+        {.kind = CLAST_BED_PERIODIC, .low = {-1.0, -1.0}, .high = {1.0, 1.0}}};
+    const clast_porosity_options options = {.layer = 0.1, .cut = 0.5, .window = true};
+    const clast_porosity_bulk bulk = {.z_high = 3.0};
+    clast_bed_beyond beyond;
+    clast_table profile = {0};
+    for (int k = 0; k < 2 && status == CLAST_OK; ++k) {
+        status = clast_bed_beyond_measure(&bed[k], context, &bulk, options.method, &beyond);
+    }
+    if (status == CLAST_OK) {
+        status = clast_porosity_profile(context, &bed[0], &options, &profile);
+    }
     clast_table_free(&profile);
     return status;
 }
@@ -445,6 +514,7 @@ static void profile_survives_refused_memory(void **state)
     CHECK_OK(clast_shape_clump("pair", &spheres, &shape));
     one_grain(&shape, position, upright, 1.0, &a);
     support_refuse_each_allocation(make_profile, &a);
+    support_refuse_each_allocation(measure_parts, &a);
     clast_assembly_free(&a);
     clast_shape_free(&shape);
 }
@@ -459,6 +529,8 @@ int main(void)
         cmocka_unit_test(clump_counts_overlap_once),
         cmocka_unit_test(union_of_discs_has_known_areas),
         cmocka_unit_test(cubic_lattice_has_its_porosity),
+        cmocka_unit_test(a_window_of_a_lattice_has_its_porosity),
+        cmocka_unit_test(images_cover_grains_that_repeat_otherwise),
         cmocka_unit_test(what_lies_below_the_bed_is_of_no_slice),
         cmocka_unit_test(top_lies_where_the_profile_crosses),
         cmocka_unit_test(profile_is_the_same_for_any_threads),
