@@ -260,7 +260,7 @@ class Words(Case):
                           ("^bed: takes one value", lambda: clast.porosity(LATTICE, bed=X)), ("^unit: takes one value", lambda: clast.shapes(GRAIN, unit=X)),
                           ("^name: a int", lambda: clast.open(BED).table(3)), ("^axes: ", lambda: clast.shape(GRAIN, axes=X[:3])),
                           ("^columns: a ndarray", lambda: clast.Assembly.read_spheres(LATTICE, columns=X)),
-                          ("^columns: a int", lambda: clast.Cloud.read(GRAIN, columns=3)), ("^output: a bool", lambda: clast.pack(**PACK, output=True)),
+                          ("^columns: a int", lambda: clast.Cloud.read(LATTICE, columns=3)), ("^output: a bool", lambda: clast.pack(**PACK, output=True)),
                           ("^density: 0.0 lies", lambda: clast.Grading("U1").n_expected(1, density=0)),
                           ("^mass: -1.0 lies", lambda: clast.Grading("U1").n_expected(-1)),
                           ("^grain_volume: 0.0 lies", lambda: clast.Grading("U1").n_expected(1, grain_volume=0))):
