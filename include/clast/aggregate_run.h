@@ -20,7 +20,7 @@ typedef struct clast_aggregate_config {
     int32_t fill_spheres;         ///< spheres of a composite made here
     int32_t fill;                 ///< clast_fill_strategy
     char *unit;                   ///< of the coordinates in surface files
-    bool accept_faults;           ///< take surfaces that are open or cross themselves
+    bool accept_faults;           ///< take surfaces that are open, cross themselves or lie apart
 
     char *sizes; ///< CSV file of sizes or of a histogram
     char *size_column;

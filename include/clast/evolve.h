@@ -60,6 +60,7 @@ typedef struct clast_evolve_config {
     clast_f64_list shape_weight;
     clast_f64_list density; ///< of the solid: one for all shapes, or one each [kg/m^3]
     char *unit;             ///< of the coordinates in surface files
+    bool accept_faults;     ///< take surfaces that are open, cross themselves or lie apart
     char *curve;       ///< sizes, as clast_grading_load reads them: volume-equivalent diameters
     int32_t particles; ///< at the start; 0: the rows of `points`
     double weight;     ///< real particles that each stands for, a whole number

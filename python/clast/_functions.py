@@ -128,7 +128,7 @@ def aggregate(
         fill_spheres: spheres of each composite that is filled here (1 to 1e+06; default 100)
         fill: how it is filled (see clast fill) (largest, random, published; default largest)
         unit: length unit of coordinates in surface files (no default)
-        accept_faults: use surfaces that are open or cross themselves as they are (default False)
+        accept_faults: use surfaces that are open, cross themselves or lie apart as they are (default False)
         sizes: CSV of sizes, of sizes with counts, or of bins low,high with counts (no default)
         size_column: its column; none: the first (no default)
         size_unit: its unit, um, mm, m or phi; none: from the column's name (no default)
@@ -575,6 +575,7 @@ def evolve(
         shape_weight: Quantities | None = None,
         density: Quantities | None = None,
         unit: Text | None = None,
+        accept_faults: bool | None = None,
         curve: Quantity | Text | None = None,
         particles: int | None = None,
         weight: float | None = None,
@@ -646,6 +647,7 @@ def evolve(
         shape_weight: chance of each shape; none: all equal (at least 0; no default)
         density: of the solid: one for all shapes, or one each (kg/m^3; 1e-06 to 1e+06; default 2500)
         unit: length unit of surface files; may be left out: sizes come from the curve (no default)
+        accept_faults: use surfaces that are open, cross themselves or lie apart as they are (default False)
         curve: diameters of equal volume: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case (default 10um)
         particles: particles at the start; 0: the rows of points (0 to 1e+07; default 0)
         weight: real particles W that each stands for, a whole number: the number density is particles x W / volume; rows in time and the summary have masses of all of them, tables of bodies and events the mass of one (at least 1; default 1.0)

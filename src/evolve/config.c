@@ -55,6 +55,8 @@ const clast_field clast_evolve_fields[] = {
     LIST(density, 1e-6, 1e6, "kg/m^3", "2500", "of the solid: one for all shapes, or one each",
          .common = true),
     TEXT(unit, "", "length unit of surface files; may be left out: sizes come from the curve"),
+    FLAG(accept_faults, false,
+         "use surfaces that are open, cross themselves or lie apart as they are"),
     TEXT(curve, "10um",
          "diameters of equal volume: one size, uniform:LOW,HIGH, "
          "lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a "
@@ -331,7 +333,8 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
         {!sees_radius, "collision_radius", "with kernel constant"},
         {are_aggregates(&c->shapes), "density",
          "with aggregates (state.h5), whose grains have their own"},
-        {!has_surface_file(&c->shapes), "unit", "without a surface file among the shapes"},
+        {!has_surface_file(&c->shapes), "unit|accept_faults",
+         "without a surface file among the shapes"},
         {c->shapes.n == 1, "shape_weight", "with one shape"},
         {input->points != NULL && input->points->radius != NULL, "curve", "with diameter_column"},
         {c->even == CLAST_EVEN_WHOLE, "change_level", "with even whole"},

@@ -40,6 +40,7 @@ static clast_status load_shapes(const clast_evolve_config *c, clast_evolve_sourc
     CLX_TRY(
         clast_field_set(clast_fields_find(clast_aggregate_fields, "unit"), &as, c->unit, false));
     clast_field_clear(clast_fields_find(clast_aggregate_fields, "envelope"), &as);
+    as.accept_faults = c->accept_faults;
     CLX_TRY(clx_alloc(&made->shape, c->shapes.n, sizeof *made->shape));
     for (int32_t i = 0; i < c->shapes.n; ++i) {
         CLX_TRY(clx_load_named("shapes", &as, c->shapes.item[i], "",
