@@ -125,7 +125,7 @@ static void tables_of_every_kind_are_understood(void **state)
         {"Major Axis Length (um),Middle Axis Length (um),Minor Axis Length (um)\n10,8,4\n", 1, 0,
          0.5, 0.8, 6.324555320336759},
         {"flatness,elongation,L,I,S\n0.50,0.80,10,8,4\n", 1, 0, 0.5, 0.8, 6.324555320336759},
-        {"L_mm,I_cm,S (um)\n10,0.8,4000\n", 1, 0, 0.5, 0.8, 6324.555320336759},
+        {"L_mm,I_cm,S (um)\n10,0.8,4000\n", 1, 0, 0.5, 0.8, 6.324555320336759e-3}, /* in metres */
         {"elongation,flatness,diameter\n0.8,0.5,3\n", 1, 0, 0.5, 0.8, 3.0},
         {"flatness,elongation\n0.5,0.8\nbroken,0.8\nNA,0.7\n", 1, 2, 0.5, 0.8, 0.0},
         {"flatness,elongation\n1.0000000001,1\n", 1, 0, 1.0, 1.0, 0.0},
