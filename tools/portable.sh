@@ -8,9 +8,10 @@ machine=$1
 prefix=$PWD/build/portable/$machine
 sources=${CLAST_PORTABLE_SOURCES:-$PWD/build/portable/sources}
 mirror=${CLAST_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+ccache=$(command -v ccache || true)
 case $machine in
-wasm) configure=(emcmake cmake "-DCMAKE_C_COMPILE_OBJECT=$(em-config LLVM_ROOT)/clang $(emcc --cflags | tail -1) <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>") flags="-O2" ;;
-i386) configure=(cmake) flags="-O1 -m32 -msse2 -mfpmath=sse" ;;
+wasm) configure=(emcmake cmake "-DCMAKE_C_COMPILE_OBJECT=$ccache $(em-config LLVM_ROOT)/clang $(emcc --cflags | tail -1) <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>") flags="-O2" ;;
+i386) configure=(cmake "-DCMAKE_C_COMPILER_LAUNCHER=$ccache") flags="-O1 -m32 -msse2 -mfpmath=sse" ;;
 *) echo "usage: tools/portable.sh wasm|i386" >&2; exit 2 ;;
 esac
 mark="$(find tools/portable -type f -print0 | sort -z | xargs -0 cat | sha256sum | cut -c1-16) $flags"
