@@ -38,6 +38,13 @@ bool clx_run_owns(const clx_run_state *state, const char *name);
 CLX_SHARED clast_status clx_run_folder_resume(const char *folder, const char *command,
                                               const clast_monitor *monitor, clast_run_folder **run);
 
+/// The files are whole: manifest.json says so and lists them. What is written after that (a page
+/// that reads the run) is no output of it; the end still has to follow.
+CLX_SHARED clast_status clx_run_folder_seal(clast_run_folder *run);
+
+/// The folder that was asked for: where the run will be once it has ended. Borrowed.
+CLX_SHARED const char *clx_run_folder_place(const clast_run_folder *run);
+
 /// Keeps in the manifest how much of the run is done (0 to 1); to be called beside a checkpoint.
 CLX_SHARED clast_status clx_run_folder_progress(clast_run_folder *run, double share);
 

@@ -437,16 +437,21 @@ done:
     return status;
 }
 
-/// The files are whole: manifest.json says so and lists them. What is written after that (a page
-/// that reads the run) is no output of it.
-static clast_status seal(clast_run_folder *run)
+clast_status clx_run_folder_seal(clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
-    run->is_sealed = true;
-    CLX_TRY(note_outputs(run));
-    CLX_TRY(write_manifest(run, "done"));
+    if (run != NULL && run->is_open && !run->is_sealed) {
+        run->is_sealed = true;
+        CLX_TRY(note_outputs(run));
+        CLX_TRY(write_manifest(run, "done"));
+    }
 done:
     return status;
+}
+
+const char *clx_run_folder_place(const clast_run_folder *run)
+{
+    return run != NULL ? run->folder : NULL;
 }
 
 /// After that: the run takes its place.
@@ -500,7 +505,7 @@ clast_status clast_run_folder_end(clast_run_folder *run, clast_status status)
     if (run == NULL || !run->is_open) {
         return status;
     }
-    status = status == CLAST_OK ? seal(run) : status;
+    status = status == CLAST_OK ? clx_run_folder_seal(run) : status;
     run->is_open = false;
     return status == CLAST_OK ? settle(run) : end_badly(run, status);
 }

@@ -286,48 +286,54 @@ done:
     return status;
 }
 
-/// What a run is whole without: the printable body, and the page, which has the body's numbers.
-/// `lacks` tells which of them cannot be made, and why.
-static clast_status add_last(run *r, char lacks[CLX_DETAIL_SIZE])
+/// The page, which a run is whole without: `lacks` tells why there is none.
+static clast_status write_page(const char *folder, const char *place, const char *name,
+                               char lacks[CLX_DETAIL_SIZE])
 {
-    const clast_status printed = r->config->printable ? add_printable(r) : CLAST_OK;
-    if (printed != CLAST_OK) {
-        (void)snprintf(lacks, CLX_DETAIL_SIZE, "no printable body: %s", clast_error_detail());
-    }
-    const clast_status page =
-        r->has_folder ? clast_report_write_run(r->report.folder, NULL) : CLAST_OK;
-    if (page != CLAST_OK && printed == CLAST_OK) {
+    const clast_status status = clast_report_write_run(folder, place);
+    if (status != CLAST_OK) {
         (void)snprintf(lacks, CLX_DETAIL_SIZE, "no report.html: %s; clast report %s makes it",
-                       clast_error_detail(), r->report.folder);
+                       clast_error_detail(), name);
     }
-    return printed != CLAST_OK ? printed : page;
+    return status;
+}
+
+/// The printable body, which a run is whole without too, and its numbers on the page.
+static clast_status add_body(run *r, char lacks[CLX_DETAIL_SIZE])
+{
+    const clast_status status = add_printable(r);
+    if (status != CLAST_OK) {
+        (void)snprintf(lacks, CLX_DETAIL_SIZE, "no printable body: %s", clast_error_detail());
+        return status;
+    }
+    return write_page(r->report.folder, NULL, r->report.folder, lacks);
 }
 
 /// The outcome of a whole run: a body that cannot be printed and a criterion that is not met are
 /// told as one kind of end, which a study keeps; a full disk, too little memory and a stop stay
 /// what they are.
-static clast_status tell_outcome(run *r)
+static clast_status tell_outcome(const run *r, clast_status last, const char *lacks)
 {
-    char lacks[CLX_DETAIL_SIZE] = "";
     char stop[CLX_DETAIL_SIZE] = "";
-    const clast_status printed = add_last(r, lacks);
     const clast_status status = check_stop(r);
-    if (printed == CLAST_OK) {
+    if (last == CLAST_OK) {
         return status;
     }
     if (status != CLAST_OK) {
         (void)snprintf(stop, sizeof stop, "%s; ", clast_error_detail());
     }
     const bool is_itself =
-        printed == CLAST_E_MEMORY || printed == CLAST_E_DISK || printed == CLAST_E_STOPPED;
-    return clx_fail(is_itself ? printed : CLAST_E_CONVERGE, "%s%s holds the whole run but %s", stop,
+        last == CLAST_E_MEMORY || last == CLAST_E_DISK || last == CLAST_E_STOPPED;
+    return clx_fail(is_itself ? last : CLAST_E_CONVERGE, "%s%s holds the whole run but %s", stop,
                     clast_run_folder_path(r->own), lacks);
 }
 
-/// Rank 0: all files of a run that went well, and the end of the manifest; body and page after it,
-/// so that the run is whole whatever ends the process then.
+/// Rank 0: all files of a run that went well, and the end of the manifest; the body after it, so
+/// that the run is whole whatever ends the process then.
 static clast_status finish(run *r, clast_status status)
 {
+    char lacks[CLX_DETAIL_SIZE] = "";
+    clast_status last = CLAST_OK;
     if (status == CLAST_OK && r->has_folder) {
         const clx_folder_results results = {.config = r->config,
                                             .report = &r->report,
@@ -337,6 +343,10 @@ static clast_status finish(run *r, clast_status status)
                                             .body = body_of(r),
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
+        status = status == CLAST_OK ? clx_run_folder_seal(r->own) : status;
+        last = status == CLAST_OK ? write_page(r->folder, clx_run_folder_place(r->own),
+                                               clx_run_folder_place(r->own), lacks)
+                                  : CLAST_OK;
     }
     status = clast_run_folder_end(r->own, status);
     if (status == CLAST_OK && r->has_folder) { // a resumed run may have taken another's place
@@ -344,7 +354,8 @@ static clast_status finish(run *r, clast_status status)
     }
     r->is_whole = status == CLAST_OK;
     if (r->is_whole) {
-        status = tell_outcome(r);
+        last = r->config->printable ? add_body(r, lacks) : last;
+        status = tell_outcome(r, last, lacks);
     }
     return status;
 }

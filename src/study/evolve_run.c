@@ -129,7 +129,9 @@ done:
     return status;
 }
 
-static clast_status write_all(run *r, clast_evolve_result *made)
+/// All files. `lacks` tells why there is no page, which a run is whole without.
+static clast_status write_all(run *r, clast_evolve_result *made, clast_status *page,
+                              char lacks[CLX_DETAIL_SIZE])
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clast_evolve_measure(r->evolve, made));
@@ -138,34 +140,30 @@ static clast_status write_all(run *r, clast_evolve_result *made)
         CLX_TRY(clx_evolve_write_collection(r->folder, r->evolve, &made->n_frame));
         CLX_TRY(clx_evolve_write_results(r->folder, r->text, r->config, &r->source.domain,
                                          r->evolve, made));
+        CLX_TRY(clx_run_folder_seal(r->own));
+        *page = clast_report_write_run(r->folder, clx_run_folder_place(r->own));
+        (void)snprintf(lacks, CLX_DETAIL_SIZE, "%s", clast_error_detail());
     }
 done:
     return status;
 }
 
-/// The page, which a run is whole without.
-static clast_status write_page(const char *folder)
-{
-    char why[CLX_DETAIL_SIZE];
-    const clast_status status = clast_report_write_run(folder, NULL);
-    (void)snprintf(why, sizeof why, "%s", clast_error_detail());
-    return status == CLAST_OK ? status
-                              : clx_fail(status,
-                                         "%s holds the whole run but no report.html: %s; clast "
-                                         "report %s makes it",
-                                         folder, why, folder);
-}
-
 static clast_status finish(run *r, clast_status status, clast_evolve_result *result)
 {
     clast_evolve_result made = {0};
+    clast_status page = CLAST_OK;
+    char lacks[CLX_DETAIL_SIZE];
     if (status == CLAST_OK) {
-        status = write_all(r, &made);
+        status = write_all(r, &made, &page, lacks);
     }
     status = clast_run_folder_end(r->own, status);
     if (status == CLAST_OK && r->folder != NULL) { // a resumed run may have taken another's place
         status = clx_alloc_text(&made.folder, clast_run_folder_path(r->own));
-        status = status == CLAST_OK ? write_page(made.folder) : status;
+    }
+    if (status == CLAST_OK && page != CLAST_OK) {
+        status = clx_fail(page,
+                          "%s holds the whole run but no report.html: %s; clast report %s makes it",
+                          made.folder, lacks, made.folder);
     }
     if (status != CLAST_OK) {
         clast_evolve_result_free(&made);
