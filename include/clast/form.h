@@ -175,6 +175,11 @@ typedef struct clast_form_set {
     clast_left_out *left_out; ///< [n_left_out] by row
 } clast_form_set;
 
+/// Whether all names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form's by
+/// their words: "flatness_mean,elongation_mean" or
+/// "mean L,mean I,mean S", not "sand,mu"; true of NULL and "", which name none.
+CLAST_API bool clast_form_columns_named(const char *columns);
+
 /// Takes the forms out of a table.
 ///
 /// Columns are known by name, whatever their case and unit: flatness or FL with elongation or EL;

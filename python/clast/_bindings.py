@@ -3783,6 +3783,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_form_law_draw': (None, [POINTER(clast_form_law), c_uint64, c_uint64, POINTER(c_double), POINTER(c_double)], 'Flatness S/I and elongation I/L of grain `index`: a function of (law, seed, index) alone.'),
     'clast_form_law_cut': (clast_form_law_moments, [POINTER(clast_form_law)], 'Moments of the law as it is drawn from, cut to its range.'),
     'clast_row_fault_text': (c_char_p, [c_int], '"missing", "not a number", .'),
+    'clast_form_columns_named': (c_bool, [c_char_p], 'Whether all names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form\'s by their words: "flatness_mean,elongation_mean" or "mean L,mean I,mean S", not "sand,mu"; true of NULL and "", which name none.'),
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
     'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),

@@ -256,7 +256,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     choice("features", features, c.KEYS["fit"]["features"][5] or "")
     with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
         what = features if features != "auto" else "mixture" if grains is not None else \
-            "form" if _has_forms(beds, config.struct.columns) and _names_form(config.struct.columns.decode()) else "columns"
+            "form" if _has_forms(beds, config.struct.columns) and _names_form(config.struct.columns) else "columns"
         refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), what != "form")
         if (what == "mixture") != (grains is not None):
             raise refuse("features: 'mixture' and grains belong together: the features are means and deviations over the grains")
@@ -329,14 +329,11 @@ def _has_forms(beds: Owner, columns: bytes) -> bool:
     return bool(call("clast_form_set_of")(ctypes.byref(beds.struct), columns, ctypes.byref(owner.struct)) == 0)
 
 
-def _names_form(columns: str) -> bool:
-    """Whether all names of a list are a form's (as the command: flatness_mean,elongation_mean, not sand,mu); else they are candidates."""
-    words = ("long|longest|intermediate|middle|short|shortest|major|minor|length|width|thickness" if columns.count(",") == 2 else
-             "flatness|elongation|fl|el|s/i|i/l")
-    known = re.compile(rf"(?:^|.*[^a-z/])(?:{words})(?![a-z/])" + (r"|[lis](?![a-z/])" if columns.count(",") == 2 else ""))
-    if columns == "" or all(known.match(name.lower()) for name in columns.split(",")):
+def _names_form(columns: bytes) -> bool:
+    """Whether named columns are a form's; else they are candidates."""
+    if call("clast_form_columns_named")(columns):
         return True
-    warn(f"columns {columns} are candidates; features='form' takes them as a form")
+    warn(f"columns {columns.decode()} are candidates; features='form' takes them as a form")
     return False
 
 
