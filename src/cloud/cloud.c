@@ -125,13 +125,16 @@ done:
     return status;
 }
 
-/// What stands after the last "_" or in brackets of a name with a "/", "ft/s" of "u_ft/s", whose
-/// unit the table does not know; NULL else.
-static const char *unknown_unit(const clast_column *c)
+/// What stands after the last "_" or in brackets of a name with a "/", "ft/s" of "u_ft/s" and "u
+/// (ft/s)", whose unit the table does not know; "" else.
+static void unknown_unit(const clast_column *c, char unit[32])
 {
     const char *open = strpbrk(c->name, "([");
     const char *word = open != NULL ? open : strrchr(c->name, '_');
-    return strcmp(c->unit, "-") == 0 && word != NULL && strchr(word, '/') != NULL ? word + 1 : NULL;
+    unit[0] = '\0';
+    if (strcmp(c->unit, "-") == 0 && word != NULL && strchr(word, '/') != NULL) {
+        (void)snprintf(unit, 32, "%.*s", (int)strcspn(word + 1, ")]"), word + 1);
+    }
 }
 
 /// The column that holds these numbers.
@@ -162,11 +165,13 @@ clast_status clast_cloud_column_factor(const clast_table *table, const char *nam
     CLX_TRY(clast_cloud_column(table, name, &number));
     if (number != NULL && strcmp(si_unit, "-") != 0) {
         const clast_column *c = column_of(table, number);
-        const char *unknown = unknown_unit(c);
+        char unknown[32];
+        unknown_unit(c, unknown);
         if (has_unit(c, si_unit)) { // "x_t" is no time
             CLX_TRY(clast_unit_factor(c->unit, si_unit, &found));
-        } else if (unknown != NULL || (strcmp(c->unit, "-") != 0 && strchr(c->unit, '/') != NULL)) {
-            status = clast_unit_factor(unknown != NULL ? unknown : c->unit, si_unit, &found);
+        } else if (unknown[0] != '\0' ||
+                   (strcmp(c->unit, "-") != 0 && strchr(c->unit, '/') != NULL)) {
+            status = clast_unit_factor(unknown[0] != '\0' ? unknown : c->unit, si_unit, &found);
             clx_fail_prefix("%s: column '%s'", table->name, c->name);
             goto done;
         }

@@ -5,8 +5,8 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "io/points.h"
 #include "io/spheres_table.h"
-#include <clast/cloud.h>
 #include <clast/table.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,8 +45,10 @@ static clast_status read_kind(clx_grains_task *task, surface_names *names)
     CLX_TRY(clx_file_read_all(task->path, INT64_C(1) << 34, &task->bytes, &task->n_byte));
     const clast_grains_kind kind = clx_grains_kind_of(task);
     *names = names_of_kind(kind);
-    if (kind == CLAST_GRAINS_AUTO) {
-        CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
+    if (kind == CLAST_GRAINS_AUTO) { // files with faces are refused when they are read
+        bool has_faces = false;
+        CLX_TRY(clx_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table,
+                                 &has_faces));
         *names = names_of_kind(clx_grains_kind_of_columns(task, &table));
     }
 done:
