@@ -469,57 +469,6 @@ static void policies_test_and_cut_when_they_say(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
-enum { DRIFTING_STEPS = 50 };
-
-/// Sum over steps of the squared error of events with cells that are kept, of one drifting cloud.
-static double kept_square(drifting_kind kind, uint64_t seed, const clast_decompose_config *c)
-{
-    clast_domain domain = {0};
-    drifting cloud = {0};
-    double square = 0.0;
-    clast_workspace_calls calls;
-    clast_workspace *fresh = workspace_with(policy_of("never", "each"));
-    clast_workspace *kept = workspace_with(policy_of("never", "changed"));
-    CHECK_OK(clast_domain_parse("box:0,0,0,1,1,1", &domain));
-    CHECK_OK(drifting_start(kind, 4000, seed, &cloud));
-    for (int k = 0; k < DRIFTING_STEPS; ++k) {
-        const clast_decomposition *a = NULL;
-        const clast_decomposition *b = NULL;
-        const clast_points points = {
-            .n = cloud.n, .dimension = 3, .x = cloud.x, .stride = 3, .axis_stride = 1};
-        CHECK_OK(clast_workspace_decompose_in(fresh, &domain, &points, c, &a));
-        CHECK_OK(clast_workspace_decompose_in(kept, &domain, &points, c, &b));
-        square += pow(b->events / a->events - 1.0, 2.0);
-        drifting_advance(&cloud);
-    }
-    CHECK_OK(clast_workspace_count(kept, &calls));
-    assert_true(calls.n_cut <= DRIFTING_STEPS / 2);
-    clast_workspace_destroy(fresh);
-    clast_workspace_destroy(kept);
-    drifting_free(&cloud);
-    return square;
-}
-
-/* The errors that docs/theory/decompose.md section 15 tells, with seeds of their own: about 2 % in
- * clouds that move slowly, 12 to 15 % in a vortex that turns from uniform to steep, over three
- * clouds: one alone has 9 to 15 %. */
-static void events_of_a_drifting_cloud_are_within_the_told_error(void **state)
-{
-    (void)state;
-    clast_decompose_config c = config_of("tree");
-    c.beta_dt = 1e-18;
-    for (int kind = 0; kind < N_DRIFTING; ++kind) {
-        const int n_cloud = kind == DRIFTING_VORTEX ? 3 : 1;
-        double square = 0.0;
-        for (int k = 0; k < n_cloud; ++k) {
-            square += kept_square((drifting_kind)kind, 777 + (uint64_t)k, &c);
-        }
-        const double error = sqrt(square / n_cloud / DRIFTING_STEPS);
-        assert_true(error < (kind == DRIFTING_VORTEX ? 0.15 : 0.05));
-    }
-    clast_fields_free(clast_decompose_fields, &c);
-}
-
 /* Kept cells are filled by threads, in blocks of points. */
 static void kept_cells_have_the_same_bytes_for_any_threads(void **state)
 {
@@ -789,7 +738,6 @@ int main(void)
         cmocka_unit_test(first_call_is_that_of_clast_decompose),
         cmocka_unit_test(kept_cells_hold_the_points_of_the_call),
         cmocka_unit_test(policies_test_and_cut_when_they_say),
-        cmocka_unit_test(events_of_a_drifting_cloud_are_within_the_told_error),
         cmocka_unit_test(a_count_of_pairs_is_carried_from_cut_to_cut),
         cmocka_unit_test(kept_cells_have_the_same_bytes_for_any_threads),
         cmocka_unit_test(any_domain_is_taken),
