@@ -19,7 +19,7 @@ typedef struct {
     clast_mean mean;
 } quantity;
 
-enum { MOST_QUANTITIES = 64 };
+enum { MOST_QUANTITIES = 96 };
 
 typedef struct {
     int n;
@@ -106,7 +106,7 @@ static void gather(const cli_bed_runs *runs, const char *group, quantities *q)
         }
         if (json_is_object(value)) {
             gather(runs, key, q);
-        } else if (!json_is_string(value)) {
+        } else if (!json_is_string(value) && !json_is_boolean(value)) {
             q->of[q->n++] = (quantity){group, key, clast_mean_of(runs->n, number)};
         }
     }
@@ -139,6 +139,9 @@ json_t *cli_bed_runs_json(const cli_bed_runs *runs)
     }
     cli_json_count(object, "n_run", runs->n);
     cli_json_text(object, "unit", runs->unit);
+    if (json_object_get(runs->found[0], "is_part") != NULL) { // all are alike
+        (void)json_object_set(object, "is_part", json_object_get(runs->found[0], "is_part"));
+    }
     (void)json_object_set_new(object, "runs", each);
     for (int k = 0; k < q.n; ++k) {
         const bool is_inner = q.of[k].group[0] != '\0';
@@ -184,6 +187,10 @@ clast_status cli_bed_runs_print(const cli_bed_runs *runs)
                          m->low, m->high);
         }
     }
+    if (json_is_true(json_object_get(runs->found[0], "is_part"))) {
+        (void)printf("the beds are parts of packings: bulk and profile count what lies inside, "
+                     "contacts do not; no stress\n");
+    }
     return CLAST_OK;
 }
 
@@ -199,8 +206,8 @@ static clast_status write_table(const clast_run_folder *run, const char *name,
 /// it.
 static const char *unit_of(const cli_bed_runs *runs, const quantity *q)
 {
-    static const char *const length[] = {"z_low",     "z_high",     "top",       "max_overlap",
-                                         "pore_mean", "grain_size", "core_depth"};
+    static const char *const length[] = {"z_low",     "z_high",     "top",        "max_overlap",
+                                         "pore_mean", "grain_size", "core_depth", "max_beyond"};
     const bool is_metre = strcmp(runs->unit, "m") == 0;
     if (strcmp(q->group, "stress") == 0) {
         return strcmp(q->key, "stress_ratio") == 0 ? "-" : "Pa";
@@ -210,7 +217,8 @@ static const char *unit_of(const cli_bed_runs *runs, const quantity *q)
             return is_metre ? "m" : "-";
         }
     }
-    return is_metre && strcmp(q->key, "solid") == 0 ? "m^3" : "-";
+    const bool is_volume = strcmp(q->key, "solid") == 0 || strcmp(q->key, "solid_beyond") == 0;
+    return is_metre && is_volume ? "m^3" : "-";
 }
 
 static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder *run)

@@ -11,26 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Sizes and their numbers; of a spectrum of many times the last one.
-static clast_status read_start(const cli_box *box, clast_table *table, clast_spectrum_start *start)
-{
-    CLI_GUARD(clast_cloud_read(box->initial_file, NULL, table));
-    const bool is_spectrum = clast_table_find(table, "number") < 0; // spectrum.csv of a box
-    const double *size = clast_table_numbers(table, "size");
-    const double *number = clast_table_numbers(table, is_spectrum ? "n" : "number");
-    const double *time = is_spectrum ? clast_table_numbers(table, "time_s") : NULL;
-    if (size == NULL || number == NULL) {
-        return cli_fail(CLAST_E_FORMAT, "%s: needs the columns size and number, or size and n",
-                        cli_name(box->initial_file));
-    }
-    int64_t first = time != NULL ? table->n_row : 0;
-    while (first > 0 && time[first - 1] == time[table->n_row - 1]) { // the last time's rows
-        --first;
-    }
-    *start = (clast_spectrum_start){table->n_row - first, size + first, number + first};
-    return CLAST_OK;
-}
-
 static json_t *list_of(const clast_table *table, const char *name)
 {
     const double *value = clast_table_numbers(table, name);
@@ -283,7 +263,8 @@ static clast_status evolve(const cli_box_job *job, clast_spectrum *result)
     c.n_step = agglomerate->n_step;
     c.repeats = agglomerate->repeats;
     if (c.initial == CLAST_INITIAL_TABLE) {
-        CLI_TRY(read_start(box, &table, &start));
+        CLI_TRY(clast_cloud_read(box->initial_file, NULL, &table));
+        CLI_TRY(clast_spectrum_start_from_table(&table, &start));
         note_of_shares(job, &start);
     }
     status = clast_spectrum_evolve(&start, &c, &collide, &monitor, result);

@@ -59,17 +59,34 @@ static void warn_of_fall(const cli_common *common, const clast_evolve_result *r)
     }
 }
 
+/// One line where a field and the domain are hardly in one unit.
+static void warn_of_field(const cli_common *common, const clast_evolve_result *r)
+{
+    if (r->is_field_apart && !common->quiet) {
+        (void)fputs("clast evolve: warning: no body starts within the grid of --field, or it is "
+                    "1000 times as wide as the domain; are both in the same unit? (beyond the grid "
+                    "the velocity is that at its edge)\n",
+                    stderr);
+    }
+}
+
 /// One line where a floor or top that reflects has a layer that steps do not follow.
 static void warn_of_layer(const cli_common *common, const clast_evolve_result *r)
 {
+    const bool is_top = r->gathered_top > 0.0;
+    const bool is_floor = r->gathered_top < r->gathered;
     if (r->gathered > 0.0 && !common->quiet) {
         (void)fprintf(
             stderr,
-            "clast evolve: warning: %.3g %% of the mass comes to a floor or top that "
-            "reflects and gathers there in a layer (diffusivity over speed) thinner than a "
-            "step moves it: what meets there depends on the steps (take --floor deposit, "
-            "or shorter steps)\n",
-            100.0 * r->gathered);
+            "clast evolve: warning: %.3g %% of the mass comes to a %s that reflects and gathers "
+            "there in a layer (diffusivity over speed) thinner than a step moves it: what meets "
+            "there depends on the steps (take %s%s%s, or shorter steps)\n",
+            100.0 * r->gathered,
+            !is_top    ? "floor"
+            : is_floor ? "floor or top"
+                       : "top",
+            is_floor ? "--floor deposit" : "", is_floor && is_top ? " and " : "",
+            is_top ? "--open-top (a box; else --sides deposit)" : "");
     }
 }
 
@@ -92,6 +109,9 @@ static void print_pack(const clast_evolve_result *r)
 /// deposit.h5, in which a body that stands for others comes once.
 static void print_bed(const clast_evolve_result *r)
 {
+    if (r->is_bed_empty) {
+        (void)printf("%-26s none: nothing lies on the floor\n", "bed");
+    }
     if (!(r->bed_width > 0.0)) {
         return;
     }
@@ -158,6 +178,7 @@ static clast_status run(const cli_common *common, void *context)
                 : clast_evolve_run(config, common->output, &monitor, &result));
     warn_of_fall(common, &result);
     warn_of_layer(common, &result);
+    warn_of_field(common, &result);
     cli_dense_warn(common, result.volume_fraction);
     if (!common->json) {
         print_text(&result);

@@ -257,28 +257,16 @@ static void class_words(const answer *a)
     }
 }
 
-/// "40 rows, counted by column 'number': 820 in all".
-static void list_words(const answer *a, const clast_grading_list *list)
-{
-    const bool by_mass = strncmp(a->text, "masses:", 7) == 0;
-    (void)printf("  %lld row%s, ", (long long)list->n_row, list->n_row > 1 ? "s" : "");
-    if (list->column[0] == '\0') {
-        (void)printf("one grain a row");
-    } else {
-        (void)printf("%s by column '%s': %.6g in all", by_mass ? "weighed" : "counted",
-                     cli_name(list->column), list->total);
-    }
-    (void)(list->ignored[0] != '\0' ? printf("; not looked at: %s\n", cli_name(list->ignored))
-                                    : printf("\n"));
-}
-
 static void answer_words(const answer *a)
 {
     const clast_grading *g = a->grading;
     const clast_grading_list list = clast_grading_list_of(g);
     (void)printf("%s\n", a->text);
     if (list.n_row > 0) {
-        list_words(a, &list);
+        const bool by_mass = strncmp(a->text, "masses:", 7) == 0;
+        char text[1536];
+        (void)printf("  %s\n",
+                     cli_name(clast_grading_list_text(&list, by_mass, sizeof text, text)));
     }
     if (a->curve.n_class > 0) {
         class_words(a);

@@ -39,7 +39,7 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
      "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), "
      "periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by "
-     "SHIFT) or mesh:FILE,UNIT; none: the run's",
+     "SHIFT) or mesh:FILE,UNIT (m where the grains' lengths have no unit); none: the run's",
      "", .group = "bed and container", .common = true},
     {FIELD(CLAST_FIELD_TEXT, floor), 0, 0, 0, "-", "height of the bottom, with --bed (as 5mm)",
      "0"},
@@ -127,11 +127,8 @@ static clast_status read_input(const cli_common *common, const char *input,
                         input);
     }
     CLI_GUARD(clast_state_read_assembly(path, &s->assembly));
-    s->has_bed = clast_bed_read(path, &s->bed, &s->surface) == CLAST_OK;
-    if (s->has_bed) {
-        (void)clast_bed_period(&s->bed, s->period);
-        s->shift = s->bed.shift;
-    }
+    s->has_own = clast_bed_read(path, &s->own, &s->own_surface) == CLAST_OK;
+    s->bed = s->own;
     (void)clast_state_read_table(path, "contacts", &s->contacts); // aggregates have none
     (void)clast_state_read_table(path, "velocities", &s->velocities);
     return CLAST_OK;
@@ -193,7 +190,6 @@ static clast_status measure_run(const cli_common *common, const char *input,
                         input);
     }
     if (config->bed[0] != '\0') {
-        clast_mesh_free(&s->surface);
         CLI_GUARD(cli_check_bed_lengths(config->bed, s->assembly.unit));
         CLI_GUARD(clast_bed_load(config->bed, &s->bed, &s->surface));
         const bool has_floor =
@@ -203,7 +199,7 @@ static clast_status measure_run(const cli_common *common, const char *input,
                             config->bed);
         }
         s->bed.floor = has_floor ? s->bed.floor : typed.floor;
-    } else if (!s->has_bed) {
+    } else if (!s->has_own) {
         return cli_fail(CLAST_E_USAGE,
                         "%s does not say what holds the grains; give --bed, such "
                         "as cylinder:52mm",
@@ -237,17 +233,21 @@ static clast_status measure_run(const cli_common *common, const char *input,
 
 /// The findings of run i join those of the runs before.
 static clast_status gather_one(const cli_common *common, int32_t i, const porosity_config *config,
-                               cli_bed_runs *runs, clast_bed_kind *kind)
+                               cli_bed_runs *runs, clast_bed *first)
 {
     const char *input = common->argument[i];
     cli_porosity_bed s = {0};
     cli_porosity_findings found = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(measure_run(common, input, config, &s, &found));
-    CLI_CHECK(i == 0 || s.bed.kind == *kind, CLAST_E_USAGE,
+    *first = i == 0 ? s.bed : *first;
+    CLI_CHECK(s.bed.kind == first->kind, CLAST_E_USAGE,
               "%s and %s lie in containers of two kinds: they are no realisations of one bed",
               common->argument[0], input);
-    *kind = s.bed.kind;
+    CLI_CHECK(s.bed.is_part == first->is_part, CLAST_E_USAGE,
+              "--bed holds the grains of %s and is a part of the packing of %s: no realisations of "
+              "one bed; give a greater or a smaller one",
+              common->argument[first->is_part ? i : 0], common->argument[first->is_part ? 0 : i]);
     CLI_TRY(cli_bed_runs_add(runs, input, s.assembly.unit, cli_porosity_json(&s.assembly, &found),
                              &found.profile, &found.radial));
 done:
@@ -301,11 +301,11 @@ static clast_status run_several(const cli_common *common, const porosity_config 
                                 clast_run_folder *run)
 {
     cli_bed_runs runs = {0};
-    clast_bed_kind kind = CLAST_BED_CYLINDER;
+    clast_bed first = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(check_different(common));
     for (int32_t i = 0; i < common->n_argument; ++i) {
-        CLI_TRY(gather_one(common, i, config, &runs, &kind));
+        CLI_TRY(gather_one(common, i, config, &runs, &first));
     }
     if (run != NULL) {
         CLI_TRY(write_several(common, config, &runs, run));

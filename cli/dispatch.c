@@ -78,7 +78,7 @@ static bool print_group(FILE *out, const char *word)
 static void print_version(void)
 {
     static const char lacks[] = CLAST_LACKS;
-    (void)printf("clast %s\nsource %s\nwith %s\n", clast_version(), CLAST_SOURCE, CLAST_HAS);
+    (void)printf("clast %s\nsource %s\nwith %s\n", clast_version(), clast_source(), CLAST_HAS);
     if (lacks[0] != '\0') {
         (void)printf("without %s\n", lacks);
     }

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double LEAST_OUTSIDE = 1e-3; ///< share of a given bed that is told
+
 void cli_porosity_free(cli_porosity_findings *f)
 {
     clast_table_free(&f->profile);
@@ -119,9 +121,13 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
         cli_json_number(object, "wall_ratio", f->walls.ratio);
     }
     if (f->beyond.n >= 0) {
+        cli_json_bool(object, "is_part", f->is_part);
         cli_json_count(object, "n_beyond", f->beyond.n);
         cli_json_number(object, "max_beyond", f->beyond.depth);
         cli_json_number(object, "solid_beyond", f->beyond.solid);
+    }
+    if (isfinite(f->outside)) {
+        cli_json_number(object, "bed_outside", f->outside);
     }
     if (f->core_depth > 0.0) {
         cli_json_number(object, "core_depth", f->core.depth);
@@ -199,6 +205,8 @@ static clast_status write_vtk(const clast_run_folder *run, const cli_porosity_fi
     if (f->chains.n_column > 0) {
         CLI_GUARD(clast_run_folder_file(run, "chains.vtp", path));
         CLI_GUARD(clast_table_write_vtp(&f->chains, path));
+    }
+    if (f->chains.n_row > 0) { // a chart of no line has no axes
         CLI_GUARD(clast_run_folder_file(run, "chains.svg", path));
         CLI_GUARD(clast_chart_chains(&f->chains, unit, path));
     }
@@ -231,7 +239,9 @@ clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembl
 /// What the side walls do to the bulk porosity.
 static void print_walls(const clast_bed *bed, const char *unit, const cli_porosity_findings *f)
 {
-    if (bed->kind == CLAST_BED_MESH) {
+    if (f->is_part) {
+        (void)printf("side walls          none: the bed is a part of a packing\n");
+    } else if (bed->kind == CLAST_BED_MESH) {
         (void)printf("side walls          a surface: its distance in grain sizes is not known\n");
     } else if (!isfinite(f->walls.ratio)) {
         (void)printf("side walls          none: the bed is periodic\n");
@@ -243,16 +253,22 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
                      : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
                                             : ", which loosen the bed");
     }
-    if (f->beyond.n > 0 && f->is_window) {
+    if (f->beyond.n > 0 && f->is_part) {
         (void)printf("beyond the sides    %d grain%s, by up to %s: a part of a packing; bulk and "
-                     "profile count what lies inside, contacts and stress do not\n",
-                     f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit));
+                     "profile count what lies inside, contacts do not%s\n",
+                     f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit),
+                     f->knows_contacts ? "; no stress (--fields has it by place)" : "");
     } else if (f->beyond.n > 0) {
         (void)printf("beyond the sides    %d grain%s, by up to %s: bulk and profile count them "
                      "whole, %.3g %% of this solid lies outside%s\n",
                      f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit),
                      100.0 * f->beyond.solid / f->bulk.solid,
                      f->pores.sizes.n_column > 0 ? "; porosity by points (pores) does not" : "");
+    }
+    if (f->outside > LEAST_OUTSIDE) {
+        (void)printf("outside             %.3g %% of the bed lies outside the run's own, where no "
+                     "grain is: it counts as pores\n",
+                     100.0 * f->outside);
     }
     if (f->core_depth > 0.0) {
         (void)printf(
@@ -337,7 +353,10 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
         (void)printf("fields              %lld cells, which hold %s\n", (long long)f->fields.n_row,
                      cli_quantity(mass_of(&f->fields), "kg"));
     }
-    if (f->chains.n_column > 0) {
+    if (f->chains.n_column > 0 && f->chains.n_row == 0) {
+        (void)printf("force chains        none: no grain touches another or a wall, so there is no "
+                     "chains.svg; let the run settle (clast pack --resume)\n");
+    } else if (f->chains.n_row > 0) {
         int64_t n_link = 0;
         int64_t n_chain = 0;
         count_chains(&f->chains, &n_link, &n_chain);

@@ -18,7 +18,8 @@ typedef struct cli_porosity_findings {
     clast_porosity_bulk bulk;
     clast_bed_walls walls;
     clast_bed_beyond beyond;  ///< n -1: not looked for, or there are no side walls
-    bool is_window;           ///< the bed is a part of the packing: what is beyond does not count
+    bool is_part;             ///< the bed is a part of the packing: what is beyond does not count
+    double outside;           ///< share of a given bed outside the run's own; NAN: there is none
     clast_porosity_core core; ///< where asked for
     double mean_coordination; ///< NAN where contacts are not known
     bool knows_contacts;      ///< the run does, with their forces

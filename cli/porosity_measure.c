@@ -14,6 +14,7 @@ void cli_porosity_bed_free(cli_porosity_bed *s)
 {
     clast_assembly_free(&s->assembly);
     clast_mesh_free(&s->surface);
+    clast_mesh_free(&s->own_surface);
     clast_table_free(&s->contacts);
     clast_table_free(&s->velocities);
 }
@@ -33,10 +34,6 @@ static clast_status measure_forces(const cli_porosity_bed *s, const cli_porosity
         CLI_GUARD(clast_bed_fields(&s->bed, &s->assembly, has_forces ? &s->contacts : NULL,
                                    s->velocities.n_column > 0 ? &s->velocities : NULL,
                                    wanted->fields, &f->fields));
-    }
-    if (wanted->chains && !has_forces) {
-        return cli_fail(CLAST_E_USAGE, "force chains (--chains) are of runs of clast pack, which "
-                                       "know their contact forces; this bed knows none");
     }
     return wanted->chains ? clast_bed_chains(&s->bed, &s->assembly, &s->contacts, &f->chains)
                           : CLAST_OK;
@@ -98,26 +95,30 @@ static clast_status check_images(const cli_porosity_bed *s, const cli_porosity_w
     const clast_porosity_bulk none = {0};
     clast_bed_beyond covered;
     double period[3];
+    double own[3] = {0};
     if (!wanted->is_given || s->assembly.n_grain == 0 || !clast_bed_period(&s->bed, period)) {
         return CLAST_OK;
     }
+    if (s->has_own) {
+        (void)clast_bed_period(&s->own, own);
+    }
     for (int k = 0; k < 3; ++k) {
-        const double own = s->period[k];
-        if (own > 0.0 && period[k] > 0.0 && fabs(period[k] - own) > SAME * own) {
+        if (own[k] > 0.0 && period[k] > 0.0 && fabs(period[k] - own[k]) > SAME * own[k]) {
             return cli_fail(CLAST_E_GEOMETRY,
                             "--bed: a period of %s along %c, where the run repeats after %s; leave "
                             "out --bed, or measure a part of the packing (box, with --pores)",
                             cli_quantity(period[k], unit_of(s)), 'x' + k,
-                            cli_quantity(own, unit_of(s)));
+                            cli_quantity(own[k], unit_of(s)));
         }
     }
     const double sheared =
-        s->period[2] > 0.0 && period[2] > 0.0 ? (s->bed.shift - s->shift) / s->period[0] : 0.0;
+        own[2] > 0.0 && period[2] > 0.0 ? (s->bed.shift - s->own.shift) / own[0] : 0.0;
     if (fabs(sheared - round(sheared)) > SAME) {
         return cli_fail(CLAST_E_GEOMETRY,
                         "--bed: its images above lie %s along x, those of the run %s (the seventh "
                         "number); leave out --bed",
-                        cli_quantity(s->bed.shift, unit_of(s)), cli_quantity(s->shift, unit_of(s)));
+                        cli_quantity(s->bed.shift, unit_of(s)),
+                        cli_quantity(s->own.shift, unit_of(s)));
     }
     CLI_GUARD(
         clast_bed_beyond_measure(&s->bed, &s->assembly, &none, wanted->options.method, &covered));
@@ -159,20 +160,25 @@ static clast_status measure_bulk(const cli_porosity_bed *s, const clast_porosity
 static clast_status measure_slices(cli_porosity_bed *s, const cli_porosity_wanted *wanted,
                                    cli_porosity_findings *f)
 {
-    clast_porosity_options options = wanted->options;
+    const clast_porosity_options *options = &wanted->options;
     double period[3];
     const bool has_sides = wanted->is_given && !clast_bed_period(&s->bed, period);
     CLI_GUARD(check_images(s, wanted));
     clast_bed_wrap(&s->bed, &s->assembly);
-    CLI_GUARD(measure_bulk(s, &options, has_sides, f));
+    CLI_GUARD(measure_bulk(s, options, has_sides, f));
     const bool is_within = !has_sides || f->beyond.solid <= MOST_BEYOND * f->bulk.solid;
     if (!is_within && wanted->pores > 0) {
-        options.window = true;
-        f->is_window = true;
-        CLI_GUARD(measure_bulk(s, &options, has_sides, f));
+        s->bed.is_part = true;
+        f->is_part = true;
+        CLI_GUARD(measure_bulk(s, options, has_sides, f));
     }
     CLI_GUARD(check_room(s, &f->bulk));
-    return is_within || f->is_window ? CLAST_OK : refuse_sides(s, f);
+    if (!is_within && !f->is_part) {
+        return refuse_sides(s, f);
+    }
+    const double z[2] = {f->bulk.z_low, f->bulk.z_high};
+    f->outside = NAN;
+    return has_sides && s->has_own ? clast_bed_outside(&s->bed, &s->own, z, &f->outside) : CLAST_OK;
 }
 
 clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted *wanted,
@@ -185,6 +191,10 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
     f->cut = options->cut;
     f->core_depth = wanted->core;
     f->report = s->report;
+    if (wanted->chains && s->contacts.n_column == 0) {
+        return cli_fail(CLAST_E_USAGE, "force chains (--chains) are of runs of clast pack, which "
+                                       "know their contact forces; this bed knows none");
+    }
     CLI_GUARD(measure_slices(s, wanted, f));
     f->walls = clast_bed_side_walls(bed, assembly);
     if (wanted->core > 0.0) {
@@ -205,7 +215,7 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
         (void)clast_bed_period(bed, pores.period);
         CLI_GUARD(clast_pores_measure(assembly, bed, z, &pores, &f->pores));
     }
-    if (s->contacts.n_row > 0) {
+    if (s->contacts.n_row > 0 && !bed->is_part) {
         CLI_GUARD(clast_stress(&s->contacts, bed, z, &f->stress));
         CLI_GUARD(clast_stress_profile(&s->contacts, bed, &f->profile, &f->stress_profile));
     }

@@ -5,13 +5,12 @@
 /// A run that is measured.
 typedef struct cli_porosity_bed {
     clast_assembly assembly;
-    clast_bed bed;
-    clast_mesh surface;          ///< of the bed, or empty
-    clast_table contacts;        ///< forces, without columns where the run does not know them
-    clast_table velocities;      ///< likewise
-    clast_packing_report report; ///< of another program's file
-    bool has_bed;
-    double period[3], shift; ///< of the run's own bed in x, y and z, 0: none; it is `bed`, or given
+    clast_bed bed, own;              ///< what is measured: the run's own, or given
+    clast_mesh surface, own_surface; ///< of each, or empty
+    clast_table contacts;            ///< forces, without columns where the run does not know them
+    clast_table velocities;          ///< likewise
+    clast_packing_report report;     ///< of another program's file
+    bool has_own;                    ///< else `own` is nothing
 } cli_porosity_bed;
 
 /// What is asked for; lengths in the bed's unit, 0: not.

@@ -172,7 +172,9 @@ clast_status cli_agglomerate_files(const clast_agglomeration *r, const char *end
     char path[4096];
     for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
         (void)snprintf(path, sizeof path, "%s/%s.csv", folder, table[k].file);
-        CLI_GUARD(clast_table_write_csv(table[k].table, path));
+        if (table[k].table->n_column > 0) { // members are not known of parcels that come apart
+            CLI_GUARD(clast_table_write_csv(table[k].table, path));
+        }
     }
     return write_charts(r, end, folder);
 }

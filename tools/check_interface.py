@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NOUNS = {  # what a header is about beside its own noun, and no type is named after
     "field": "unit", "form": "reform", "grading": "phi", "harmonics": "synthesize", "machine": "memory parallel", "porosity": "fabric stress",
     "porosity_model": "mixture form_feature", "run_folder": "text sha256", "settling": "slip terminal", "state": "packing pvd",
-    "statistics": "shapiro quantile", "status": "error text version outputs",
+    "statistics": "shapiro quantile", "status": "error text version source outputs",
 }
 
 IN_PLACE = {"config", "particles"}

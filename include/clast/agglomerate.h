@@ -41,6 +41,7 @@ typedef enum {
     CLAST_OUT_OF_RANGE_EXTRAPOLATE ///< tells it alone
 } clast_out_of_range;
 
+/// How particles collide; start from clast_collide_config_default.
 typedef struct clast_collide_config {
     uint32_t kernel; ///< mask, clast_kernel_parse
     clast_medium medium;
@@ -59,6 +60,10 @@ typedef struct clast_collide_config {
     double count_unit; ///< monomers that 1 in clast_population.monomers stands for in the radius
                        ///< laws; 0: 1
 } clast_collide_config;
+
+/// Every member as `clast agglomerate` starts from it, of the members without a field: no kernel
+/// (set it with clast_kernel_parse), seed 0, count_unit 0 and keep_positions false.
+CLAST_API clast_status clast_collide_config_default(clast_collide_config *config);
 
 /// Cells of one step; borrowed.
 typedef struct clast_collide_cells {
@@ -183,6 +188,15 @@ typedef struct clast_spectrum {
     clast_range_report range;
 } clast_spectrum;
 
+/// The start in a table: columns size and number, or size and n, as in spectrum.csv of a box, of
+/// whose rows (column time_s) those of the last time are taken, which move to the front of the two
+/// columns. `start` borrows them.
+///
+/// @return CLAST_E_FORMAT without such columns or rows, for a time that is not finite, and for the
+/// spectrum of a cloud, whose n are no concentrations
+CLAST_API clast_status clast_spectrum_start_from_table(clast_table *table,
+                                                       clast_spectrum_start *start);
+
 /// Whether this library was built with the time integrator of the sectional solver (SUNDIALS).
 CLAST_API bool clast_spectrum_has_sectional(void);
 
@@ -215,7 +229,7 @@ typedef enum {
 
 typedef struct clast_agglomerate_config {
     clast_decompose_config decompose; ///< first: field tables are joined
-    clast_collide_config collide;     ///< its kernel and seed are set from these two structs
+    clast_collide_config collide;     ///< members without a field are set from these two structs
     char *kernel;                     ///< "brownian+settling"
     double duration;                  ///< of each snapshot [s]
     int32_t n_step;                   ///< steps of a snapshot
@@ -261,14 +275,15 @@ typedef struct clast_agglomeration {
     /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt, gel_fraction (share of the
     /// monomers in parcels that hold more than n^(-1/3) of them each, of n at the start), gelled
     /// (share of the runs where that was 1e-3 by then); n_parcel with weights; fixed_n_particle and
-    /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
+    /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known (weights: of 1).
     clast_table history;
     /// One row a particle that is left, last state of the first repeat: particle (its row in the
     /// input, from 0), coordinates, monomers, radius_m, diameter_m, mass_kg, cell, and of what was
     /// given weight, velocity_x_m/s ..., speed_rms_m/s: a cloud that can be gone on with.
     clast_table particles;
     /// One row a particle of the input, in its order: particle, aggregate (the number of the one
-    /// that is left and holds it).
+    /// that is left and holds it). Empty for parcels of unequal weights or with self_collisions,
+    /// which go into several.
     clast_table members;
     /// One row a time and class of sizes: time_s, size (its middle), size_low and size_high
     /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.

@@ -201,7 +201,10 @@ CLAST_API void clast_aggregate_destroy(clast_aggregate *aggregate); ///< NULL is
 ///
 /// @return CLAST_E_ARGUMENT for n below 0;
 ///         CLAST_E_STOPPED when the monitor asks: what is placed stays and growing may go on;
-///         CLAST_E_CONVERGE when max_tries axes in a row miss the aggregate
+///         CLAST_E_CONVERGE when max_tries axes in a row miss the aggregate: what is placed stays;
+///         CLAST_E_MEMORY: growing may go on where no particle was being placed or measured; where
+///         one was, and after every other failure in it, the aggregate is torn: all later calls but
+///         clast_aggregate_destroy return CLAST_E_USAGE, and clast_aggregate_assembly NULL
 CLAST_API clast_status clast_aggregate_grow(clast_aggregate *aggregate, int32_t n,
                                             const clast_monitor *monitor);
 
@@ -212,7 +215,7 @@ CLAST_API bool clast_aggregate_is_done(const clast_aggregate *aggregate);
 CLAST_API int32_t clast_aggregate_n_particle(const clast_aggregate *aggregate);
 
 /// Grains so far; grain 0 (and those after it, if the core is a group) is the core. Borrowed: valid
-/// until the next call that grows.
+/// until the next call that grows. NULL of a torn aggregate (clast_aggregate_grow).
 CLAST_API const clast_assembly *clast_aggregate_assembly(const clast_aggregate *aggregate);
 
 /// One row for the core and one for each particle. `history` must be empty.

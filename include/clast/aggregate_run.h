@@ -94,11 +94,13 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 CLAST_API const char *clast_aggregate_report_scope(const clast_aggregate_report *report,
                                                    size_t size, char *text);
 
-/// Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and
-/// manifest.json into it, and checkpoints on the way.
+/// Grows all repeats; with a folder writes state.h5, history.csv, radial.csv, sizes.csv,
+/// structure.csv, summary.json, aggregate.stl, charts, picture.png, report.html and manifest.json
+/// into it, and checkpoints on the way.
 ///
 /// Nothing is written before the configuration and all inputs have been found good. All files but
-/// manifest.json are the same bytes for equal runs.
+/// manifest.json and report.html, which have times and the command in them, are the same bytes for
+/// equal runs.
 ///
 /// Ranks grow the repeats one by one as they are free and write their states into the folder, which
 /// must lie on a disk that all of them see; the files are the same bytes for any number of ranks.

@@ -165,7 +165,7 @@ CLAST_API clast_status clast_assembly_overlaps(const clast_assembly *assembly,
 /// How an assembly becomes one body that can be printed.
 typedef struct clast_printable_config {
     double neck; ///< diameter of the ball that joins two grains at their contact [m]; 0: half the
-                 ///< thinnest grain, and no less than 3 spacings
+                 ///< thinnest grain, and no less than 3 spacings; the thickest grain at most
     double spacing; ///< of the sampling grid [m]; 0: a quarter of the neck, 1/300 of the extent, or
                     ///< what gives a million triangles (50 MB of STL), whichever is coarsest
     bool keep_voids; ///< leave closed voids open inside (they cannot be emptied after printing)
@@ -191,7 +191,8 @@ typedef struct clast_printable_report {
 /// What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and
 /// n_triangle_expected (50 bytes each in an STL) of the report, at no cost.
 ///
-/// @return CLAST_E_USAGE for an assembly that cannot be printed or a spacing beyond its extent;
+/// @return CLAST_E_USAGE for an assembly that cannot be printed, a spacing beyond its extent or a
+///         neck thicker than every grain (2 scale semi_axes[2]), which would be the body;
 ///         CLAST_E_LIMIT when the grid would pass 2^31 nodes
 CLAST_API clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
                                                      const clast_printable_config *config,

@@ -36,17 +36,19 @@ typedef struct clast_cloud_columns {
 CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
                                           double **column);
 
-/// Factor that takes the named column's numbers to SI by the unit that its name tells ("1/min" of
-/// G_1/min); 1 of a name that is empty or tells none of this dimension.
+/// Factor that takes the named column's numbers to SI by the unit that its name tells: in brackets
+/// anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); 1 of a name that is empty or tells
+/// none. A word behind "_" that may be an index is none of another dimension ("x_t").
 ///
-/// @return CLAST_E_CONFIG for a unit with a "/" that is none of this dimension (u_ft/s); else as
-/// clast_cloud_column
+/// @return CLAST_E_CONFIG for a unit that is none of this dimension, known or not (u_ft/s, "x
+/// (ft)", "d (g)", and phi, which has no factor); else as clast_cloud_column
 CLAST_API clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
                                                  const char *si_unit, double *factor);
 
-/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s") is
-/// converted. The default coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table
-/// has one such column; missing trailing ones end the list.
+/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s",
+/// radii and diameters also "d (phi)") is converted; see clast_cloud_column_factor. The default
+/// coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table has one such column;
+/// missing trailing ones end the list.
 ///
 /// @return CLAST_E_FORMAT names the missing column, and coordinates or velocities of which some
 /// tell a unit and some none (without `unit`); CLAST_E_CONFIG for radii and diameters at once, and

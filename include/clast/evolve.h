@@ -154,7 +154,9 @@ typedef struct clast_evolve_result {
     double mass_wall; ///< of them [kg]
     double gathered;  ///< share of the mass at the start that a floor or top which reflects gathers
                       ///< in a layer thinner than a step, where it is above step_error; else 0
-    double mass_balance;    ///< greatest |sum - start| / start of all rows
+    double gathered_top; ///< of it at the top
+    bool is_field_apart; ///< no body starts within the field's grid, or that is 1000 times as wide
+    double mass_balance; ///< greatest |sum - start| / start of all rows
     int64_t number_balance; ///< greatest |particles + events + deposit + out - start| of all rows
     int64_t n_cut, n_test;  ///< times that cells were cut, that the tests were made
     int64_t n_unresolved;   ///< of those cuts: neither cells nor pairs resolve the cloud, meetings
@@ -171,6 +173,7 @@ typedef struct clast_evolve_result {
     double wall_s;
     int32_t n_frame, n_written;   ///< files written
     double bed_width, bed_height; ///< of the column in deposit.h5 [m]; 0: not written
+    bool is_bed_empty;            ///< a bed was asked for, and nothing lies on the floor
     double bed_mass;              ///< of its bodies, each once, whatever it stands for [kg]
     double bed_least;             ///< radius of the sphere as large as the smallest of them [m]
     char *folder;                 ///< where the run lies; NULL: nowhere

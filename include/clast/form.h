@@ -175,9 +175,10 @@ typedef struct clast_form_set {
     clast_left_out *left_out; ///< [n_left_out] by row
 } clast_form_set;
 
-/// Whether all names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form's by
-/// their words: "flatness_mean,elongation_mean" or
-/// "mean L,mean I,mean S", not "sand,mu"; true of NULL and "", which name none.
+/// Whether the names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form's by
+/// their words, each that of its place: "flatness_mean,elongation_mean", "mean L,mean I,mean S" or
+/// "L_mm,I_mm,S_mm", not "sand,mu" or "length,width,time_s"; a letter counts at the beginning of a
+/// name, and as a capital at its end. True of NULL and "", which name none.
 CLAST_API bool clast_form_columns_named(const char *columns);
 
 /// Takes the forms out of a table.

@@ -215,6 +215,14 @@ typedef struct clast_grading_list {
 /// as the grading.
 CLAST_API clast_grading_list clast_grading_list_of(const clast_grading *grading);
 
+/// The same in words, in `size` bytes: "40 rows, counted by column 'number': 820 in all; not looked
+/// at: id"; "" for no list.
+///
+/// @param by_mass  the column weighs the rows ("masses:FILE")
+/// @return text
+CLAST_API const char *clast_grading_list_text(const clast_grading_list *list, bool by_mass,
+                                              size_t size, char *text);
+
 /// Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle). NULL of
 /// NULL rules.
 ///

@@ -140,6 +140,7 @@ typedef struct clast_grain_record {
     bool is_smoothed;  ///< of voxels without grey levels beside the surface (labels, or a mask
                        ///< that a threshold cut): steps between voxels are smoothed, not known
     bool in_metres;    ///< whatever units its columns say: a clump, or rows of several units
+    bool mixes_units;  ///< these are several, and unit_m is 1: no given unit is against them
     double unit_m;     ///< metres in one unit where the file itself says so, else 0
     int32_t degree;    ///< series: greatest degree used
     double power_last; ///< series: share of the form's power in the last two degrees used

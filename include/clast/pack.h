@@ -297,9 +297,10 @@ CLAST_API clast_status clast_pack_load(const clast_pack_config *config, clast_pa
 CLAST_API void clast_pack_unload(clast_pack_source *source); ///< may be called twice
 
 /// Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv,
-/// summary.json, manifest.json, charts and frames into it, and checkpoints on the way.
+/// summary.json, manifest.json, report.html, charts and frames into it, and checkpoints on the way.
 ///
-/// All files but manifest.json are the same bytes for equal runs, however often they were stopped.
+/// All files but manifest.json and report.html, which have times and the command in them, are the
+/// same bytes for equal runs, however often they were stopped.
 ///
 /// On several ranks one bed is divided among them and every rank calls this with the same
 /// configuration: the state and all files are the bytes of one rank. Rank 0 writes, and its result

@@ -22,6 +22,8 @@ typedef enum {
 /// The container that a porosity refers to; z points up.
 typedef struct clast_bed {
     clast_bed_kind kind;
+    bool is_part; ///< cylinder, box or surface in a greater packing: its sides are no walls, and
+                  ///< grains count by the share of 512 even points between them; else whole
     double centre[2];       ///< cylinder [m]
     double radius;          ///< cylinder [m]
     double low[2], high[2]; ///< box and periodic; bounds of a surface [m]
@@ -82,8 +84,6 @@ typedef struct clast_porosity_options {
     double cut;    ///< n_cut: the bed ends where the porosity rises through it; 1: with its solid
     double trim;   ///< h_pd: left out at both ends [m]
     bool at_slice; ///< the bed ends with the slice (reference program); else between slice centres
-    bool window;   ///< grains count by the share of 512 even points inside the bed's sides: the
-                   ///< porosity of a part of a packing; else whole. Periodic beds have no sides
 } clast_porosity_options;
 
 /// Exact shapes, 1 mm slices, cut at 0.5, nothing trimmed.      [Rettinger et al. sec. 4.4]
@@ -145,7 +145,8 @@ CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, co
 typedef struct clast_bed_walls {
     double size;   ///< diameter of equal volume, mean by volume: sum V d / sum V [m]
     double radius; ///< 2 area / circumference: radius of a cylinder, half the width of a square
-                   ///< box; INFINITY: periodic, no side walls; NAN: a surface [m]
+                   ///< box; INFINITY: periodic or a part of a packing, no side walls; NAN: a
+                   ///< surface [m]
     double ratio;  ///< radius / size
 } clast_bed_walls;
 
@@ -167,6 +168,7 @@ typedef struct clast_bed_beyond {
 /// and solid is what these cover (so that it counts twice), less what grains cover of each other
 /// without images [m^3]: 0 but for contacts where the grains repeat so, and large where the period
 /// is not theirs. Depth is 0, and the grains are taken as they lie: clast_bed_wrap comes later.
+/// Grains that take more than 1.01 times its room, up to the highest, are CLAST_E_GEOMETRY.
 ///
 /// @param bulk    not looked at for a periodic bed
 /// @param method  of the bulk; images are of true shapes
@@ -178,6 +180,17 @@ CLAST_API clast_status clast_bed_beyond_measure(const clast_bed *bed,
                                                 const clast_porosity_bulk *bulk,
                                                 clast_porosity_method method,
                                                 clast_bed_beyond *beyond);
+
+/// Share of a bed's room between two heights that lies outside another bed, by 20,000 even points:
+/// what a run's own bed does not hold has no grains, and would count as pores.
+///
+/// @param own    of a periodic one its first image; above and below a surface nothing is compared
+/// @param z      [2] lower and upper height [m]
+/// @param share  0 to 1; written only on success
+/// @return CLAST_E_USAGE for heights that do not rise, CLAST_E_MEMORY, or what a bed's surface is
+///         refused with
+CLAST_API clast_status clast_bed_outside(const clast_bed *bed, const clast_bed *own,
+                                         const double z[2], double *share);
 
 typedef struct clast_porosity_core {
     double depth;    ///< left out at the side walls: middle of the ramp [m]
@@ -197,8 +210,8 @@ typedef struct clast_porosity_core {
 /// @param options  of the bulk
 /// @param n_size   1/2 at least
 /// @param core     written only on success
-/// @return CLAST_E_USAGE for a bed that is periodic (no side walls) or a surface, CLAST_E_GEOMETRY
-///         when nothing is as far from the walls
+/// @return CLAST_E_USAGE for a bed that is periodic or a part of a packing (no side walls) or a
+///         surface, CLAST_E_GEOMETRY when nothing is as far from the walls
 CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembly,
                                                    const clast_bed *bed,
                                                    const clast_porosity_bulk *bulk, double n_size,
@@ -223,7 +236,8 @@ CLAST_API clast_status clast_bed_load(const char *text, clast_bed *bed, clast_me
 /// porosity 1 - V_i / V_cell. A periodic bed repeats in x and y; a cylinder is a prism of 96 sides
 /// and equal area. Only grains with their centre inside take part; their cells add up to the
 /// volume. A grain whose cell is smaller than itself (heavy overlap, or a cut-off grain at the
-/// border) has a negative value; one without a cell (it lies inside another) has none, NaN.
+/// border) has a negative value; one without a cell (it lies inside another) has none, NaN, and so
+/// has one whose cell the sides of a part of a packing cut.
 ///
 /// Columns grain, cell_m3, volume_m3, porosity, n_face, border (1: the cell reaches floor, top or a
 /// wall). Rows are the grains inside, in order.
@@ -245,7 +259,8 @@ typedef struct clast_radial_options {
 /// Porosity by distance from the axis of a cylindrical bed, between two heights.
 ///
 /// Each grain is stood for by `n_point` even points inside it (equal-volume spheres or true shapes
-/// by `method`); the error is that of random points, an upper bound for even ones. Columns r_low_m,
+/// by `method`); the error is that of random points, an upper bound for even ones. What pokes
+/// through the wall counts in the last ring; of a part of a packing it does not. Columns r_low_m,
 /// r_high_m, solid_m3, solid_error_m3, porosity, porosity_error.
 ///
 /// @param z      [2] lower and upper height [m]
@@ -340,7 +355,8 @@ CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const clast_
 ///
 /// @param contacts  of clast_dem_contact_table    @param z  heights [m]
 /// @return CLAST_E_FORMAT when the table is no such, CLAST_E_GEOMETRY where there is no volume,
-///         CLAST_E_USAGE for heights farther apart than the period in z
+///         CLAST_E_USAGE for heights farther apart than the period in z, and for a part of a
+///         packing: contacts are those of all grains (clast_bed_fields has stresses by place)
 CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed *bed,
                                     const double z[2], clast_table *table);
 

@@ -72,6 +72,10 @@ CLAST_API const char *clast_text_printable(const char *text, size_t size, char *
 /// Version text, "0.1.0".
 CLAST_API const char *clast_version(void);
 
+/// The source's commit, "8b3581966463", with "-dirty" where files had changed since; "unknown"
+/// where there was neither a repository nor an archive's commit.
+CLAST_API const char *clast_source(void);
+
 /// How long work talks to its caller: NULL, or callbacks. Called from the calling thread only.
 typedef struct clast_monitor {
     /// done of total units in the named phase; total <= 0 when unknown. May be NULL.

@@ -101,7 +101,8 @@ CLAST_API clast_status clast_workspace_test(clast_workspace *workspace, const cl
 /// Steps 1 to 3. *result is borrowed: it stands until the next call with this workspace and must
 /// not be freed. It is NULL after a failure, but for a call that is refused for its arguments:
 /// CLAST_E_ARGUMENT (NULL, strides not > 0 or such that points share coordinates) or a field out of
-/// its range (CLAST_E_CONFIG) change nothing.
+/// its range (CLAST_E_CONFIG) change nothing. After any other failure, CLAST_E_MEMORY too, the next
+/// call tests and cuts, whatever the policy.
 ///
 /// `before` are the tests last made (with CLAST_TESTS_NEVER none: n_test 0, score and ideal NAN),
 /// n_pass, pass and search belong to the last cut.

@@ -88,7 +88,9 @@ class Porosity:
     unit: str
     n_grain: int
     grain_size: float
-    wall_ratio: float  #: least width of the bed by the grains' size
+    wall_ratio: float  #: least width of the bed by the grains' size; inf: no side walls (periodic, or a part of a packing)
+    is_part: bool  #: the bed is a part of the packing: profile and bulk count what lies inside, contacts are all, there is no stress
+    bed_outside: float  #: share of a given bed outside the run's own, where no grain is
     n_beyond: int  #: grains that reach beyond the sides of a given bed, -1: the run's own, or periodic
     max_beyond: float
     core: float  #: porosity away from the side walls
@@ -126,8 +128,8 @@ class _Bed:
     def __init__(self, run: Path | Assembly, bed: str, columns: str, diameter: Quantity) -> None:
         self.bed, self.surface = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free")
         self.contacts, self.velocities = (Owner(c.clast_table(), "clast_table_free") for _ in range(2))
-        self.period, self.shift = (ctypes.c_double * 3)(), 0.0  #: of the run's own bed, 0: none
-        has_bed = False
+        self.own, self.own_surface = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free")
+        self.has_own = False
         if isinstance(run, Assembly):
             if columns or diameter:
                 raise refuse("columns, diameter: an assembly knows its grains")
@@ -139,18 +141,16 @@ class _Bed:
                 if columns or diameter:
                     raise refuse(f"columns, diameter: {os.fspath(run)} is a run, which knows its grains")
                 self.grains = Assembly.read(run)
-                has_bed = call("clast_bed_read")(state.value, ctypes.byref(self.bed), ctypes.byref(self.surface.struct)) == 0
-                if has_bed:
-                    call("clast_bed_period")(ctypes.byref(self.bed), self.period)
-                    self.shift = self.bed.shift
+                self.has_own = call("clast_bed_read")(state.value, ctypes.byref(self.own), ctypes.byref(self.own_surface.struct)) == 0
                 call("clast_state_read_table")(state.value, b"contacts", ctypes.byref(self.contacts.struct))  # other programs have none
                 call("clast_state_read_table")(state.value, b"velocities", ctypes.byref(self.velocities.struct))
             else:
                 self.grains = Assembly.read_spheres(run, columns=columns, diameter=diameter)
         if bed:
-            self.surface = Owner(c.clast_mesh(), "clast_mesh_free")
             check(call("clast_bed_load")(encoded("bed", bed), ctypes.byref(self.bed), ctypes.byref(self.surface.struct)))
-        elif not has_bed:
+        elif self.has_own:
+            self.bed = self.own
+        else:
             name = "the assembly" if isinstance(run, Assembly) else os.fspath(run)
             raise refuse(f"bed: {name} does not say what holds the grains; give bed, such as 'cylinder:52mm'")
 
@@ -188,7 +188,7 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
         options.layer = slice_height
     elif b.grains.unit != "m" and len(b.grains):
         options.layer = 0.2 * np.cbrt(0.75 / np.pi * b.grains.volume / len(b.grains))
-    profile, bulk, beyond = _slices(b, given, options)
+    profile, bulk, beyond, outside = _slices(b, given, options)
     away = c.clast_porosity_core(*[float("nan")] * 4)
     walls = call("clast_bed_side_walls")(held, placed)
     if given["core"] > 0:
@@ -196,11 +196,11 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     touching = _contacts(b, near)
     tables: dict[str, Any] = _more(b, given, options, profile, bulk)
     return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top, b.grains.unit, len(b.grains), walls.size, walls.ratio,
-                    beyond.n, beyond.depth, away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
+                    bool(b.bed.is_part), outside, beyond.n, beyond.depth, away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
 
 
-def _slices(b: _Bed, given: dict[str, Any], options: Any) -> tuple[Owner, Any, Any]:
-    """Profile, bulk and what reaches beyond the sides of a given bed, which with pores may be a part of the packing."""
+def _slices(b: _Bed, given: dict[str, Any], options: Any) -> tuple[Owner, Any, Any, float]:
+    """Profile, bulk, what reaches beyond the sides of a given bed, which with pores may be a part of the packing, and its share outside the run's."""
     placed, held, period = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), (ctypes.c_double * 3)()
     is_periodic = call("clast_bed_period")(held, period)
     if given["bed"] and is_periodic:
@@ -213,33 +213,40 @@ def _slices(b: _Bed, given: dict[str, Any], options: Any) -> tuple[Owner, Any, A
         if given["bed"] and not is_periodic:
             check(call("clast_bed_beyond_measure")(held, placed, ctypes.byref(bulk), options.method, ctypes.byref(beyond)))
         is_within = beyond.n < 0 or beyond.solid <= 0.01 * bulk.solid
-        if is_within or options.window or not given["pores"]:
+        if is_within or b.bed.is_part or not given["pores"]:
             break
-        options.window = True
+        b.bed.is_part = True
     if bulk.porosity < -1e-2:
         raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
                     f"{bulk.z_high:g}: it is smaller than what holds them (pores measures a part of a packing), or in another unit")
     told = f"{beyond.n} of {len(b.grains)} grains reach beyond its sides, by up to {beyond.depth:.4g}"
     share = f"{100 * beyond.solid / bulk.solid:.3g} % of the solid that counts as inside"
-    if not is_within and not options.window:
+    if not is_within and not b.bed.is_part:
         raise Error("CLAST_E_GEOMETRY", f"bed: {told}, with {share}; give what holds the grains (core leaves out what is near its walls), or pores "
                     "for the porosity of this part of the packing")
     if beyond.n > 0:
-        warn(f"bed: {told}" + (": a part of a packing; bulk and profile count what lies inside, contacts and stress do not" if options.window
+        warn(f"bed: {told}" + (": a part of a packing; bulk and profile count what lies inside, contacts do not; there is no stress" if b.bed.is_part
                                else f", with {share}"))
-    return profile, bulk, beyond
+    outside = ctypes.c_double(float("nan"))
+    if given["bed"] and b.has_own and not is_periodic:
+        check(call("clast_bed_outside")(held, ctypes.byref(b.own), (ctypes.c_double * 2)(bulk.z_low, bulk.z_high), ctypes.byref(outside)))
+    if outside.value > 1e-3:
+        warn(f"bed: {100 * outside.value:.3g} % of it lies outside the run's own, where no grain is: it counts as pores")
+    return profile, bulk, beyond, outside.value
 
 
 def _check_images(b: _Bed, options: Any, period: Any) -> None:
     """Refuses a periodic bed whose images lie on the grains, or not where the run's own do."""
-    covered, none, same = c.clast_bed_beyond(), c.clast_porosity_bulk(), 1e-3
-    for axis, own, given in zip("xyz", b.period, period):
+    covered, none, same, own_period = c.clast_bed_beyond(), c.clast_porosity_bulk(), 1e-3, (ctypes.c_double * 3)()
+    if b.has_own:
+        call("clast_bed_period")(ctypes.byref(b.own), own_period)
+    for axis, own, given in zip("xyz", own_period, period):
         if own > 0 and given > 0 and abs(given - own) > same * own:
             raise Error("CLAST_E_GEOMETRY", f"bed: a period of {given:.4g} along {axis}, where the run repeats after {own:.4g}; leave out bed, or "
                         "measure a part of the packing (box, with pores)")
-    sheared = (b.bed.shift - b.shift) / b.period[0] if b.period[2] > 0 and period[2] > 0 else 0.0
+    sheared = (b.bed.shift - b.own.shift) / own_period[0] if own_period[2] > 0 and period[2] > 0 else 0.0
     if abs(sheared - round(sheared)) > same:
-        raise Error("CLAST_E_GEOMETRY", f"bed: its images above lie {b.bed.shift:.4g} along x, those of the run {b.shift:.4g} (the seventh number); "
+        raise Error("CLAST_E_GEOMETRY", f"bed: its images above lie {b.bed.shift:.4g} along x, those of the run {b.own.shift:.4g} (the seventh number); "
                     "leave out bed")
     placed = ctypes.byref(b.grains._owner.struct)
     check(call("clast_bed_beyond_measure")(ctypes.byref(b.bed), placed, ctypes.byref(none), options.method, ctypes.byref(covered)))
@@ -296,7 +303,7 @@ def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: An
         if not b.contacts.struct.n_column:
             raise refuse("chains: force chains are of runs of clast pack, which know their contact forces; this bed knows none")
         check(call("clast_bed_chains")(held, placed, forces, to["chains"]))
-    if b.contacts.struct.n_row:
+    if b.contacts.struct.n_row and not b.bed.is_part:
         check(call("clast_stress")(forces, held, z, to["stress"]))
         check(call("clast_stress_profile")(forces, held, ctypes.byref(profile.struct), to["stress_profile"]))
     return {**{name: table_of(owner) for name, owner in made.items()}, "pores": table_of(pores, pores.struct.sizes)}

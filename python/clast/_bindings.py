@@ -705,7 +705,7 @@ class clast_workspace_step(Structure):
 
 
 class clast_collide_config(Structure):
-    """clast_collide_config."""
+    """How particles collide; start from clast_collide_config_default."""
 
 
 class clast_spectrum(Structure):
@@ -1594,6 +1594,7 @@ clast_grain_record._fields_ = [
     ('n_voxel', c_int64),
     ('is_smoothed', c_bool),
     ('in_metres', c_bool),
+    ('mixes_units', c_bool),
     ('unit_m', c_double),
     ('degree', c_int32),
     ('power_last', c_double),
@@ -2025,6 +2026,7 @@ clast_pair_integral._fields_ = [
 ]
 clast_bed._fields_ = [
     ('kind', c_int),
+    ('is_part', c_bool),
     ('centre', (c_double * 2)),
     ('radius', c_double),
     ('low', (c_double * 2)),
@@ -2040,7 +2042,6 @@ clast_porosity_options._fields_ = [
     ('cut', c_double),
     ('trim', c_double),
     ('at_slice', c_bool),
-    ('window', c_bool),
 ]
 clast_porosity_bulk._fields_ = [
     ('porosity', c_double),
@@ -2761,6 +2762,8 @@ clast_evolve_result._fields_ = [
     ('n_wall', c_int64),
     ('mass_wall', c_double),
     ('gathered', c_double),
+    ('gathered_top', c_double),
+    ('is_field_apart', c_bool),
     ('mass_balance', c_double),
     ('number_balance', c_int64),
     ('n_cut', c_int64),
@@ -2783,6 +2786,7 @@ clast_evolve_result._fields_ = [
     ('n_written', c_int32),
     ('bed_width', c_double),
     ('bed_height', c_double),
+    ('is_bed_empty', c_bool),
     ('bed_mass', c_double),
     ('bed_least', c_double),
     ('folder', c_char_p),
@@ -3001,7 +3005,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_grading_list': (32, {'n_row': (0, 8), 'total': (8, 8), 'column': (16, 8), 'ignored': (24, 8)}),
     'clast_axes': (96, {'lis': (0, 24), 'direction': (24, 72)}),
     'clast_grain': (736, {'volume': (0, 8), 'area': (8, 8), 'centroid': (16, 24), 'inertia': (40, 72), 'moments': (112, 24), 'axes': (136, 480), 'hull_volume': (616, 8), 'hull_area': (624, 8), 'longest': (632, 8), 'shortest': (640, 8), 'sphericity': (648, 8), 'convexity': (656, 8), 'roundness': (664, 8), 'roundness_deviation': (672, 8), 'n_outline': (680, 4), 'normal_roundness': (688, 8), 'angularity': (696, 8), 'projected_mean': (704, 8), 'projected_least': (712, 8), 'projected_greatest': (720, 8), 'hull_volume_added': (728, 8)}),
-    'clast_grain_record': (800, {'name': (0, 8), 'kind': (8, 4), 'has_surface': (12, 1), 'has_size': (13, 1), 'n_voxel': (16, 8), 'is_smoothed': (24, 1), 'in_metres': (25, 1), 'unit_m': (32, 8), 'degree': (40, 4), 'power_last': (48, 8), 'power_cut': (56, 8), 'grain': (64, 736)}),
+    'clast_grain_record': (800, {'name': (0, 8), 'kind': (8, 4), 'has_surface': (12, 1), 'has_size': (13, 1), 'n_voxel': (16, 8), 'is_smoothed': (24, 1), 'in_metres': (25, 1), 'mixes_units': (26, 1), 'unit_m': (32, 8), 'degree': (40, 4), 'power_last': (48, 8), 'power_cut': (56, 8), 'grain': (64, 736)}),
     'clast_grain_fault': (16, {'status': (0, 4), 'text': (8, 8)}),
     'clast_grains': (48, {'n': (0, 8), 'record': (8, 8), 'n_fault': (16, 8), 'fault': (24, 8), 'n_note': (32, 8), 'note': (40, 8)}),
     'clast_harmonics': (16, {'degree': (0, 4), 'coefficient': (8, 8)}),
@@ -3038,8 +3042,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
     'clast_estimate': (32, {'value': (0, 8), 'low': (8, 8), 'high': (16, 8), 'resolved': (24, 1)}),
     'clast_pair_integral': (72, {'estimate': (0, 32), 'scale': (32, 8), 'window': (40, 8), 'n_pair': (48, 8), 'n_needed': (56, 8), 'fit_p': (64, 8)}),
-    'clast_bed': (96, {'kind': (0, 4), 'centre': (8, 16), 'radius': (24, 8), 'low': (32, 16), 'high': (48, 16), 'floor': (64, 8), 'ceiling': (72, 8), 'shift': (80, 8), 'surface': (88, 8)}),
-    'clast_porosity_options': (40, {'method': (0, 4), 'layer': (8, 8), 'cut': (16, 8), 'trim': (24, 8), 'at_slice': (32, 1), 'window': (33, 1)}),
+    'clast_bed': (96, {'kind': (0, 4), 'is_part': (4, 1), 'centre': (8, 16), 'radius': (24, 8), 'low': (32, 16), 'high': (48, 16), 'floor': (64, 8), 'ceiling': (72, 8), 'shift': (80, 8), 'surface': (88, 8)}),
+    'clast_porosity_options': (40, {'method': (0, 4), 'layer': (8, 8), 'cut': (16, 8), 'trim': (24, 8), 'at_slice': (32, 1)}),
     'clast_porosity_bulk': (40, {'porosity': (0, 8), 'z_low': (8, 8), 'z_high': (16, 8), 'solid': (24, 8), 'top': (32, 8)}),
     'clast_bed_walls': (24, {'size': (0, 8), 'radius': (8, 8), 'ratio': (16, 8)}),
     'clast_bed_beyond': (24, {'n': (0, 4), 'depth': (8, 8), 'solid': (16, 8)}),
@@ -3108,7 +3112,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (552, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'accept_faults': (280, 1), 'curve': (288, 8), 'particles': (296, 4), 'weight': (304, 8), 'release': (312, 8), 'points': (320, 8), 'columns': (328, 16), 'diameter_column': (344, 8), 'domain': (352, 8), 'floor': (360, 4), 'sides': (364, 4), 'open_top': (368, 1), 'wind': (376, 8), 'field': (384, 8), 'field_columns': (392, 8), 'wind_shear': (400, 8), 'eddy_diffusivity': (408, 8), 'brownian': (416, 1), 'fall': (420, 4), 'structure': (424, 1), 'collision_radius': (428, 4), 'meeting': (432, 4), 'walk_step': (440, 8), 'max_tries': (448, 4), 'even': (452, 4), 'change_level': (456, 8), 'duration': (464, 8), 'rows': (472, 4), 'step_error': (480, 8), 'time_step': (488, 8), 'seed': (496, 8), 'keep': (504, 4), 'bed_width': (512, 8), 'frames': (520, 4), 'checkpoint_time': (528, 8), 'resume': (536, 8), 'force': (544, 1)}),
-    'clast_evolve_result': (336, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'mass_balance': (112, 8), 'number_balance': (120, 8), 'n_cut': (128, 8), 'n_test': (136, 8), 'n_unresolved': (144, 8), 'grains_most': (152, 8), 'deposit_diameter': (160, 8), 'deposit_porosity': (168, 8), 'deposit_speed': (176, 8), 'deposit_grains': (184, 8), 'volume_fraction': (192, 8), 'fall_reynolds': (200, 8), 'fall_reynolds_limit': (208, 8), 'fractal_dimension': (216, 8), 'fractal_error': (224, 8), 'range': (232, 40), 'hash': (272, 8), 'wall_s': (280, 8), 'n_frame': (288, 4), 'n_written': (292, 4), 'bed_width': (296, 8), 'bed_height': (304, 8), 'bed_mass': (312, 8), 'bed_least': (320, 8), 'folder': (328, 8)}),
+    'clast_evolve_result': (360, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'gathered_top': (112, 8), 'is_field_apart': (120, 1), 'mass_balance': (128, 8), 'number_balance': (136, 8), 'n_cut': (144, 8), 'n_test': (152, 8), 'n_unresolved': (160, 8), 'grains_most': (168, 8), 'deposit_diameter': (176, 8), 'deposit_porosity': (184, 8), 'deposit_speed': (192, 8), 'deposit_grains': (200, 8), 'volume_fraction': (208, 8), 'fall_reynolds': (216, 8), 'fall_reynolds_limit': (224, 8), 'fractal_dimension': (232, 8), 'fractal_error': (240, 8), 'range': (248, 40), 'hash': (288, 8), 'wall_s': (296, 8), 'n_frame': (304, 4), 'n_written': (308, 4), 'bed_width': (312, 8), 'bed_height': (320, 8), 'is_bed_empty': (328, 1), 'bed_mass': (336, 8), 'bed_least': (344, 8), 'folder': (352, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
     'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
@@ -3548,9 +3552,11 @@ VALUES: dict[str, int] = {
 
 # name: (result, arguments, what it does)
 PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
+    'clast_collide_config_default': (c_int, [POINTER(clast_collide_config)], 'Every member as `clast agglomerate` starts from it, of the members without a field: no kernel (set it with clast_kernel_parse), seed 0, count_unit 0 and keep_positions false.'),
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
     'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
     'clast_spectrum_idle': (POINTER(clast_idle), [POINTER(clast_spectrum_config), POINTER(clast_idle)], 'The fields, and `leap`, `block` and `seed`, that a box by the others does not look at (clast_fields_idle).'),
+    'clast_spectrum_start_from_table': (c_int, [POINTER(clast_table), POINTER(clast_spectrum_start)], 'The start in a table: columns size and number, or size and n, as in spectrum.csv of a box, of whose rows (column time_s) those of the last time are taken, which move to the front of the two columns.'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
     'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_start), POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_monitor), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
@@ -3580,7 +3586,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_report_free': (None, [POINTER(clast_aggregate_report)], 'Frees what clast_aggregate_run filled; may be called twice.'),
     'clast_aggregate_report_json': (c_int, [POINTER(clast_aggregate_report), c_bool, POINTER(c_char_p)], 'The report as one JSON object: means over repeats under the names of DESIGN section 7, each repeat under `repeats`, intervals under `interval` when there are several, the printable body under `printable` when one was made.'),
     'clast_aggregate_report_scope': (c_char_p, [POINTER(clast_aggregate_report), c_size_t, c_char_p], 'What the numbers are of, where that is not all grains in their true surfaces, in `size` bytes: "largest of 10 clusters, 24 of 40 grains (...)", or that porosity is by the sum of the grains\' volumes, by how much these overlap, and which bodies max_overlap is of; else "" .'),
-    'clast_aggregate_run': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and manifest.json into it, and checkpoints on the way.'),
+    'clast_aggregate_run': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Grows all repeats; with a folder writes state.h5, history.csv, radial.csv, sizes.csv, structure.csv, summary.json, aggregate.stl, charts, picture.png, report.html and manifest.json into it, and checkpoints on the way.'),
     'clast_aggregate_make_printable': (c_int, [c_char_p, POINTER(clast_printable_config), POINTER(clast_monitor), POINTER(clast_printable_report)], 'Makes the printable body of a whole run from its state.h5, anew or for the first time: printable.3mf, printable.stl (mm) and printable.json, which manifest.json then lists.'),
     'clast_aggregate_resume': (c_int, [c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Goes on from the newest checkpoints of a folder, with any number of ranks; ends in the same bytes as an uninterrupted run.'),
     'clast_aggregate_fit_observable_name': (c_char_p, [c_int32], '"size", "density", "settling_velocity" and their SI units.'),
@@ -3651,8 +3657,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cloud_alloc': (c_int, [c_int64, c_int32, POINTER(clast_cloud)], 'Room for n points, zeroed; `cloud` must be empty.'),
     'clast_cloud_free': (None, [POINTER(clast_cloud)], 'Frees the arrays; may be called twice.'),
     'clast_cloud_column': (c_int, [POINTER(clast_table), c_char_p, POINTER(POINTER(c_double))], 'Numbers of the named column; *column is NULL for a name that is empty or NULL.'),
-    'clast_cloud_column_factor': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Factor that takes the named column\'s numbers to SI by the unit that its name tells ("1/min" of G_1/min); 1 of a name that is empty or tells none of this dimension.'),
-    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s") is converted.'),
+    'clast_cloud_column_factor': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Factor that takes the named column\'s numbers to SI by the unit that its name tells: in brackets anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); 1 of a name that is empty or tells none.'),
+    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s", radii and diameters also "d (phi)") is converted; see clast_cloud_column_factor.'),
     'clast_cloud_repeated': (c_int, [POINTER(clast_cloud), POINTER(c_int64)], 'Points that have the very coordinates of an earlier one; O(n).'),
     'clast_cloud_repeated_ranks': (c_int, [POINTER(clast_cloud), POINTER(clast_comm), POINTER(c_int64)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
@@ -3783,7 +3789,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_form_law_draw': (None, [POINTER(clast_form_law), c_uint64, c_uint64, POINTER(c_double), POINTER(c_double)], 'Flatness S/I and elongation I/L of grain `index`: a function of (law, seed, index) alone.'),
     'clast_form_law_cut': (clast_form_law_moments, [POINTER(clast_form_law)], 'Moments of the law as it is drawn from, cut to its range.'),
     'clast_row_fault_text': (c_char_p, [c_int], '"missing", "not a number", .'),
-    'clast_form_columns_named': (c_bool, [c_char_p], 'Whether all names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form\'s by their words: "flatness_mean,elongation_mean" or "mean L,mean I,mean S", not "sand,mu"; true of NULL and "", which name none.'),
+    'clast_form_columns_named': (c_bool, [c_char_p], 'Whether the names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form\'s by their words, each that of its place: "flatness_mean,elongation_mean", "mean L,mean I,mean S" or "L_mm,I_mm,S_mm", not "sand,mu" or "length,width,time_s"; a letter counts at the beginning of a name, and as a capital at its end.'),
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
     'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
@@ -3821,6 +3827,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_curve_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_curve)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grading_load': (c_int, [c_char_p, c_int, c_int, POINTER(clast_curve), POINTER(c_void_p)], 'Sizes by one text, as in the option `curve`: a published case (U1 .'),
     'clast_grading_list_of': (clast_grading_list, [c_void_p], 'The list that clast_grading_load read, by "list:FILE" or "masses:FILE"; its texts live as long as the grading.'),
+    'clast_grading_list_text': (c_char_p, [POINTER(clast_grading_list), c_bool, c_size_t, c_char_p], 'The same in words, in `size` bytes: "40 rows, counted by column \'number\': 820 in all; not looked at: id"; "" for no list.'),
     'clast_grading_idle': (POINTER(clast_idle), [POINTER(clast_curve), c_int, POINTER(clast_idle)], 'Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle).'),
     'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or blanks; '#' starts a comment; a first line that is no number names the columns; a word may stand in quotes)."),
     'clast_sizes_parse': (c_int, [c_char_p, c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], 'The same from memory; `name` stands for the path in messages.'),
@@ -3925,7 +3932,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_achieved': (c_int, [c_void_p, POINTER(clast_table)], 'Sieve curve achieved beside the wanted one (columns as clast_grading_compare).'),
     'clast_pack_load': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_source)], "@return the reader's status, with the option and the file's name before its message."),
     'clast_pack_unload': (None, [POINTER(clast_pack_source)], 'may be called twice.'),
-    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, charts and frames into it, and checkpoints on the way.'),
+    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, report.html, charts and frames into it, and checkpoints on the way.'),
     'clast_pack_resume': (c_int, [c_char_p, c_int64, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps had ended early.'),
     'clast_pack_result_json': (c_int, [POINTER(clast_pack_result), c_bool, POINTER(c_char_p)], 'The result as one JSON object, names of DESIGN section 7.'),
     'clast_pairs_count': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_pairs_config), POINTER(clast_pairs)], 'Counts the pairs of a cloud by their distance in shells of equal ratio, compares them with those of a uniform cloud in the same domain, and estimates the integral of the squared density.'),
@@ -3948,6 +3955,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
     'clast_bed_side_walls': (clast_bed_walls, [POINTER(clast_bed), POINTER(clast_assembly)], 'NAN throughout for beds or assemblies that do not hold together.'),
     'clast_bed_beyond_measure': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_porosity_bulk), c_int, POINTER(clast_bed_beyond)], 'Between the heights of the bulk.'),
+    'clast_bed_outside': (c_int, [POINTER(clast_bed), POINTER(clast_bed), POINTER(c_double), POINTER(c_double)], "Share of a bed's room between two heights that lies outside another bed, by 20,000 even points: what a run's own bed does not hold has no grains, and would count as pores."),
     'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_options), POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
     'clast_bed_read': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], "The bed that a run's state file keeps."),
     'clast_bed_load': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], '"mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse takes.'),
@@ -4080,6 +4088,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_error_detail': (c_char_p, [], "The calling thread's last error in one line: what, where, how many, what to do."),
     'clast_text_printable': (c_char_p, [c_char_p, c_size_t, c_char_p], 'A text as a terminal, a table or a picture may show it: control characters and bytes that are not UTF-8 become //xNN.'),
     'clast_version': (c_char_p, [], 'Version text, "0.1.0" .'),
+    'clast_source': (c_char_p, [], 'The source\'s commit, "8b3581966463", with "-dirty" where files had changed since; "unknown" where there was neither a repository nor an archive\'s commit.'),
     'clast_outputs_abandon': (None, [], 'Removes the temporary files of all outputs under way, of every thread.'),
     'clast_study_plan': (c_int, [POINTER(clast_study_config), POINTER(clast_table)], 'The runs as a table: number column `run` (from 1), a text column for each varied key, number column `seed`.'),
     'clast_study_run': (c_int, [POINTER(clast_study_config), c_char_p, POINTER(clast_study_worker), POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_study_report)], 'Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.'),
@@ -4425,7 +4434,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'resume': ('text', '', '-', None, None, None, 'go on with the run in this folder'),
     },
     'porosity': {
-        'bed': ('text', '', '-', None, None, None, "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT; none: the run's"),
+        'bed': ('text', '', '-', None, None, None, "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT (m where the grains' lengths have no unit); none: the run's"),
         'floor': ('text', '0', '-', None, None, None, 'height of the bottom, with --bed (as 5mm)'),
         'method': ('choice', 'exact', '-', None, None, 'exact|spheres', 'what a grain fills: its true shape, or the sphere of its volume (published)'),
         'layer': ('text', '0', '-', None, None, None, 'height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too'),

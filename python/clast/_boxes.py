@@ -9,7 +9,7 @@ from typing import Any, Iterable
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Owner, Progress, call, check, html_last, nearest, numbers, refuse, refuse_idle, warn
+from ._core import Config, Error, Monitor, Owner, Progress, call, check, html_last, nearest, refuse, refuse_idle, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
@@ -71,7 +71,8 @@ def box_model(*, sizes: Any = None, seed: int | None = None, progress: Progress 
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3; shares, where concentration is given): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    number (1/m3; shares, where concentration is given), or the spectrum of a box, whose last time is taken: a file, a structured array, a
+    DataFrame or a dictionary; it is initial="table".
     Ctrl-C ends it between steps.
     """
     own = set(_FIELDS["clast_spectrum_fields"])
@@ -84,11 +85,8 @@ def box_model(*, sizes: Any = None, seed: int | None = None, progress: Progress 
         raise refuse("sizes: and initial='table' go together")
     start, held = c.clast_spectrum_start(), None
     if sizes is not None:
-        held = table_of(given_table("sizes", sizes))
-        if not {"size", "number"} <= set(held.columns):
-            raise refuse("sizes: needs the columns size and number")
-        columns = [numbers(f"sizes: {name}", held[name], None) for name in ("size", "number")]
-        start.n, (start.size, start.number) = len(held), (ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double)) for x in columns)
+        held = given_table("sizes", sizes)
+        check(call("clast_spectrum_start_from_table")(ctypes.byref(held.struct), ctypes.byref(start)))
     result, monitor = Owner(c.clast_spectrum(), "clast_spectrum_free"), Monitor(progress)
     parts = [{name: value for name, value in keys.items() if (name in own) == is_own} for is_own in (True, False)]
     with Config(c.clast_spectrum_config(), "clast_spectrum_fields", parts[0]) as box, \

@@ -301,7 +301,7 @@ class Agglomeration:
 
     history: Table
     particles: Table  #: those that are left
-    members: Table  #: which of them each particle of the start is part of
+    members: Table | None  #: which of them each particle of the start is part of; None of parcels of unequal weights, which go into several
     spectrum: Table
     n_rebuilt: int
     n_cell: int
@@ -356,8 +356,8 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     if n_repeated > 0:
         warn(f"{n_repeated} particle{'s' if n_repeated > 1 else ''}{' of a snapshot' if len(made) > 1 else ''} repeat{'' if n_repeated > 1 else 's'} "
              "the place of an earlier one; each such pair counts as two particles that meet")
-    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.members), table_of(owner, r.spectrum), r.n_rebuilt,
-                         r.n_cell)
+    members = table_of(owner, r.members) if r.members.n_column > 0 else None
+    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), members, table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
 def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None, is_test: bool) -> Decomposition:

@@ -422,7 +422,8 @@ def box_model(
     """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
 
     Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
-    number (1/m3; shares, where concentration is given): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    number (1/m3; shares, where concentration is given), or the spectrum of a box, whose last time is taken: a file, a structured array, a
+    DataFrame or a dictionary; it is initial="table".
     Ctrl-C ends it between steps.
 
     Keywords (None: the default; a number is SI, a text has its unit):
@@ -1243,7 +1244,7 @@ def porosity(
     `bed` is what holds the grains ("cylinder:52mm"); a run of `clast pack` knows its own.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT; none: the run's (no default)
+        bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT (m where the grains' lengths have no unit); none: the run's (no default)
         floor: height of the bottom, with --bed (as 5mm) (default 0)
         method: what a grain fills: its true shape, or the sphere of its volume (published) (exact, spheres; default exact)
         layer: height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too (default 0)

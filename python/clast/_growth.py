@@ -129,9 +129,17 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
         if result.fall_reynolds > result.fall_reynolds_limit:
             warn(f"Reynolds number of the fastest fall is {result.fall_reynolds:.2g}, beyond the {result.fall_reynolds_limit:g} of the drag law"
                  + ("; take fall='form' or 'sphere'" if result.fall_reynolds_limit < 1 else ""))
-        if values["gathered"] > 0:
-            warn(f"{100 * values['gathered']:.3g} % of the mass comes to a floor or top that reflects and gathers there in a layer (diffusivity over "
-                 "speed) thinner than a step moves it: what meets there depends on the steps; take floor='deposit' or shorter steps")
+        if result.gathered > 0:
+            at_floor, at_top = result.gathered_top < result.gathered, result.gathered_top > 0
+            walls = [("floor", "floor='deposit'")] * at_floor + [("top", "open_top=True (a box; else sides='deposit')")] * at_top
+            warn(f"{100 * result.gathered:.3g} % of the mass comes to a {' or '.join(w for w, _ in walls)} that reflects and gathers there in a layer "
+                 "(diffusivity over speed) thinner than a step moves it: what meets there depends on the steps; take "
+                 f"{' and '.join(cure for _, cure in walls)} or shorter steps")
+        if result.is_field_apart:
+            warn("no body starts within the grid of field, or it is 1000 times as wide as the domain; are both in the same unit? (beyond the grid "
+                 "the velocity is that at its edge)")
+        if result.is_bed_empty:
+            note("bed_width: nothing lies on the floor; there is no deposit.h5")
         warn_of_dense(result.volume_fraction)
         return Result(values, _folder(output, resumed))
     finally:

@@ -354,6 +354,7 @@ static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *s
     prepare_search(a, large, &group, &search);
     CLX_TRY(throw_cluster(a, &search, &landing));
     const double overlap = clx_search_overlap(&search, &landing);
+    a->is_torn = true;
     CLX_TRY(join(a, large, small, &group, &landing));
     ++a->n_placed;
     free_cluster(small);
@@ -362,6 +363,7 @@ static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *s
         large = small; // the last cluster took the freed place
     }
     CLX_TRY(add_row(a, large, &search, &landing, overlap));
+    a->is_torn = false;
 done:
     clx_free(group.part);
     return status;

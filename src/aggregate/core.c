@@ -87,7 +87,11 @@ static clast_status place_core(clast_aggregate *a)
     const double own = clx_kit_size(&a->kit.group[0], c->core_meaning);
     const double scale = c->core_size > 0.0 ? c->core_size / own : 1.0;
     CLX_CHECK(c->core_size > 0.0 || strcmp(a->input->core->unit, "m") == 0, CLAST_E_CONFIG,
-              "core_size: the core's file has no unit; give core_size, or unit");
+              "core_size: %s",
+              a->input->core->shape[0].kind == CLAST_SHAPE_MESH ||
+                      a->input->core->shape[0].kind == CLAST_SHAPE_CLUMP
+                  ? "the core's file has no unit; give core_size, or unit"
+                  : "sphere and ellipsoid have no size of their own; give core_size");
     CLX_TRY(c->contact == CLAST_CONTACT_MARCH ? core_by_spheres(a) : core_by_mass(a, scale));
     a->n_core = a->assembly.n_grain;
     CLX_TRY(clx_aggregate_add_row(a, &row));

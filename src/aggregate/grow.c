@@ -108,6 +108,8 @@ clast_status clx_aggregate_begin(const clast_aggregate_params *params,
     clast_status status = CLAST_OK;
     const clx_aggregate_given given = {
         .core = input->core != NULL, .n_coat = input->n_coat, .sizes = input->sizes != NULL};
+    CLX_CHECK(input->n_coat <= 0 || input->coat != NULL, CLAST_E_ARGUMENT,
+              "%d coating shapes, and input->coat is NULL", input->n_coat);
     CLX_CHECK(repeat >= 0, CLAST_E_ARGUMENT, "repeat %d of an aggregate; the first is 0", repeat);
     CLX_TRY(clx_aggregate_params_check(params, &given));
     a->mode = MODE[params->mode];
@@ -141,6 +143,14 @@ clast_status clast_aggregate_create(const clast_aggregate_params *params,
 done:
     clast_aggregate_destroy(a);
     return status;
+}
+
+static clast_status check_whole(const clast_aggregate *a)
+{
+    return a->is_torn ? clx_fail(CLAST_E_USAGE,
+                                 "the aggregate was left in the middle of a step by a call that "
+                                 "failed: destroy it, and create or restore it anew")
+                      : CLAST_OK;
 }
 
 /// Last row's value in an envelope column, NAN when that row was not measured.
@@ -192,6 +202,7 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
     if (n < 0) {
         return clx_fail(CLAST_E_ARGUMENT, "%s: %d more particles", __func__, n);
     }
+    CLX_GUARD(check_whole(a));
     const double begun = clx_clock();
     for (int32_t i = 0; i < n && a->stop == CLAST_STOP_NOT; ++i) {
         CLX_CHECK(!clx_monitor_stops(monitor), CLAST_E_STOPPED, "stopped after %d of %d steps",
@@ -200,7 +211,7 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
         clx_monitor_report(monitor, "grow", a->n_placed, a->n_step);
     }
 done:
-    settled = settle(a);
+    settled = a->is_torn ? CLAST_OK : settle(a);
     a->wall_s += clx_clock() - begun;
     return status != CLAST_OK ? status : settled;
 }
@@ -223,7 +234,7 @@ int32_t clast_aggregate_n_particle(const clast_aggregate *a)
 
 const clast_assembly *clast_aggregate_assembly(const clast_aggregate *a)
 {
-    if (a == NULL) {
+    if (a == NULL || a->is_torn) {
         return NULL;
     }
     return &a->assembly;
@@ -232,6 +243,7 @@ const clast_assembly *clast_aggregate_assembly(const clast_aggregate *a)
 clast_status clast_aggregate_history(const clast_aggregate *a, clast_table *history)
 {
     CLX_ARGUMENTS(a, history);
+    CLX_GUARD(check_whole(a));
     return clx_history_table(&a->history, history);
 }
 
@@ -263,6 +275,7 @@ clast_status clast_aggregate_measure(const clast_aggregate *a, clast_aggregate_r
                                 .contact_s = a->contact_s,
                                 .envelope_s = a->envelope_s,
                                 .wall_s = a->wall_s};
+    CLX_TRY(check_whole(a));
     faults(a, &r);
     CLX_TRY(clx_aggregate_measure_end(a, &r));
     *result = r;
@@ -273,5 +286,6 @@ done:
 clast_status clast_aggregate_members(const clast_aggregate *a, clast_table *members)
 {
     CLX_ARGUMENTS(a, members);
+    CLX_GUARD(check_whole(a));
     return clx_clusters_members(a, members);
 }

@@ -58,6 +58,7 @@ static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
             last->overlap = clx_search_overlap(&last->search, &last->landing);
             continue;
         }
+        last->is_done = true;
         last->status = clx_aggregate_track(a, last->first);
         if (last->status != CLAST_OK) {
             (void)snprintf(last->detail, sizeof last->detail, "%s", clast_error_detail());
@@ -76,10 +77,12 @@ static clast_status settle(clast_aggregate *a)
         clx_parallel_for(N_PIECE, last->search.on_one_thread ? N_PIECE : 1, arrive, a);
     }
     last->is_due = false;
+    a->is_torn = true;
     CLX_CHECK(last->status == CLAST_OK, last->status, "%s", last->detail);
     double *row = &a->history.value[last->row * a->history.n_column];
     row[CLX_HISTORY_OVERLAP] = last->overlap;
     CLX_TRY(clx_aggregate_measure_row(a, row));
+    a->is_torn = false;
 done:
     return status;
 }
@@ -96,7 +99,6 @@ static void bring_beside(clast_aggregate *a, clx_search *search)
     } else {
         search->beside = (clx_beside){N_PIECE, arrive, a};
     }
-    a->arrival.is_done = true;
 }
 
 /// The landing, with new axes as long as every ray misses.
@@ -133,6 +135,7 @@ static clast_status place_by_touch(clast_aggregate *a)
     prepare_search(a, shape, &search);
     CLX_TRY(throw_particle(a, &search, &landing));
     CLX_TRY(settle(a));
+    a->is_torn = true;
     CLX_TRY(
         clx_aggregate_lay_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
     CLX_TRY(clx_aggregate_account_all(a, first));
@@ -150,6 +153,7 @@ static clast_status place_by_touch(clast_aggregate *a)
                                .landing = landing,
                                .first = first,
                                .row = a->history.n_row - 1};
+    a->is_torn = false;
 done:
     return status;
 }
@@ -169,6 +173,7 @@ static clast_status place_by_march(clast_aggregate *a)
     const int32_t group = 1 + landing.shape;
     q_rotate(arm, landing.orientation, a->march.shape[group].centroid);
     v3_axpy(centre, landing.centroid, -landing.scale, arm);
+    a->is_torn = true;
     CLX_TRY(clx_aggregate_add_group(a, group, centre, landing.orientation,
                                     landing.scale / a->kit.group[group].part[0].scale));
     CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touched, first, landing.point));
@@ -180,6 +185,7 @@ static clast_status place_by_march(clast_aggregate *a)
     row[CLX_HISTORY_RAYS] = a->params->rays;
     row[CLX_HISTORY_TOUCHED] = landing.touched;
     row[CLX_HISTORY_LOST] = landing.lost ? 1.0 : 0.0;
+    a->is_torn = false;
 done:
     return status;
 }

@@ -143,8 +143,9 @@ static clast_status draw_laws(const clast_aggregate_params *c, uint64_t seed, do
             drawn = draw_law(c, &rng);
         } while ((drawn < c->size_low || drawn > high || drawn <= 0.0) && ++tries < LAW_DRAWS);
         CLX_CHECK(tries < LAW_DRAWS, CLAST_E_CONFIG,
-                  "size_law: none of %d draws lies between size_low %s and size_high %s", LAW_DRAWS,
-                  clx_unit_text(c->size_low, "m"), clx_unit_text(high, "m"));
+                  "size_law: none of %d draws lies above size_low %s%s%s", LAW_DRAWS,
+                  clx_unit_text(c->size_low, "m"), isfinite(high) ? " and below size_high " : "",
+                  isfinite(high) ? clx_unit_text(high, "m") : "");
         (*size)[at] = drawn;
     }
 done:

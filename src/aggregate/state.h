@@ -92,6 +92,7 @@ struct clast_aggregate {
     double moment[3]; ///< sum of mass times position
     double second;    ///< sum of mass times (position squared + own mean square radius)
     clast_aggregate_stop stop;
+    bool is_torn; ///< within a step that has begun to write; for good where that failed
     double contact_s, envelope_s, wall_s;
     double alone_s; ///< how long the last search took on one thread, or would have at most
 };

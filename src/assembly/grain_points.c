@@ -79,13 +79,22 @@ bool clx_body_draw(const clx_touch_body *body, const double cube[3], double x[3]
     return body->tree == NULL || in_tree(body->tree, p);
 }
 
+/// Powers of 1/g, g^4 = g + 1: the lattice of irrational steps in three dimensions.
+static const double STEP[3] = {0.81917251339616443970, 0.67104360670378920842,
+                               0.54970047790197026194};
+
+void clx_lattice_begin(int64_t n_step, double cube[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        cube[k] = 0.5 + STEP[k] * (double)n_step;
+        cube[k] -= floor(cube[k]);
+    }
+}
+
 void clx_lattice_step(double cube[3])
 {
-    // powers of 1/g, g^4 = g + 1: the lattice of irrational steps in three dimensions
-    static const double step[3] = {0.81917251339616443970, 0.67104360670378920842,
-                                   0.54970047790197026194};
     for (int k = 0; k < 3; ++k) {
-        cube[k] += step[k];
+        cube[k] += STEP[k];
         cube[k] -= floor(cube[k]);
     }
 }

@@ -19,13 +19,31 @@ static const char *length_text(const clast_assembly *a, double length)
     return clx_unit_text(length, strcmp(a->unit, "model") == 0 ? "-" : "m");
 }
 
+static double thickness_of(const clast_assembly *a, int32_t grain)
+{
+    return 2.0 * a->scale[grain] * a->shape[a->shape_id[grain]].semi_axes[2];
+}
+
 static double thinnest_grain(const clast_assembly *a)
 {
     double thinnest = INFINITY;
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        thinnest = fmin(thinnest, 2.0 * a->scale[i] * a->shape[a->shape_id[i]].semi_axes[2]);
+        thinnest = fmin(thinnest, thickness_of(a, i));
     }
     return thinnest;
+}
+
+/// Refuses necks that would be the body, not join it.
+static clast_status check_neck(const clast_assembly *a, double neck)
+{
+    double thickest = 0.0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        thickest = fmax(thickest, thickness_of(a, i));
+    }
+    return neck <= thickest
+               ? CLAST_OK
+               : clx_fail(CLAST_E_USAGE, "a neck of %s is thicker than every grain: %s at most",
+                          length_text(a, neck), length_text(a, thickest));
 }
 
 /// Mean square radius of a shape's surface, its area by 4 pi: of a surface its own; of others that
@@ -91,6 +109,7 @@ static clast_status choose(const clast_assembly *a, const clast_printable_config
                            clast_printable_report *report)
 {
     double surface = 0.0;
+    CLX_GUARD(check_neck(a, config->neck));
     CLX_GUARD(total_surface(a, &surface));
     const double extent = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
     const double thinnest = thinnest_grain(a);

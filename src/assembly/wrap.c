@@ -73,9 +73,9 @@ static clast_status wrap_alloc(const clast_assembly *assembly, double length, in
         (high[0] - low[0]) / h * ((high[1] - low[1]) / h) * ((high[2] - low[2]) / h);
     CLX_CHECK(
         n_node <= MAX_NODES, CLAST_E_LIMIT,
-        "wrap: a ball of radius %g about %g of grains needs a grid of %.3g nodes, %d at most: "
-        "take fewer cells, or the convex hull",
-        length, longest, n_node, MAX_NODES);
+        "wrap: a ball of radius %s about grains that extend over %s needs a grid of %.3g nodes, %d "
+        "at most; choose a smaller envelope_length, or the convex hull",
+        clx_unit_text(length, "m"), clx_unit_text(longest, "m"), n_node, MAX_NODES);
     CLX_TRY(clx_grid_alloc(low, high, h, (float)(4.0 * (longest + length)), &w->grid));
     w->n_node = (int64_t)w->grid.n[0] * w->grid.n[1] * w->grid.n[2];
     w->length = length;

@@ -12,6 +12,9 @@ clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double 
 /// Whether it is a unit of any dimension, in either spelling: "um^2", "um2".
 bool clx_unit_is_known(const char *name);
 
+/// Whether the text is a finite number, bare or with a unit of any dimension; its value [SI].
+CLX_SHARED bool clx_unit_is_number(const char *text, double *value);
+
 /// Whether the value at `slot` is one that the field can have: finite and in its range, a choice of
 /// its list, a text.
 ///

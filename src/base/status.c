@@ -2,6 +2,7 @@
 #include "base/status.h"
 
 #include "base/number.h"
+#include "clast_source.h"
 #include "clast_version.h"
 #include <clast/field.h>
 #include <errno.h>
@@ -35,6 +36,11 @@ const char *clast_error_detail(void)
 const char *clast_version(void)
 {
     return CLAST_VERSION_TEXT;
+}
+
+const char *clast_source(void)
+{
+    return CLAST_SOURCE;
 }
 
 /// Bytes of the UTF-8 character that begins here, 0 where none does [RFC 3629].

@@ -85,7 +85,6 @@ static const unit units[] = {
     {"m^3/s", "m^3/s", 1.0},
     {"cm^3/s", "m^3/s", 1e-6},
     {"1/s", "1/s", 1.0},
-    {"/s", "1/s", 1.0},
     {"1/min", "1/s", 1.0 / 60.0},
     {"1/h", "1/s", 1.0 / 3600.0},
     {"K", "K", 1.0},
@@ -137,30 +136,55 @@ static void list_known(const char *si, char known[KNOWN_SIZE])
     }
 }
 
+/// "cm s^-1" as "cm/s", "s^-1" as "1/s": the last factor is the one with a negative power.
+static void to_quotient(char plain[KNOWN_SIZE])
+{
+    static const char between[] = " *.";
+    char made[KNOWN_SIZE];
+    const char *const power = strstr(plain, "^-");
+    if (power == NULL) {
+        return;
+    }
+    const bool is_one = strcmp(power, "^-1") == 0;
+    int from = (int)(power - plain);
+    while (from > 0 && strchr(between, plain[from - 1]) == NULL) {
+        --from;
+    }
+    int over = from;
+    while (over > 0 && strchr(between, plain[over - 1]) != NULL) {
+        --over;
+    }
+    (void)snprintf(made, sizeof made, "%.*s/%.*s%s%s", over > 0 ? over : 1, over > 0 ? plain : "1",
+                   (int)(power - plain) - from, plain + from, is_one ? "" : "^",
+                   is_one ? "" : power + 2);
+    memcpy(plain, made, sizeof made);
+}
+
 /// The name in ASCII, with its exponents marked: "\302\265g" (either micro sign) -> "ug",
-/// "m/s\302\262" and "m/s2" -> "m/s^2".
+/// "m/s\302\262" and "m/s2" -> "m/s^2", "/min" and "min-1" -> "1/min".
 static void to_ascii(const char *name, char plain[KNOWN_SIZE])
 {
-    static const char *const signs[][2] = {{"\302\265", "u"},
-                                           {"\316\274", "u"},
-                                           {"\302\262", "^2"},
-                                           {"\302\263", "^3"},
-                                           {"\302\260", "deg"}};
+    static const char *const signs[][2] = {
+        {"\302\265", "u"},  {"\316\274", "u"},      {"\302\262", "^2"}, {"\302\263", "^3"},
+        {"\302\271", "^1"}, {"\342\201\273", "^-"}, {"\302\267", " "},  {"\302\260", "deg"}};
     enum { N_SIGN = sizeof signs / sizeof signs[0] };
-    size_t used = 0;
+    size_t used = (size_t)snprintf(plain, KNOWN_SIZE, "%s", *name == '/' ? "1" : "");
     while (*name != '\0' && used + 4 < KNOWN_SIZE) {
         int k = 0;
-        if (isdigit((unsigned char)*name) && used > 0 && isalpha((unsigned char)plain[used - 1])) {
+        const char *digit = name + (*name == '-');
+        if (isdigit((unsigned char)*digit) && used > 0 && isalpha((unsigned char)plain[used - 1])) {
             plain[used++] = '^';
         }
-        while (k < N_SIGN && strncmp(name, signs[k][0], 2) != 0) {
+        while (k < N_SIGN && strncmp(name, signs[k][0], strlen(signs[k][0])) != 0) {
             ++k;
         }
-        used += (size_t)snprintf(plain + used, KNOWN_SIZE - used, "%.*s", k < N_SIGN ? 3 : 1,
-                                 k < N_SIGN ? signs[k][1] : name);
-        name += k < N_SIGN ? 2 : 1;
+        const char *text = k < N_SIGN ? signs[k][1] : name;
+        text += *text == '^' && used > 0 && plain[used - 1] == '-'; // both in superscript
+        used += (size_t)snprintf(plain + used, KNOWN_SIZE - used, "%.*s", k < N_SIGN ? 3 : 1, text);
+        name += k < N_SIGN ? strlen(signs[k][0]) : 1;
     }
     plain[used] = '\0';
+    to_quotient(plain);
 }
 
 static clast_status unknown(const char *name, const char *si)
@@ -190,16 +214,22 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
     return unknown(name, si_unit);
 }
 
-bool clx_unit_is_known(const char *name)
+/// The unit of any dimension, in either spelling, or NULL.
+static const unit *find_unit(const char *name)
 {
     char plain[KNOWN_SIZE];
     to_ascii(name, plain);
     for (int i = 0; i < N_UNIT; ++i) {
         if (strcmp(units[i].name, plain) == 0) {
-            return true;
+            return &units[i];
         }
     }
-    return false;
+    return NULL;
+}
+
+bool clx_unit_is_known(const char *name)
+{
+    return find_unit(name) != NULL;
 }
 
 /// Units that people choose among, all of them in `units`, the largest first: a number gets the
@@ -323,6 +353,24 @@ clast_status clast_unit_parse(const char *text, const char *si_unit, double *val
         *value = number * factor;
     }
     return status;
+}
+
+bool clx_unit_is_number(const char *text, double *value)
+{
+    char *end = NULL;
+    char name[32];
+    const double number = clx_number_read(text, &end);
+    if (end == text || !isfinite(number)) {
+        return false;
+    }
+    (void)snprintf(name, sizeof name, "%s", end + strspn(end, " \t"));
+    trim_end(name);
+    const unit *told = find_unit(name[0] != '\0' ? name : "-");
+    if (told == NULL) {
+        return strcmp(name, "phi") == 0 && clast_unit_parse(text, "m", value) == CLAST_OK;
+    }
+    *value = number * told->factor;
+    return true;
 }
 
 /// The unit of length in which the number comes nearest to a typical length [m].

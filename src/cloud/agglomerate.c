@@ -111,6 +111,16 @@ const clast_field clast_agglomerate_fields[] = {
 #undef FIELD
 #undef DEEP
 
+clast_status clast_collide_config_default(clast_collide_config *config)
+{
+    CLX_ARGUMENTS(config);
+    clast_agglomerate_config made = {0};
+    CLX_GUARD(clast_fields_default(clast_agglomerate_fields, &made));
+    *config = made.collide;
+    clast_fields_free(clast_agglomerate_fields, &made);
+    return CLAST_OK;
+}
+
 enum { M1, M2, M3, N_MOMENT };
 
 /// Columns of the history, and how far it is.
@@ -293,7 +303,18 @@ static void make_means(const clast_agglomerate_config *config, int64_t n_row, co
     }
 }
 
-/// Adds the exact columns where they hold: one model kernel, one cell, single particles.
+/// Whether all parcels of a cloud stand for as many particles, for one where `is_one`.
+static bool has_equal_weights(const clast_cloud *cloud, bool is_one)
+{
+    bool is_equal = true;
+    for (int64_t i = 0; cloud->weight != NULL && i < cloud->n; ++i) {
+        is_equal = is_equal && cloud->weight[i] == (is_one ? 1.0 : cloud->weight[0]);
+    }
+    return is_equal;
+}
+
+/// Adds the exact columns where they hold: one model kernel, one cell, single particles. Parcels
+/// of more than one do not meet their own, and are fewer than what they stand for.
 static clast_status add_exact(const clast_agglomerate_input *input, const clx_evolution *run,
                               clast_agglomeration *r)
 {
@@ -303,9 +324,10 @@ static clast_status add_exact(const clast_agglomerate_input *input, const clx_ev
     const clast_medium *m = &run->collide.medium;
     const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
     double *column = NULL;
-    const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
+    const double n0 = clast_table_numbers(&r->history, "n_particle")[0];
     if (!clx_exact_counts_known(kernel, n0) || input->monomers != NULL || input->n_snapshot > 1 ||
-        clast_table_numbers(&r->history, "n_cell")[0] != 1.0 || run->mesh->n_outside > 0) {
+        clast_table_numbers(&r->history, "n_cell")[0] != 1.0 || run->mesh->n_outside > 0 ||
+        !has_equal_weights(&input->snapshot[0], true)) {
         return CLAST_OK;
     }
     CLX_TRY(clast_table_add_number(&r->history, "exact_n_particle", "-", &column));
@@ -469,7 +491,9 @@ static clast_status finish_first(const clx_evolution *run, const columns *c,
         made->n_rebuilt += c->rebuilt[row] > 0.0 ? 1 : 0;
     }
     CLX_TRY(list_particles(run, &made->particles));
-    CLX_TRY(list_members(&run->population, &made->members));
+    if (has_equal_weights(&run->input->snapshot[0], false) && !run->collide.self_collisions) {
+        CLX_TRY(list_members(&run->population, &made->members));
+    }
 done:
     return status;
 }

@@ -2,11 +2,13 @@
 #include <clast/cloud.h>
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/status.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
 #include "math/rng.h"
 #include "math/sort.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -70,15 +72,38 @@ clast_status clast_cloud_column(const clast_table *table, const char *name, doub
     return status;
 }
 
+/// What a column says of its unit: its own one, else that in its name.
+static clx_unit_said said_unit(const clast_column *c, char unit[CLX_COLUMN_UNIT])
+{
+    clx_unit_said said = clx_column_unit(c->name, unit);
+    if (strcmp(c->unit, "-") != 0 && strcmp(c->unit, unit) != 0) {
+        (void)snprintf(unit, CLX_COLUMN_UNIT, "%s", c->unit);
+        said = CLX_UNIT_TOLD;
+    }
+    return said;
+}
+
+/// Whether a column says a unit of this dimension, which is copied then.
+static bool has_unit(const clast_column *c, const char *si_unit, char unit[CLX_COLUMN_UNIT])
+{
+    double factor = 1.0;
+    return said_unit(c, unit) != CLX_UNIT_NONE &&
+           clast_unit_factor(unit, si_unit, &factor) == CLAST_OK;
+}
+
 /// Whether a column holds lengths of this axis by its name and unit: "x_mm", "x (mm)", "x [mm]".
 static bool is_length_of(const clast_column *c, const char *axis)
 {
+    char unit[CLX_COLUMN_UNIT];
     const size_t n = strlen(axis);
-    double factor = 1.0;
-    return strncmp(c->name, axis, n) == 0 && c->name[n] != '\0' &&
-           strchr("_ ([", c->name[n]) != NULL && strcmp(c->unit, "-") != 0 &&
-           strlen(c->name) <= n + strlen(c->unit) + strlen(" []") &&
-           clast_unit_factor(c->unit, "m", &factor) == CLAST_OK;
+    const char *rest = c->name + n;
+    if (strncmp(c->name, axis, n) != 0 || strchr("_ ([", *rest) == NULL ||
+        !has_unit(c, "m", unit)) {
+        return false;
+    }
+    rest += strspn(rest, "_ ([");
+    return strncmp(rest, unit, strlen(unit)) == 0 &&
+           rest[strlen(unit) + strspn(rest + strlen(unit), " )]")] == '\0';
 }
 
 /// The column that a default coordinate is in: of its very name, else the only one that is its with
@@ -125,18 +150,6 @@ done:
     return status;
 }
 
-/// What stands after the last "_" or in brackets of a name with a "/", "ft/s" of "u_ft/s" and "u
-/// (ft/s)", whose unit the table does not know; "" else.
-static void unknown_unit(const clast_column *c, char unit[32])
-{
-    const char *open = strpbrk(c->name, "([");
-    const char *word = open != NULL ? open : strrchr(c->name, '_');
-    unit[0] = '\0';
-    if (strcmp(c->unit, "-") == 0 && word != NULL && strchr(word, '/') != NULL) {
-        (void)snprintf(unit, 32, "%.*s", (int)strcspn(word + 1, ")]"), word + 1);
-    }
-}
-
 /// The column that holds these numbers.
 static const clast_column *column_of(const clast_table *table, const double *number)
 {
@@ -147,11 +160,35 @@ static const clast_column *column_of(const clast_table *table, const double *num
     return &table->column[k];
 }
 
-/// Whether a column says its unit, of this dimension, by its name.
-static bool has_unit(const clast_column *c, const char *si_unit)
+/// Whether a column holds sizes in phi, minus the binary logarithm of millimetres.
+static bool is_phi(const clast_column *c, const char *si_unit)
 {
-    double factor = 1.0;
-    return strcmp(c->unit, "-") != 0 && clast_unit_factor(c->unit, si_unit, &factor) == CLAST_OK;
+    char unit[CLX_COLUMN_UNIT];
+    return strcmp(si_unit, "m") == 0 && said_unit(c, unit) != CLX_UNIT_NONE &&
+           strcmp(unit, "phi") == 0;
+}
+
+/// Factor to SI by the unit that a column says; 1 where it says none of this dimension.
+static clast_status own_factor(const clast_table *table, const clast_column *c, const char *si_unit,
+                               double *factor)
+{
+    clast_status status = CLAST_OK;
+    char unit[CLX_COLUMN_UNIT];
+    const clx_unit_said said = said_unit(c, unit);
+    double found = 1.0;
+    if (strcmp(si_unit, "-") != 0 && said != CLX_UNIT_NONE) {
+        const bool is_told = said == CLX_UNIT_TOLD || is_phi(c, si_unit); // "x_t" is no time
+        status = clast_unit_factor(unit, si_unit, &found);
+        status = is_told ? status : CLAST_OK;
+        if (status != CLAST_OK) {
+            clx_fail_prefix("%s: column '%s' (convert or rename it%s)", table->name, c->name,
+                            strcmp(si_unit, "m") == 0 ? "; unit says that of coordinates" : "");
+            goto done;
+        }
+    }
+    *factor = found;
+done:
+    return status;
 }
 
 clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
@@ -160,23 +197,13 @@ clast_status clast_cloud_column_factor(const clast_table *table, const char *nam
     CLX_ARGUMENTS(table, name, si_unit, factor);
     CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
-    double found = 1.0;
     double *number = NULL;
     CLX_TRY(clast_cloud_column(table, name, &number));
-    if (number != NULL && strcmp(si_unit, "-") != 0) {
-        const clast_column *c = column_of(table, number);
-        char unknown[32];
-        unknown_unit(c, unknown);
-        if (has_unit(c, si_unit)) { // "x_t" is no time
-            CLX_TRY(clast_unit_factor(c->unit, si_unit, &found));
-        } else if (unknown[0] != '\0' ||
-                   (strcmp(c->unit, "-") != 0 && strchr(c->unit, '/') != NULL)) {
-            status = clast_unit_factor(unknown[0] != '\0' ? unknown : c->unit, si_unit, &found);
-            clx_fail_prefix("%s: column '%s'", table->name, c->name);
-            goto done;
-        }
+    if (number == NULL) {
+        *factor = 1.0;
+    } else {
+        CLX_TRY(own_factor(table, column_of(table, number), si_unit, factor));
     }
-    *factor = found;
 done:
     return status;
 }
@@ -186,16 +213,18 @@ static clast_status factor_of(const clast_table *table, const double *column, co
                               const char *asked, double *factor)
 {
     clast_status status = CLAST_OK;
-    const bool is_asked = asked != NULL && asked[0] != '\0';
     const clast_column *c = column_of(table, column);
-    double wanted = 1.0;
-    CLX_TRY(clast_cloud_column_factor(table, c->name, si_unit, factor));
-    if (is_asked) {
-        CLX_TRY(clast_unit_factor(asked, si_unit, &wanted));
-        CLX_CHECK(!has_unit(c, si_unit) || wanted == *factor, CLAST_E_CONFIG,
+    char unit[CLX_COLUMN_UNIT];
+    double own = 1.0;
+    if (asked == NULL || asked[0] == '\0') {
+        return own_factor(table, c, si_unit, factor);
+    }
+    CLX_TRY(clast_unit_factor(asked, si_unit, factor));
+    if (has_unit(c, si_unit, unit)) {
+        CLX_TRY(clast_unit_factor(unit, si_unit, &own));
+        CLX_CHECK(own == *factor, CLAST_E_CONFIG,
                   "%s: column '%s' is in %s by its name, the unit asked for is %s", table->name,
-                  c->name, c->unit, asked);
-        *factor = wanted;
+                  c->name, unit, asked);
     }
 done:
     return status;
@@ -208,14 +237,21 @@ static clast_status check_mixed(const clast_table *table, double *const column[3
     clast_status status = CLAST_OK;
     const clast_column *with = NULL;
     const clast_column *without = NULL;
+    char unit[CLX_COLUMN_UNIT] = "";
     for (int32_t j = 0; j < d; ++j) {
         const clast_column *c = column_of(table, column[j]);
-        *(has_unit(c, si_unit) ? &with : &without) = c;
+        char of_this[CLX_COLUMN_UNIT];
+        if (has_unit(c, si_unit, of_this)) {
+            with = c;
+            memcpy(unit, of_this, sizeof unit);
+        } else {
+            without = c;
+        }
     }
     CLX_CHECK(with == NULL || without == NULL, CLAST_E_FORMAT,
               "%s: column '%s' is in %s by its name, column '%s' says no unit; give all of them "
               "one, or none",
-              table->name, with->name, with->unit, without->name);
+              table->name, with->name, unit, without->name);
 done:
     return status;
 }
@@ -242,6 +278,16 @@ done:
     return status;
 }
 
+/// Sizes in phi as lengths [m], as clast_unit_parse reads one.
+static clast_status take_phi(const double *phi, int64_t n, double **taken)
+{
+    const clast_status status = clx_alloc(taken, n, sizeof **taken);
+    for (int64_t i = 0; i < n && status == CLAST_OK; ++i) {
+        (*taken)[i] = 1e-3 * exp2(-phi[i]);
+    }
+    return status;
+}
+
 static clast_status take_property(const clast_table *table, const char *name, const char *si_unit,
                                   double share, double **taken)
 {
@@ -249,7 +295,9 @@ static clast_status take_property(const clast_table *table, const char *name, co
     double *column[3] = {NULL};
     CLX_TRY(clast_cloud_column(table, name, &column[0]));
     if (column[0] != NULL) {
-        CLX_TRY(take_columns(table, column, 1, si_unit, NULL, taken));
+        CLX_TRY(is_phi(column_of(table, column[0]), si_unit)
+                    ? take_phi(column[0], table->n_row, taken)
+                    : take_columns(table, column, 1, si_unit, NULL, taken));
         for (int64_t i = 0; i < table->n_row; ++i) {
             (*taken)[i] *= share;
         }

@@ -189,8 +189,8 @@ static clast_status check_population(const clast_population *p, const clast_coll
               CLAST_E_ARGUMENT, "%d cells, and volume or of_particle is NULL", cells->n);
     for (int64_t i = 0; i < p->n; ++i) {
         CLX_CHECK(cells->of_particle[i] < cells->n, CLAST_E_ARGUMENT,
-                  "particle %lld lies in cell %d of %d", (long long)i + 1, cells->of_particle[i],
-                  cells->n);
+                  "particle %lld lies in cell %d, and there are cells 0 to %d", (long long)i + 1,
+                  cells->of_particle[i], cells->n - 1);
         CLX_CHECK(p->monomers[i] < INT64_MAX, CLAST_E_LIMIT,
                   "particle %lld has %lld monomers; less can be counted", (long long)i + 1,
                   (long long)p->monomers[i]);

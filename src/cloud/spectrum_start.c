@@ -208,3 +208,48 @@ void clx_start_add(const clx_start *s, const clx_sectional *grid, double *number
         add_density(s, grid, number);
     }
 }
+
+/// The greatest of the times; -INFINITY of none.
+static clast_status last_time(const clast_table *table, const double *time, double *last)
+{
+    clast_status status = CLAST_OK;
+    *last = -(double)INFINITY;
+    for (int64_t i = 0; time != NULL && i < table->n_row; ++i) {
+        CLX_CHECK(isfinite(time[i]), CLAST_E_FORMAT, "%s: row %lld: time_s is %g", table->name,
+                  (long long)i + 1, time[i]);
+        *last = fmax(*last, time[i]);
+    }
+done:
+    return status;
+}
+
+clast_status clast_spectrum_start_from_table(clast_table *table, clast_spectrum_start *start)
+{
+    CLX_ARGUMENTS(table, start);
+    CLX_WHOLE(table, table);
+    clast_status status = CLAST_OK;
+    const bool is_spectrum = clast_table_find(table, "number") < 0;
+    double *size = clast_table_numbers(table, "size");
+    double *number = clast_table_numbers(table, is_spectrum ? "n" : "number");
+    const double *time = is_spectrum ? clast_table_numbers(table, "time_s") : NULL;
+    double last = 0.0;
+    int64_t n = 0;
+    CLX_CHECK(size != NULL && number != NULL, CLAST_E_FORMAT,
+              "%s: needs the columns size and number, or size and n", table->name);
+    CLX_CHECK(
+        !is_spectrum || clast_table_find(table, "size_low") < 0, CLAST_E_FORMAT,
+        "%s: the spectrum of a cloud, whose n counts particles; give columns size and number, "
+        "n over the cloud's volume (1/m^3)",
+        table->name);
+    CLX_CHECK(table->n_row > 0, CLAST_E_FORMAT, "%s: no row of sizes", table->name);
+    CLX_TRY(last_time(table, time, &last));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        if (time == NULL || time[i] == last) {
+            size[n] = size[i];
+            number[n++] = number[i];
+        }
+    }
+    *start = (clast_spectrum_start){n, size, number};
+done:
+    return status;
+}

@@ -406,7 +406,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
     const double share = share_of(dem, pair);
     const clx_law *law = clx_pair_law(dem, pair);
     clx_dem_touch t = {0};
-    clx_meeting m;
+    clx_meeting m = {0};
     double turned[3];
     double before[3];
     double trial[3];

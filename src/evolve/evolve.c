@@ -231,6 +231,7 @@ clast_status clx_evolve_create_again(const clast_evolve_config *config,
     clx_evolve_list(e);
     CLX_TRY(clx_evolve_check_time_step(e));
     CLX_TRY(clx_evolve_check_mirrors(e));
+    e->is_field_apart = clx_evolve_is_field_apart(e);
     CLX_TRY(clast_kernel_check(e->collide.kernel, &e->collide.medium));
     CLX_TRY(clx_collide_config_check(&e->collide));
     CLX_TRY(clx_evolve_series_begin(e));

@@ -122,6 +122,16 @@ static void locate(const clx_flow *flow, const double x[3], int64_t cell[3], dou
     }
 }
 
+bool clx_flow_has(const clx_flow *flow, const double x[3])
+{
+    bool is_in = true;
+    for (int k = 0; k < 3; ++k) {
+        const double place = (x[k] - flow->low[k]) / flow->step[k];
+        is_in = is_in && (flow->n[k] == 1 || (place >= 0.0 && place <= flow->n[k] - 1));
+    }
+    return is_in;
+}
+
 /// Velocity at a corner of a cell: bit k is the upper one along axis k.
 static const double *at_corner(const clx_flow *flow, const int64_t cell[3], int corner)
 {

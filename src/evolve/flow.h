@@ -20,6 +20,9 @@ void clx_flow_free(clx_flow *flow); ///< may be called twice
 /// Adds the field's velocity at x, trilinear; beyond the grid that at its edge.
 void clx_flow_add(const clx_flow *flow, const double x[3], double velocity[3]);
 
+/// Whether x lies within the grid, along its axes of more than one node.
+bool clx_flow_has(const clx_flow *flow, const double x[3]);
+
 /// Divergence of the field at x [1/s]: the mean over its cell, from the fluxes through the faces
 /// (at a point it would have the error of the interpolation too); 0 along an axis beyond the grid.
 double clx_flow_divergence(const clx_flow *flow, const double x[3]);

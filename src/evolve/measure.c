@@ -129,6 +129,8 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                              .time = e->time,
                              .mass_start = e->mass_start,
                              .gathered = e->gathered,
+                             .gathered_top = e->gathered_top,
+                             .is_field_apart = e->is_field_apart,
                              .mass_balance = e->mass_error,
                              .number_balance = e->number_error,
                              .n_cut = e->n_cut,

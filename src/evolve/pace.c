@@ -153,15 +153,17 @@ static void greatest_velocity(const clast_evolve *e, const clx_evolve_body *b, d
 
 /// What comes to walls that reflect, by mass, and stays nearer to them than a step moves it.
 typedef struct {
-    double mass;               ///< of all bodies
-    double aside, up, settled; ///< blown to the sides, to the top; at the floor or top without wind
+    double mass;                 ///< of all bodies
+    double aside;                ///< blown to the sides
+    double blown[2], settled[2]; ///< to the floor and the top, by a wind and without
     double limit; ///< time_step, or without it step_error, below which no layer is that thin
 } layers;
 
 static void add_body(const clast_evolve *e, const clx_evolve_body *b, layers *all)
 {
     const clast_evolve_config *c = e->config;
-    const bool is_blown_up = e->wind[2] > fmax(0.0, b->speed);
+    const bool is_blown =
+        e->wind[2] > fmax(0.0, b->speed) || (b->speed <= 0.0 && e->wind[2] < b->speed);
     double stay = c->duration;
     double u[3];
     wall before[3];
@@ -176,12 +178,26 @@ static void add_body(const clast_evolve *e, const clx_evolve_body *b, layers *al
         const double limit = b->diffusivity / (fabs(u[k]) * step);
         gathers[k] = before[k].border == CLAST_BORDER_REFLECT && before[k].time < stay &&
                      limit < (c->time_step > 0.0 ? c->time_step : c->step_error);
-        all->limit = gathers[k] && (k < 2 || is_blown_up) ? fmin(all->limit, limit) : all->limit;
+        all->limit = gathers[k] && (k < 2 || is_blown) ? fmin(all->limit, limit) : all->limit;
     }
     all->mass += b->mass;
     all->aside += gathers[0] || gathers[1] ? b->mass : 0.0;
-    all->up += gathers[2] && is_blown_up ? b->mass : 0.0;
-    all->settled += gathers[2] && !is_blown_up ? b->mass : 0.0;
+    (is_blown ? all->blown : all->settled)[u[2] > 0.0] += gathers[2] ? b->mass : 0.0;
+}
+
+bool clx_evolve_is_field_apart(const clast_evolve *e)
+{
+    static const double large = 1e3; // metres and millimetres
+    bool is_apart = e->n_live > 0;
+    bool is_wide = e->flow.u != NULL;
+    for (int32_t k = 0; k < e->n_live && is_apart; ++k) {
+        is_apart = !clx_flow_has(&e->flow, e->body[e->live[k]].x);
+    }
+    for (int k = 0; k < 3 && is_wide; ++k) {
+        is_wide = e->flow.n[k] == 1 || e->flow.step[k] * (e->flow.n[k] - 1) >=
+                                           (1.0 - 1e-9) * large * extent_of(e->input->domain, k);
+    }
+    return e->flow.u != NULL && (is_apart || is_wide);
 }
 
 /// The key that would follow such a layer, and its greatest value; none where nothing spreads.
@@ -206,18 +222,24 @@ clast_status clx_evolve_check_mirrors(clast_evolve *e)
     for (int32_t k = 0; e->flow.u == NULL && k < e->n_live; ++k) {
         add_body(e, &e->body[e->live[k]], &all);
     }
-    const bool is_aside = all.aside > c->step_error * all.mass;
-    CLX_CHECK(!is_aside && all.up <= c->step_error * all.mass, CLAST_E_CONFIG,
+    const double most = c->step_error * all.mass;
+    const double *const share = all.aside > most ? &all.aside : &all.blown[all.blown[1] > most];
+    const double settled = all.settled[0] + all.settled[1];
+    CLX_CHECK(*share <= most, CLAST_E_CONFIG,
               "wind: it carries %.3g %% of the mass into %s, where it gathers in a layer "
               "(diffusivity over speed) thinner than a step moves it; take %s or a "
               "larger eddy_diffusivity%s",
-              100.0 * (is_aside ? all.aside : all.up) / all.mass,
-              is_aside || !is_box ? "sides that reflect" : "a top that reflects",
-              !is_box    ? "sides: deposit"
-              : is_aside ? "sides: deposit or periodic"
-                         : "open_top",
+              100.0 * *share / all.mass,
+              share == &all.blown[0]           ? "a floor that reflects"
+              : share == &all.aside || !is_box ? "sides that reflect"
+                                               : "a top that reflects",
+              share == &all.blown[0] ? "floor: deposit"
+              : !is_box              ? "sides: deposit"
+              : share == &all.aside  ? "sides: deposit or periodic"
+                                     : "open_top",
               shorter_steps(c, all.limit, steps));
-    e->gathered = all.settled > c->step_error * all.mass ? all.settled / all.mass : 0.0;
+    e->gathered = settled > most ? settled / all.mass : 0.0;
+    e->gathered_top = settled > most ? all.settled[1] / all.mass : 0.0;
 done:
     return status;
 }

@@ -139,7 +139,8 @@ struct clast_evolve {
     int32_t pair_resolved, pair_n; ///< whether it resolved the cloud; particles then
     uint64_t pair_step;            ///< when
     double mass_start;             ///< of all real particles
-    double gathered;               ///< share of it, as in the result
+    double gathered, gathered_top; ///< shares of it, as in the result
+    bool is_field_apart;           ///< as in the result
     double mass_error;             ///< greatest, relative
     int64_t number_error;
     clast_range_use range;
@@ -205,12 +206,16 @@ double clx_evolve_step_of(const clast_evolve *e);
 /// from wherever it is, and meets nobody.
 clast_status clx_evolve_check_time_step(const clast_evolve *e);
 
-/// Refuses a wind that carries more than a share step_error of the mass into sides or a top that
-/// reflect, where it gathers in a layer (diffusivity over speed) thinner than a step moves it: what
-/// meets there would be what steps are. What falls onto such a floor, or rises to such a top
-/// without a wind, is told (`gathered`). A field is taken as it is: it may turn the mass aside
+/// Refuses a wind that carries more than a share step_error of the mass into sides, a floor or a
+/// top that reflect, where it gathers in a layer (diffusivity over speed) thinner than a step moves
+/// it: what meets there would be what steps are. What falls onto such a floor, or rises to such a
+/// top without a wind, is told (`gathered`). A field is taken as it is: it may turn the mass aside
 /// before.
 clast_status clx_evolve_check_mirrors(clast_evolve *e);
+
+/// Whether no body starts within the grid of a field, or it is 1000 times as wide as the domain:
+/// one of the two is in another unit.
+bool clx_evolve_is_field_apart(const clast_evolve *e);
 
 /// move.c: every body in the fluid for a time dt, onto the floor too.
 ///

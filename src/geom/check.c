@@ -209,13 +209,17 @@ clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles)
         return CLAST_OK;
     }
     CLX_TRY(clx_topology_build(mesh, &topology));
+    count_edges(mesh, &topology, &made);
+    CLX_TRY(count_facets(mesh, &topology, &made));
     CLX_TRY(clx_check_parts(mesh, &topology, &made));
-    CLX_TRY(clx_count_repeated(mesh, &made.n_repeated));
     CLX_TRY(clx_mesh_cuts(mesh, &cuts));
     *doubles = (clx_doubles){.n_part = made.n_part,
                              .n_doubled = made.n_doubled,
                              .n_repeated = made.n_repeated,
                              .n_body = made.n_body,
+                             .n_flat = clx_count_flat(&made),
+                             .n_wall = made.n_duplicate,
+                             .n_nonmanifold_edge = made.n_nonmanifold_edge,
                              .n_intersection = cuts.n_pair,
                              .intersection_complete = cuts.complete};
     for (int32_t i = 0; i < made.n_part; ++i) {

@@ -3,6 +3,7 @@
 #include "base/status.h"
 
 typedef struct clast_mesh_check_result clast_mesh_check_result;
+typedef struct clast_mesh_part clast_mesh_part;
 typedef struct clx_topology clx_topology;
 
 /// clast_mesh_check but for the triangles that cut each other (half of its time) and the words.
@@ -35,6 +36,10 @@ clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topolog
 /// against it, 0 for a part that is open or without volume.
 int clx_part_facing(const clast_mesh_check_result *result, int32_t part);
 
+/// Whether the part is closed and bounds nothing: a sheet written on both sides.
+bool clx_part_is_flat(const clast_mesh_part *part);
+int32_t clx_count_flat(const clast_mesh_check_result *result);
+
 /// Whether all triangles are seen from the mean of the vertices, from behind and once in each
 /// direction: then no two cut each other. False is no answer.
 bool clx_is_star_shaped(const clast_mesh *mesh);
@@ -43,6 +48,9 @@ bool clx_is_star_shaped(const clast_mesh *mesh);
 typedef struct clx_doubles {
     int32_t n_part, n_doubled, n_repeated, n_body; ///< as in clast_mesh_check_result
     int32_t n_apart;                               ///< bodies that lie in no other
+    int32_t n_flat;                                ///< clx_count_flat
+    int32_t n_wall;                                ///< triangles at the places of others
+    int32_t n_nonmanifold_edge;
     int64_t n_intersection;
     bool intersection_complete;
 } clx_doubles;

@@ -12,6 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// Volume of a part by its area and extent below which it is rounding.
+static const double FLAT = 1e-12;
+
 static void add_triangles(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)
 {
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -250,11 +253,28 @@ static int sign(double x)
     return (x > 0.0) - (x < 0.0);
 }
 
+bool clx_part_is_flat(const clast_mesh_part *part)
+{
+    return part->closed && part->oriented &&
+           fabs(part->volume) <= FLAT * part->area * v3_distance(part->low, part->high);
+}
+
+int32_t clx_count_flat(const clast_mesh_check_result *result)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < result->n_part; ++i) {
+        n += clx_part_is_flat(&result->part[i]);
+    }
+    return n;
+}
+
 int clx_part_facing(const clast_mesh_check_result *result, int32_t part)
 {
     const clast_mesh_part *p = &result->part[part];
     const clast_mesh_part *outermost = p->outermost >= 0 ? &result->part[p->outermost] : p;
-    return p->closed && p->oriented ? sign(p->volume) * sign(outermost->volume) : 0;
+    return p->closed && p->oriented && !clx_part_is_flat(p)
+               ? sign(p->volume) * sign(outermost->volume)
+               : 0;
 }
 
 /// Tree of the boxes of parts that can contain others.
@@ -348,7 +368,8 @@ static void count_nested(clast_mesh_check_result *result)
         const int facing = clx_part_facing(result, i);
         const int around = p->outermost >= 0 ? sign(result->part[p->outermost].volume) : 1;
         p->winding = facing != 0 ? around * p->winding + facing : 0;
-        p->inside_out = p->closed && p->oriented && p->depth == 0 && p->volume < 0.0;
+        p->inside_out =
+            p->closed && p->oriented && p->depth == 0 && p->volume < 0.0 && !clx_part_is_flat(p);
         result->n_inside_out += p->inside_out;
         result->n_nested += p->closed && p->depth > 0;
         result->n_doubled += (facing > 0 && p->winding > 1) || (facing < 0 && p->winding < 0);

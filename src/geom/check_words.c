@@ -8,6 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/// Below it a product of three lengths is not to be told from 0.
+static const double SMALLEST_EXTENT = 1e-95;
+
 __attribute__((format(printf, 4, 5))) static void
 add(clast_mesh_check_result *result, bool blocking, const char *code, const char *format, ...)
 {
@@ -115,6 +118,22 @@ static void part_words(clast_mesh_check_result *r)
     nested_words(r);
 }
 
+static void flat_words(clast_mesh_check_result *r)
+{
+    const int32_t n_flat = clx_count_flat(r);
+    if (r->n_edge > 0 && r->hull_volume == 0.0 && r->extent < SMALLEST_EXTENT) {
+        add(r, true, "flat", "an extent of %.3g is too small for a volume; is the unit right?",
+            r->extent);
+    } else if (r->n_edge > 0 && r->hull_volume == 0.0) {
+        add(r, true, "flat", "all %d vertices lie in one plane: there is no volume", r->n_vertex);
+    } else if (n_flat > 0) {
+        add(r, true, "flat_parts",
+            "%d of %d parts ha%s no volume: the two sides of a sheet; `clast mesh repair` drops "
+            "%s",
+            n_flat, r->n_part, n_flat == 1 ? "s" : "ve", n_flat == 1 ? "it" : "them");
+    }
+}
+
 static void facet_words(clast_mesh_check_result *r)
 {
     if (r->n_degenerate > 0) {
@@ -155,7 +174,13 @@ static void facet_words(clast_mesh_check_result *r)
 void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
 {
     text[0] = '\0';
-    if (doubles->n_intersection > 0) {
+    if (doubles->n_flat > 0) { // its two sides, where they are cut otherwise, cut each other
+        (void)snprintf(text, size,
+                       "%d of its %d parts ha%s no volume (the two sides of a sheet); its area and "
+                       "hull count %s",
+                       doubles->n_flat, doubles->n_part, doubles->n_flat == 1 ? "s" : "ve",
+                       doubles->n_flat == 1 ? "it" : "them");
+    } else if (doubles->n_intersection > 0) {
         (void)snprintf(text, size,
                        "it cuts itself at %s%lld pair%s of triangles; its volume counts overlaps "
                        "twice",
@@ -189,8 +214,5 @@ void clx_check_words(clast_mesh_check_result *result)
     edge_words(result);
     part_words(result);
     facet_words(result);
-    if (result->n_edge > 0 && result->hull_volume == 0.0) {
-        add(result, true, "flat", "all %d vertices lie in one plane: there is no volume",
-            result->n_vertex);
-    }
+    flat_words(result);
 }

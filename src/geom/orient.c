@@ -63,8 +63,9 @@ static int32_t count_conflicts(const flood *f)
     return n;
 }
 
-clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t *n_conflict)
+clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t n_known, int32_t *n_conflict)
 {
+    CLAST_ASSERT(n_known >= 0);
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
     flood f = {.mesh = mesh, .topology = &topology};
@@ -87,7 +88,9 @@ clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t *n_conflic
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         if (f.side[t] < 0) {
             turn_over(mesh, t);
-            turned[t] = !turned[t];
+            if (t < n_known) {
+                turned[t] = !turned[t];
+            }
         }
     }
 done:

@@ -235,6 +235,23 @@ done:
     return status;
 }
 
+/// Drops closed parts without volume, which bound nothing.
+static clast_status drop_flat(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    parts p = {.n = 0};
+    CLX_TRY(find_parts(mesh, &p));
+    for (int32_t i = 0; i < p.n; ++i) {
+        p.is_dropped[i] = clx_part_is_flat(&p.found.part[i]);
+    }
+    if (clx_count_flat(&p.found) > 0) {
+        CLX_TRY(drop_parts(mesh, &p, false, report));
+    }
+done:
+    free_parts(&p);
+    return status;
+}
+
 /// Keeps the part of the largest volume (area, where none is closed) and the cavities in it.
 static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
@@ -324,6 +341,22 @@ done:
     return status;
 }
 
+/// Fills holes. The fins that it leaves go as if they had no side: what they hid, the other side of
+/// a facet written twice, may run either way, so that windings are looked at again.
+static clast_status fill(clast_mesh *mesh, double most, bool *turned, int32_t *n_known,
+                         const clast_mesh_repair_config *config, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_duplicate = report->n_duplicate;
+    CLX_TRY(clx_fill_holes(mesh, most, report));
+    CLX_TRY(drop_fins(mesh, turned, n_known, config, report));
+    if (config->orient && report->n_duplicate > n_duplicate) {
+        CLX_TRY(clx_orient_alike(mesh, turned, *n_known, &report->n_conflict));
+    }
+done:
+    return status;
+}
+
 static clast_status take_steps(clast_mesh *mesh, const clast_mesh_repair_config *config,
                                clast_mesh_repair_report *report)
 {
@@ -334,11 +367,10 @@ static clast_status take_steps(clast_mesh *mesh, const clast_mesh_repair_config 
     int32_t n_known = mesh->n_tri;
     CLX_TRY(clx_alloc(&turned, n_known, sizeof *turned));
     if (config->orient) {
-        CLX_TRY(clx_orient_alike(mesh, turned, &report->n_conflict));
+        CLX_TRY(clx_orient_alike(mesh, turned, n_known, &report->n_conflict));
     }
     if (config->fill) {
-        CLX_TRY(clx_fill_holes(mesh, config->fill_size * extent, report));
-        CLX_TRY(drop_fins(mesh, turned, &n_known, config, report));
+        CLX_TRY(fill(mesh, config->fill_size * extent, turned, &n_known, config, report));
     }
     if (config->separate) {
         CLX_TRY(clx_separate(mesh, &report->n_separated));
@@ -350,6 +382,7 @@ static clast_status take_steps(clast_mesh *mesh, const clast_mesh_repair_config 
         report->n_turned += turned[t];
     }
     if (config->unite) {
+        CLX_TRY(drop_flat(mesh, report));
         CLX_TRY(unite(mesh, report));
     }
     if (config->keep == CLAST_KEEP_LARGEST) {
@@ -399,9 +432,9 @@ clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_c
     CLX_TRY(take_steps(&made, config != NULL ? config : &defaults, &done_so_far));
     CLX_CHECK(made.n_tri > 0, CLAST_E_GEOMETRY,
               "nothing is left to repair: %d triangles had no area, %d repeated others (those made "
-              "to fill holes too) and %d shared no edge with another",
+              "to fill holes too), %d shared no edge with another and %d parts had no volume",
               done_so_far.n_degenerate + done_so_far.n_collapsed, done_so_far.n_duplicate,
-              done_so_far.n_loose);
+              done_so_far.n_loose, done_so_far.n_part_dropped);
     CLX_TRY(drop_unused(&made, &done_so_far));
     done_so_far.n_triangle_after = made.n_tri;
     done_so_far.volume_after = clx_cone_volume(&made);

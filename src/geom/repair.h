@@ -11,9 +11,9 @@ int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark);
 /// Splits triangles at open vertices that lie on their open edges within tolerance [model units].
 clast_status clx_split_tjunctions(clast_mesh *mesh, double tolerance, int32_t *n_split);
 
-/// Turns triangles so that neighbours agree, as few as possible of each part; turned [n_tri] flips
-/// for each.
-clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t *n_conflict);
+/// Turns triangles so that neighbours agree, as few as possible of each part; turned [n_known]
+/// flips for each of the first n_known triangles.
+clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t n_known, int32_t *n_conflict);
 
 /// Turns closed parts outward. Parts inside a turned part turn with it. turned [n_known] flips for
 /// each of the first n_known triangles.

@@ -9,6 +9,7 @@
 #include "io/shape_word.h"
 #include "io/size_columns.h"
 #include <clast/fill.h>
+#include <clast/grading.h>
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
@@ -16,9 +17,28 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const double NOWHERE[3] = {0.0, 0.0, 0.0};
 static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
+
+/// Bodies that lie in no other; those that hang together by an edge alone, which is no neck, are
+/// parted, but not those with a common wall.
+static clast_status count_apart(const clast_mesh *mesh, const clx_doubles *found, int32_t *n_apart)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh parted = {0};
+    clx_doubles of_parted = {0};
+    *n_apart = found->n_apart;
+    if (found->n_nonmanifold_edge > 0) {
+        CLX_TRY(clast_mesh_repair(mesh, NULL, &parted, NULL));
+        CLX_TRY(clx_find_doubles(&parted, &of_parted));
+        *n_apart = of_parted.n_apart;
+    }
+done:
+    clast_mesh_free(&parted);
+    return status;
+}
 
 /// Whether the surface bounds a solid whose volume counts once; says what is wrong and what to run.
 static clast_status check_surface(const char *path, const clast_mesh *mesh)
@@ -26,6 +46,7 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     clast_status status = CLAST_OK;
     clx_doubles found = {0};
     char words[200];
+    int32_t n_apart = 0;
     char cure[400] = "";
     CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
     CLX_TRY(clx_find_doubles(mesh, &found));
@@ -36,10 +57,11 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     clx_doubles_words(&found, sizeof words, words);
     CLX_CHECK(found.intersection_complete, CLAST_E_GEOMETRY, "%s: %s; or --accept-faults", path,
               words);
-    CLX_CHECK(words[0] != '\0' || found.n_apart < 2, CLAST_E_GEOMETRY,
+    CLX_TRY(count_apart(mesh, &found, &n_apart));
+    CLX_CHECK(words[0] != '\0' || n_apart < 2, CLAST_E_GEOMETRY,
               "%s: %d bodies that do not hang together, no one rigid grain; keep one: clast mesh "
               "repair --keep largest, or --accept-faults",
-              path, found.n_apart);
+              path, n_apart);
     if (words[0] != '\0') {
         CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
         status = clx_fail(CLAST_E_GEOMETRY, "%s: %s; drop %s: %s, or --accept-faults", path, words,
@@ -191,17 +213,40 @@ clast_status clx_load_named(const char *role, const clast_aggregate_config *conf
     return status;
 }
 
+static clast_status read_sizes(const clast_aggregate_config *config, clx_sizes_columns *columns,
+                               clast_sizes *sizes)
+{
+    const bool by_mass = config->params.size_by_mass;
+    const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
+                               by_mass ? "leave size_by_mass out"
+                                       : "set size_by_mass and size_draw",
+                               ", or give size_unit (um, mm, m or phi)"};
+    return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit, columns,
+                              sizes);
+}
+
+clast_status clx_aggregate_list(const clast_aggregate_config *config, clx_sizes_columns *columns,
+                                clast_grading_list *list)
+{
+    clast_status status = CLAST_OK;
+    clast_sizes sizes = {0};
+    struct stat found;
+    *list = (clast_grading_list){.column = "", .ignored = ""};
+    if (config->params.size_law == CLAST_SIZE_LIST && config->sizes[0] != '\0' &&
+        stat(config->sizes, &found) == 0 && S_ISREG(found.st_mode)) {
+        CLX_TRY(read_sizes(config, columns, &sizes));
+        *list = clx_sizes_list(&sizes, columns);
+    }
+done:
+    clast_sizes_free(&sizes);
+    return status;
+}
+
 static clast_status load_sizes(const clast_aggregate_config *config, clast_sizes *sizes)
 {
     clast_status status = CLAST_OK;
     if (config->sizes[0] != '\0') {
-        const bool by_mass = config->params.size_by_mass;
-        const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
-                                   by_mass ? "leave size_by_mass out"
-                                           : "set size_by_mass and size_draw",
-                                   ", or give size_unit (um, mm, m or phi)"};
-        return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit, NULL,
-                                  sizes);
+        return read_sizes(config, NULL, sizes);
     }
     CLX_TRY(clast_sizes_alloc(config->params.size.n, sizes));
     for (int32_t i = 0; i < config->params.size.n; ++i) {

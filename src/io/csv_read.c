@@ -7,7 +7,7 @@
 #include <clast/table.h>
 
 #include "base/alloc.h"
-#include "base/field.h"
+#include "base/column_unit.h"
 #include "base/file.h"
 #include "base/number.h"
 #include <inttypes.h>
@@ -31,6 +31,7 @@ typedef struct {
     char separator, comment;
     bool has_comment;
     bool is_part; ///< of a file: numbers of rows are not those of all
+    bool is_text; ///< all columns become texts
     int64_t n_comment, n_blank;
 } cursor;
 
@@ -337,45 +338,6 @@ static clast_status cell_text(const cell *x, char **text)
     return status;
 }
 
-/// Whether these n bytes are a unit, which is copied as it is written. What no number is given in
-/// by itself, such as moments of inertia by density [m^5], is one of columns alone.
-static bool is_unit(const char *name, size_t n, char unit[32])
-{
-    static const char *const alone[] = {"phi", "1/m^2", "1/m2", "m^5", "m5"};
-    char text[32];
-    bool is_one = false;
-    if (n == 0 || n >= sizeof text) {
-        return false;
-    }
-    (void)snprintf(text, sizeof text, "%.*s", (int)n, name);
-    for (size_t i = 0; i < sizeof alone / sizeof alone[0]; ++i) {
-        is_one |= strcmp(alone[i], text) == 0;
-    }
-    if (is_one || clx_unit_is_known(text)) {
-        memcpy(unit, text, n + 1);
-        return true;
-    }
-    return false;
-}
-
-/// "diameter_m", "diameter (um)" and "rho [kg/m^3]" tell their unit; "-" when there is none.
-static void unit_of(const char *name, char unit[32])
-{
-    const size_t n = strlen(name);
-    (void)snprintf(unit, 32, "-");
-    if (n > 2 && (name[n - 1] == ')' || name[n - 1] == ']')) {
-        const char *open = strrchr(name, name[n - 1] == ')' ? '(' : '[');
-        if (open != NULL) {
-            (void)is_unit(open + 1, (size_t)(name + n - 1 - (open + 1)), unit);
-        }
-        return;
-    }
-    const char *bar = strrchr(name, '_');
-    if (bar != NULL && bar > name && strcmp(bar, "_in") != 0) { // "flow_in" flows in
-        (void)is_unit(bar + 1, strlen(bar + 1), unit);
-    }
-}
-
 /// A name that no column has yet, from a repeated or an empty one.
 static void find_free_name(const clast_table *table, const char *wanted, int32_t k, size_t size,
                            char *name)
@@ -392,7 +354,6 @@ static clast_status add_column(clast_table *table, const char *wanted, int32_t k
                                int32_t *first, clast_csv_report *report)
 {
     clast_status status = CLAST_OK;
-    char unit[32];
     char *name = NULL;
     const size_t size = strlen(wanted) + 32;
     *first = wanted[0] != '\0' ? clast_table_find(table, wanted) : -1;
@@ -402,11 +363,10 @@ static clast_status add_column(clast_table *table, const char *wanted, int32_t k
         find_free_name(table, wanted, k, size, name);
         ++report->n_renamed;
     }
-    unit_of(wanted, unit);
     if (is_text) {
         CLX_TRY(clast_table_add_text(table, name));
     } else {
-        CLX_TRY(clast_table_add_number(table, name, unit, NULL));
+        CLX_TRY(clx_table_add_said(table, name, wanted, NULL));
     }
 done:
     clx_free(name);
@@ -447,7 +407,7 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
             CLX_TRY(next_cell(c, &x, &more));
             CLX_TRY(cell_text(&x, &wanted));
         }
-        const bool is_text = (o->seen[k] & SEEN_TEXT) != 0;
+        const bool is_text = c->is_text || (o->seen[k] & SEEN_TEXT) != 0;
         int32_t first = -1;
         CLX_TRY(add_column(table, wanted != NULL ? wanted : "", k, is_text, &first, report));
         if (first >= 0) {
@@ -560,6 +520,24 @@ clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
 {
     const cursor start = {.name = name, .line = first_line, .is_part = true};
     return parse(start, bytes, n, options, table, NULL);
+}
+
+clast_status clx_csv_read_texts(const char *path, clast_table *table, clast_table *texts)
+{
+    clast_status status = CLAST_OK;
+    const cursor start = {.name = path, .line = 1, .is_text = true};
+    clast_table made = {0};
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
+    CLX_TRY(clast_table_parse_csv(path, bytes, (size_t)n, NULL, &made, NULL));
+    CLX_TRY(parse(start, bytes, (size_t)n, NULL, texts, NULL));
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    clx_free(bytes);
+    return status;
 }
 
 clast_status clast_table_read_csv(const char *path, const clast_csv_options *options,

@@ -315,16 +315,25 @@ done:
     return status;
 }
 
-/// What the list held, for those who tell it.
-static clast_status note_list(const clast_sizes *sizes, const clx_sizes_columns *columns,
-                              clast_grading *grading)
+const char *clast_grading_list_text(const clast_grading_list *list, bool by_mass, size_t size,
+                                    char *text)
 {
-    clast_grading_list list = {
-        .n_row = sizes->n, .column = columns->count, .ignored = columns->ignored};
-    for (int64_t i = 0; i < sizes->n; ++i) {
-        list.total += sizes->count[i];
+    char by[192] = "one grain a row";
+    if (list == NULL || text == NULL || size == 0) {
+        return "";
     }
-    return clx_grading_note_list(&list, grading);
+    text[0] = '\0';
+    if (list->n_row <= 0 || list->column == NULL || list->ignored == NULL) {
+        return text;
+    }
+    if (list->column[0] != '\0') {
+        (void)clx_number_print(by, sizeof by, "%s by column '%.127s': %.6g in all",
+                               by_mass ? "weighed" : "counted", list->column, list->total);
+    }
+    (void)snprintf(text, size, "%lld row%s, %s%s%s", (long long)list->n_row,
+                   list->n_row > 1 ? "s" : "", by,
+                   list->ignored[0] != '\0' ? "; not looked at: " : "", list->ignored);
+    return text;
 }
 
 static clast_status load_list(const char *path, bool by_mass, clast_grading **grading)
@@ -341,7 +350,8 @@ static clast_status load_list(const char *path, bool by_mass, clast_grading **gr
         clx_fail_prefix("%s", path);
         goto done;
     }
-    CLX_TRY(note_list(&sizes, &columns, made));
+    const clast_grading_list list = clx_sizes_list(&sizes, &columns);
+    CLX_TRY(clx_grading_note_list(&list, made));
     *grading = made;
     made = NULL;
 done:

@@ -147,7 +147,30 @@ static clast_status note_bodies(clx_grains_task *task, const clx_doubles *found)
     return warn(task, text);
 }
 
-/// Tells a surface of a file whose volume counts a region twice; those made here count it once.
+/// Tells walls inside a surface: written once for each side they leave the volume right, but not
+/// what follows from the area.
+static clast_status note_walls(clx_grains_task *task, const clast_mesh *mesh,
+                               const clx_doubles *found)
+{
+    clast_status status = CLAST_OK;
+    char cure[400] = "";
+    char text[640];
+    if (found->n_wall == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_mesh_cure(mesh, task->path, sizeof cure, cure));
+    (void)snprintf(text, sizeof text,
+                   "%d of its triangles %s a wall inside it, written once for each side: area, "
+                   "sphericity and roundness count it; %s%s",
+                   found->n_wall, found->n_wall == 1 ? "is" : "are",
+                   cure[0] == '\0' ? "see clast mesh check" : "drop it: ", cure);
+    CLX_TRY(warn(task, text));
+done:
+    return status;
+}
+
+/// Tells a surface of a file whose volume counts a region twice, or whose area a wall; those made
+/// here count each once.
 static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
                                  const clast_mesh *mesh)
 {
@@ -163,15 +186,17 @@ static clast_status note_doubles(clx_grains_task *task, clast_grains_kind kind,
     CLX_TRY(note_bodies(task, &found));
     clx_doubles_words(&found, sizeof words, words);
     if (words[0] == '\0') {
+        status = note_walls(task, mesh, &found);
         goto done;
     }
-    if (found.n_intersection == 0 && found.intersection_complete) {
+    if (found.n_flat > 0 || (found.n_intersection == 0 && found.intersection_complete)) {
         CLX_TRY(clast_mesh_cure(mesh, task->path, sizeof cure, cure));
     }
     (void)snprintf(text, sizeof text, "%s; %s%s", words,
-                   cure[0] == '\0'                           ? "see clast mesh check"
-                   : found.n_doubled + found.n_repeated == 1 ? "drop it: "
-                                                             : "drop them: ",
+                   cure[0] == '\0' ? "see clast mesh check"
+                   : (found.n_flat > 0 ? found.n_flat : found.n_doubled + found.n_repeated) == 1
+                       ? "drop it: "
+                       : "drop them: ",
                    cure);
     CLX_TRY(warn(task, text));
 done:
@@ -433,14 +458,16 @@ static clast_status take_clump(clx_grains_task *task, const clast_table *table)
     clast_grain grain;
     clast_grain_record *record = NULL;
     double unit_m = 0.0;
+    bool mixes_units = false;
     CLX_CHECK(!task->options->hull && task->options->folder == NULL, CLAST_E_USAGE,
               "a clump of spheres has no hull of facets and no surface to write: leave out --hull "
               "and --surfaces");
-    CLX_TRY(clx_spheres_of_table(table, &guess, &spheres, &unit_m));
+    CLX_TRY(clx_spheres_of_table(table, &guess, &spheres, &unit_m, &mixes_units));
     CLX_TRY(clast_grain_measure_clump(&spheres, &grain));
     CLX_TRY(clx_grains_add(task, "", &record));
     record->kind = CLAST_GRAINS_CLUMP;
     record->in_metres = unit_m > 0.0;
+    record->mixes_units = mixes_units;
     record->unit_m = unit_m;
     record->grain = grain;
 done:

@@ -65,6 +65,7 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
         record->has_surface = false;
         record->has_size = is_sieve && !isnan(set.size[i]);
         record->in_metres = mixes_units;
+        record->mixes_units = mixes_units;
         record->unit_m = unit;
         for (int a = 0; a < CLAST_N_AXES; ++a) { // whatever they are, these are the L, I, S
             clast_form_lengths(set.flatness[i], set.elongation[i],
@@ -96,7 +97,7 @@ static clast_status find_unit(const clast_grains *grains, double unit_m, bool *i
         if (r->has_size && r->unit_m > 0.0) {
             own = own != NULL ? own : r;
             other = r->in_metres || r->unit_m != own->unit_m ? r : other;
-            against = !r->in_metres && r->unit_m != unit_m ? r : against;
+            against = r->mixes_units || r->unit_m != unit_m ? r : against;
         } else if (r->has_size) {
             none = r;
         }
@@ -105,6 +106,11 @@ static clast_status find_unit(const clast_grains *grains, double unit_m, bool *i
               "%s says a unit of length that others do not share, and %s says none: give that with "
               "--unit",
               other->name, none->name);
+    CLX_CHECK(unit_m <= 0.0 || none != NULL || against == NULL || !against->mixes_units,
+              CLAST_E_CONFIG,
+              "%s says a unit of length for each column, and --unit another, %g m, that no file "
+              "needs: leave out --unit",
+              against->name, unit_m);
     CLX_CHECK(unit_m <= 0.0 || none != NULL || against == NULL, CLAST_E_CONFIG,
               "%s says its unit of length, %g m, and --unit another, %g m, that no file needs: "
               "leave out --unit",
@@ -128,7 +134,7 @@ clast_status clast_grains_to_metres(clast_grains *grains, double unit_m, bool *i
     CLX_TRY(find_unit(grains, unit_m, &is_known));
     for (int64_t i = 0; i < grains->n && is_known; ++i) {
         clast_grain_record *record = &grains->record[i];
-        if (record->has_size) {
+        if (record->has_size && !record->in_metres) {
             clast_grain_scale(&record->grain, record->unit_m > 0.0 ? record->unit_m : unit_m);
         }
         record->unit_m = 1.0;

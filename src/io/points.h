@@ -75,6 +75,10 @@ clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
                                 const clast_csv_options *options, int64_t first_line,
                                 clast_table *table);
 
+/// clast_table_read_csv, and the same rows with the cells of all columns as they are written.
+CLX_SHARED clast_status clx_csv_read_texts(const char *path, clast_table *table,
+                                           clast_table *texts);
+
 /// Adds an array value [n_row][width] as columns: `name` for one number, name_x .. for two or
 /// three, name_0 .. for more; plain x, y, z for the name "". A name that is taken gets "_2", "_3",
 /// ...

@@ -1,7 +1,7 @@
 // Columns of a cloud of points under names of their own.
 #include "io/points.h"
 
-#include "base/status.h"
+#include "base/column_unit.h"
 #include <clast/table.h>
 #include <stdio.h>
 
@@ -37,7 +37,7 @@ clast_status clx_points_add(clast_table *table, const char *name, int64_t width,
             (void)snprintf(wanted, sizeof wanted, "%.200s_%lld", name, (long long)k);
         }
         free_name(table, wanted, taken);
-        CLX_TRY(clast_table_add_number(table, taken, "-", &column));
+        CLX_TRY(clx_table_add_said(table, taken, name, &column));
         for (int64_t i = 0; i < table->n_row; ++i) {
             column[i] = value[i * width + k];
         }

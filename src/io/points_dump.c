@@ -2,6 +2,7 @@
 #include "io/points.h"
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "io/text.h"
 #include <clast/table.h>
 #include <ctype.h>
@@ -242,7 +243,7 @@ static clast_status add_columns(const dump *d, clast_table *table, bool is_text[
                       d->n_atom, n);
             CLX_CHECK(clast_table_find(table, name) < 0, CLAST_E_FORMAT,
                       "%s: two columns are named '%s'", d->name, name);
-            CLX_TRY(clast_table_add_number(table, name, "-", &column));
+            CLX_TRY(clx_table_add_said(table, name, name, &column));
         }
     }
 done:

@@ -283,6 +283,21 @@ done:
     return status;
 }
 
+/// Nodes of a structured grid along its axes: cells join them where there are two along two.
+static void read_dimensions(vtk *v)
+{
+    clx_word word;
+    int64_t n = 0;
+    int n_wide = 0;
+    while (clx_text_word(&v->text, &word)) {
+        n_wide += clx_word_integer(word, &n) && n > 1 ? 1 : 0;
+    }
+    if (v->has_faces != NULL) {
+        *v->has_faces = *v->has_faces || n_wide > 1;
+    }
+    (void)clx_text_next_line(&v->text);
+}
+
 static clast_status skip_colours(vtk *v)
 {
     clast_status status = CLAST_OK;
@@ -319,8 +334,7 @@ static clast_status read_section(vtk *v, clx_word word)
 {
     static const char *const cells[] = {"vertices", "lines", "cells", NULL};
     static const char *const faces[] = {"polygons", "triangle_strips", NULL};
-    static const char *const axes[] = {"dimensions", "metadata", "information",
-                                       "data",       "dataset",  NULL};
+    static const char *const rest[] = {"metadata", "information", "data", "dataset", NULL};
     char shown[CLX_WORD_SHOWN];
     if (clx_word_is(word, "points")) {
         return read_points(v);
@@ -358,7 +372,11 @@ static clast_status read_section(vtk *v, clx_word word)
     if (clx_word_is(word, "field")) {
         return read_field(v);
     }
-    if (is_one_of(word, axes)) {
+    if (clx_word_is(word, "dimensions")) {
+        read_dimensions(v);
+        return CLAST_OK;
+    }
+    if (is_one_of(word, rest)) {
         (void)clx_text_next_line(&v->text);
         return CLAST_OK;
     }

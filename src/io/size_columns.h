@@ -2,6 +2,7 @@
 // What a column of a list of sizes counts, by its name, and reading one for a purpose.
 #include "base/status.h"
 
+typedef struct clast_grading_list clast_grading_list;
 typedef struct clast_sizes clast_sizes;
 
 typedef enum clx_size_column {
@@ -26,6 +27,9 @@ typedef struct clx_sizes_columns {
     char count[128];    ///< counts or weighs the rows; "": one grain a row
     char ignored[1024]; ///< not looked at, ", " between them
 } clx_sizes_columns;
+
+/// What the list held, for those who tell it; borrows the columns' names.
+clast_grading_list clx_sizes_list(const clast_sizes *sizes, const clx_sizes_columns *columns);
 
 /// As clast_sizes_read. CLAST_E_CONFIG if the list holds masses for numbers or the other way round.
 ///

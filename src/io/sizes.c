@@ -598,6 +598,16 @@ clast_status clast_sizes_parse(const char *name, const char *text, const char *c
     return parse(&as_written, name, text, (const char *const[2]){column, unit}, NULL, sizes);
 }
 
+clast_grading_list clx_sizes_list(const clast_sizes *sizes, const clx_sizes_columns *columns)
+{
+    clast_grading_list list = {
+        .n_row = sizes->n, .column = columns->count, .ignored = columns->ignored};
+    for (int64_t i = 0; i < sizes->n; ++i) {
+        list.total += sizes->count[i];
+    }
+    return list;
+}
+
 clast_status clx_sizes_read_for(const clx_sizes_use *use, const char *path, const char *column,
                                 const char *unit, clx_sizes_columns *columns, clast_sizes *sizes)
 {

@@ -25,7 +25,7 @@ static clast_status read_csv(const char *path, clast_spheres *spheres)
     clast_status status = CLAST_OK;
     clast_table table = {0};
     CLX_TRY(clast_table_read_csv(path, NULL, &table, NULL));
-    CLX_TRY(clx_spheres_of_table(&table, NULL, spheres, NULL));
+    CLX_TRY(clx_spheres_of_table(&table, NULL, spheres, NULL, NULL));
 done:
     if (status != CLAST_OK && table.n_column > 0) { // the reader names the file itself
         clx_fail_prefix("%s", path);

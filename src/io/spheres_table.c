@@ -292,7 +292,7 @@ done:
 }
 
 clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
-                                  clast_spheres *spheres, double *unit_m)
+                                  clast_spheres *spheres, double *unit_m, bool *mixes)
 {
     clast_status status = CLAST_OK;
     columns c = {{NULL}, false};
@@ -302,8 +302,14 @@ clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_
     const clx_spheres_wanted *asked = options != NULL ? &wanted : NULL;
     CLX_TRY(find_columns(table, asked, &c));
     CLX_TRY(make_spheres(table, asked, &c, unit_m != NULL ? &in_metres : NULL, spheres));
-    if (unit_m != NULL) {
-        *unit_m = in_metres ? 1.0 : 0.0;
+    if (unit_m != NULL && mixes != NULL) {
+        double factor[N_COLUMN];
+        CLX_TRY(find_factors(&c, factor, &in_metres));
+        *mixes = false;
+        for (int k = 1; k < N_COLUMN; ++k) {
+            *mixes = *mixes || (c.column[k] != NULL && factor[k] != factor[0]);
+        }
+        *unit_m = !in_metres ? 0.0 : *mixes ? 1.0 : factor[0];
     }
 done:
     return status;

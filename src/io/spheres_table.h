@@ -20,10 +20,11 @@ bool clx_points_are_named(const clast_table *table);
 /// The spheres of a table: by the options, by the columns' names, or by place.
 ///
 /// @param options  NULL: the first four columns are x, y, z, radius when none has such a name
-/// @param unit_m   1 when the lengths are now in metres (all columns say their unit), 0 when they
-///                 are as in the table; NULL: as in the table whatever their unit
+/// @param unit_m   metres in the columns' unit when all of them say one (1: in several, of which
+///                 `mixes` tells): the lengths are then in metres; 0 when they are as in the table;
+///                 NULL, as `mixes`: as in the table whatever their unit
 clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
-                                  clast_spheres *spheres, double *unit_m);
+                                  clast_spheres *spheres, double *unit_m, bool *mixes);
 
 /// What is asked of a table of spheres, and by whom.
 typedef struct clx_spheres_wanted {

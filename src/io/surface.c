@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "base/path.h"
 #include "base/status.h"
+#include "geom/check.h"
 #include "geom/whole.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
@@ -122,7 +123,8 @@ done:
 }
 
 /// "76 open edges, 1 part inside out": what is there of these.
-static void list_faults(const clast_mesh_check_result *found, char *text, size_t size)
+static void list_faults(const clast_mesh_check_result *found, int32_t n_flat, char *text,
+                        size_t size)
 {
     const struct {
         int32_t n;
@@ -132,7 +134,8 @@ static void list_faults(const clast_mesh_check_result *found, char *text, size_t
                   "edges of more than two triangles"},
                  {found->n_misoriented_edge, "edge between facets that face opposite ways",
                   "edges between facets that face opposite ways"},
-                 {found->n_inside_out, "part inside out", "parts inside out"}};
+                 {found->n_inside_out, "part inside out", "parts inside out"},
+                 {n_flat, "part without volume", "parts without volume"}};
     size_t n = 0;
     text[0] = '\0';
     for (size_t i = 0; i < sizeof fault / sizeof fault[0] && n < size; ++i) {
@@ -153,13 +156,14 @@ clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
     char cure[400];
     char faults[200];
     CLX_TRY(clast_mesh_check(mesh, &found));
-    if (found.closed && found.oriented) {
+    const int32_t n_flat = clx_count_flat(&found);
+    if (found.closed && found.oriented && n_flat == 0) {
         goto done;
     }
     CLX_CHECK(found.hull_volume > 0.0, CLAST_E_GEOMETRY,
               "%s is flat: its %d vertices lie in one plane, and what has no thickness is no solid",
               path, found.n_vertex);
-    list_faults(&found, faults, sizeof faults);
+    list_faults(&found, n_flat, faults, sizeof faults);
     CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
     status = clx_fail(
         CLAST_E_GEOMETRY, "%s is not a closed, outward surface: %s; %s%s%s%s", path, faults,

@@ -80,8 +80,8 @@ static uint32_t drives_of(const clx_wall_stage *s, int32_t wall)
     return drives;
 }
 
-/// Stages that do with the container what they do not with the floor; a servo, or one direction
-/// each, would part the two.
+/// Stages that do with one of the two what they do not with the other; a servo, or one direction
+/// each, would part them.
 static clast_status check_stages(const clast_pack_config *c, const clast_pack_input *input,
                                  int32_t container, int32_t floor)
 {
@@ -91,33 +91,39 @@ static clast_status check_stages(const clast_pack_config *c, const clast_pack_in
         clx_wall_stage s = {.n = 0};
         CLX_TRY(clx_wall_stage_read(c, i, input, &s));
         const uint32_t drives = drives_of(&s, container);
-        const bool is_one =
-            drives == 0 || (drives == drives_of(&s, floor) && (drives & ~as_one) == 0);
+        const bool is_one = drives == drives_of(&s, floor) && (drives & ~as_one) == 0;
         CLX_TRY(is_one ? CLAST_OK
-                       : fail("stage", &c->stages, i, "let the floor move or open with it"));
+                       : fail("stage", &c->stages, i,
+                              drives == 0 ? "let the container move or open with it"
+                                          : "let the floor move or open with it"));
     }
 done:
     return status;
 }
 
-/// A container that moves or opens with the floor in the place of its bottom does so with it; the
-/// floor of one at rest may move, as a piston.
+/// A container with the floor in the place of its bottom and that floor move and open as one:
+/// neither of the two at rest can hold what the other does.
 static clast_status check_wall(const clast_pack_config *c, const clast_pack_input *input)
 {
     clast_status status = CLAST_OK;
     const int32_t container = find_name(&c->wall, 1, "container");
     const int32_t floor = find_name(&c->wall, 1, "floor");
-    clx_wall_words words[3] = {{.idle = NULL}, {.idle = NULL}, {.idle = NULL}}; // the last: at rest
-    if (container < 0) {
-        return CLAST_OK;
+    clx_wall_words words[2] = {{.idle = NULL}, {.idle = NULL}}; // at rest
+    if (container >= 0) {
+        CLX_TRY(clx_wall_read(c, container, &words[0]));
     }
-    CLX_TRY(clx_wall_read(c, container, &words[0]));
     if (floor >= 0) {
         CLX_TRY(clx_wall_read(c, floor, &words[1]));
     }
-    CLX_TRY(floor >= 0 && (moves_alike(&words[0], &words[1]) || moves_alike(&words[0], &words[2]))
-                ? CLAST_OK
-                : fail("wall", &c->wall, container, "give the floor the same motion, too"));
+    if (container >= 0) { // whose forces are without the floor's
+        CLX_TRY(floor >= 0 && moves_alike(&words[0], &words[1])
+                    ? CLAST_OK
+                    : fail("wall", &c->wall, container, "give the floor the same motion, too"));
+    } else if (floor >= 0) {
+        CLX_TRY(moves_alike(&words[0], &words[1])
+                    ? CLAST_OK
+                    : fail("wall", &c->wall, floor, "give the container the same motion, too"));
+    }
     CLX_TRY(check_stages(c, input, container, floor));
 done:
     return status;

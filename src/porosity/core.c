@@ -18,7 +18,7 @@
 #include <clast/mesh.h>
 #include <clast/shape.h>
 
-enum { POINTS = 512, BLOCK = 32 };
+enum { POINTS = 512, BLOCK = 32, BED_POINTS = 20000 };
 
 static const double TOUCH = 1e-3; ///< of a grain's reach: so far it passes a wall unseen
 
@@ -43,14 +43,15 @@ clast_bed_walls clast_bed_side_walls(const clast_bed *bed, const clast_assembly 
         size += v * cbrt(6.0 / CLAST_PI * v);
     }
     walls.size = size / volume;
-    if (bed->kind == CLAST_BED_CYLINDER) {
+    double period[3];
+    if (bed->is_part || clast_bed_period(bed, period)) {
+        walls.radius = HUGE_VAL;
+    } else if (bed->kind == CLAST_BED_CYLINDER) {
         walls.radius = bed->radius;
     } else if (bed->kind == CLAST_BED_BOX) {
         const double x = bed->high[0] - bed->low[0];
         const double y = bed->high[1] - bed->low[1];
         walls.radius = x * y / (x + y);
-    } else if (bed->kind != CLAST_BED_MESH) {
-        walls.radius = HUGE_VAL;
     }
     walls.ratio = walls.radius / walls.size;
     return walls;
@@ -94,9 +95,9 @@ typedef struct {
 } beyond_search;
 
 /// Distance of a point from the nearest side [m], below 0 outside.
-static double inside_by(const beyond_search *s, const double x[3])
+static double inside_by(const clast_bed *bed, clast_bvh *surface, const double x[3])
 {
-    return s->surface != NULL ? -clast_bvh_signed_distance(s->surface, x) : distance(s->bed, x);
+    return surface != NULL ? -clast_bvh_signed_distance(surface, x) : distance(bed, x);
 }
 
 static void find_beyond(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -105,17 +106,21 @@ static void find_beyond(int64_t begin, int64_t end, int32_t worker, void *contex
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const clx_touch_body body = body_of(s->assembly, s->set, s->method, (int32_t)i);
-        const double inside = inside_by(s, body.position);
-        double cube[3] = {0.5, 0.5, 0.5};
+        const double inside = inside_by(s->bed, s->surface, body.position);
+        double cube[3];
         double x[3];
         int32_t n = 0;
         int32_t n_beyond = 0;
+        // Grains that a part's side cuts alike have other points each, or their errors add up. A
+        // contact's overlap with a wall has none of the same ones.
+        clx_lattice_begin(s->bed->is_part ? POINTS * i : 0, cube);
         for (int32_t tried = 0;
              inside < (1.0 - TOUCH) * body.radius && n < POINTS && tried < 1000 * POINTS; ++tried) {
             clx_lattice_step(cube);
             if (clx_body_draw(&body, cube, x)) {
                 ++n;
-                const double by = x[2] >= s->z[0] && x[2] <= s->z[1] ? -inside_by(s, x) : 0.0;
+                const double by =
+                    x[2] >= s->z[0] && x[2] <= s->z[1] ? -inside_by(s->bed, s->surface, x) : 0.0;
                 n_beyond += by > 0.0 ? 1 : 0;
                 s->depth[i] = fmax(s->depth[i], by);
             }
@@ -198,6 +203,67 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
 done:
     clx_free(s.share);
     clx_free(s.depth);
+    return status;
+}
+
+/// Bounds of a bed between two heights; a surface's are its own, too.
+static void bed_bounds(const clast_bed *bed, const double z[2], double low[3], double high[3])
+{
+    for (int k = 0; k < 2; ++k) {
+        const bool is_round = bed->kind == CLAST_BED_CYLINDER;
+        low[k] = is_round ? bed->centre[k] - bed->radius : bed->low[k];
+        high[k] = is_round ? bed->centre[k] + bed->radius : bed->high[k];
+    }
+    low[2] = z[0];
+    high[2] = z[1];
+    if (bed->kind == CLAST_BED_MESH) {
+        double least[3];
+        double most[3];
+        clast_mesh_bounds(bed->surface, least, most);
+        low[2] = fmax(low[2], least[2]);
+        high[2] = fmin(high[2], most[2]);
+    }
+}
+
+clast_status clast_bed_outside(const clast_bed *bed, const clast_bed *own, const double z[2],
+                               double *share)
+{
+    CLX_ARGUMENTS(bed, own, z, share);
+    CLX_WHOLE(bed, bed);
+    CLX_WHOLE(bed, own);
+    clast_status status = CLAST_OK;
+    const clast_bed *beds[2] = {bed, own};
+    clast_bvh *surface[2] = {NULL, NULL};
+    double low[2][3];
+    double high[2][3];
+    double cube[3];
+    int32_t n = 0;
+    int32_t n_outside = 0;
+    CLX_CHECK(z[1] > z[0], CLAST_E_USAGE, "no height between %g and %g", z[0], z[1]);
+    for (int b = 0; b < 2; ++b) {
+        bed_bounds(beds[b], z, low[b], high[b]);
+        if (beds[b]->kind == CLAST_BED_MESH) {
+            CLX_TRY(clast_bvh_create(beds[b]->surface, &surface[b]));
+        }
+    }
+    low[0][2] = fmax(low[0][2], low[1][2]);
+    high[0][2] = fmin(high[0][2], high[1][2]);
+    clx_lattice_begin(0, cube);
+    for (int32_t k = 0; k < BED_POINTS && high[0][2] > low[0][2]; ++k) {
+        double x[3];
+        clx_lattice_step(cube);
+        for (int i = 0; i < 3; ++i) {
+            x[i] = low[0][i] + cube[i] * (high[0][i] - low[0][i]);
+        }
+        if (inside_by(bed, surface[0], x) >= 0.0) {
+            ++n;
+            n_outside += inside_by(own, surface[1], x) < 0.0 ? 1 : 0;
+        }
+    }
+    *share = n > 0 ? (double)n_outside / n : 0.0;
+done:
+    clast_bvh_destroy(surface[0]);
+    clast_bvh_destroy(surface[1]);
     return status;
 }
 
@@ -311,6 +377,8 @@ clast_status clast_porosity_core_measure(const clast_assembly *assembly, const c
               "from its side (cylinder and box have)");
     CLX_CHECK(!clast_bed_period(bed, period), CLAST_E_USAGE,
               "a bed that is periodic in x and y has no side walls, so no core apart from them");
+    CLX_CHECK(!bed->is_part, CLAST_E_USAGE,
+              "a part of a packing has no side walls, so no core apart from them");
     CLX_CHECK(assembly->n_grain > 0 && bulk->z_high > bulk->z_low, CLAST_E_USAGE,
               "no grain to measure between %g and %g", bulk->z_low, bulk->z_high);
     const clast_bed_walls walls = clast_bed_side_walls(bed, assembly);

@@ -298,6 +298,7 @@ static bool is_listed(const char *list, const char *name)
     const char *at = list;
     while (at != NULL) {
         at += *at == ',' ? 1 : 0;
+        at += strspn(at, " ");
         const char *next = strchr(at, ',');
         const size_t length = next != NULL ? (size_t)(next - at) : strlen(at);
         if (length == n && strncmp(at, name, n) == 0) {
@@ -314,6 +315,7 @@ static clast_status check_list(const clast_table *beds, const char *list)
     clast_status status = CLAST_OK;
     for (const char *at = list; at != NULL && *at != '\0';) {
         char name[256];
+        at += strspn(at, " ");
         const char *next = strchr(at, ',');
         (void)snprintf(name, sizeof name, "%.*s", next != NULL ? (int)(next - at) : (int)strlen(at),
                        at);

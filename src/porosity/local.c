@@ -16,7 +16,7 @@
 #include <clast/shape.h>
 #include <stdlib.h>
 
-enum { SIDES = 96, BLOCK = 32 };
+enum { SIDES = 96, BLOCK = 32, ROUND = -7 }; ///< mark of a cylinder's sides; a box's: -1 to -6
 
 /// Spheres inside the bed on a grid, and what their cells are.
 typedef struct {
@@ -35,7 +35,8 @@ typedef struct {
     int32_t *item;  ///< [n] spheres by grid cell
     int n_period;   ///< directions that repeat: 0, 2 or 3
     double period[3];
-    double *volume, *n_face, *border; ///< results [n]
+    const double *own;                           ///< [n] volume of each grain
+    double *volume, *porosity, *n_face, *border; ///< results [n]; volume of the cell
 } diagram;
 
 static void diagram_free(diagram *d)
@@ -210,7 +211,7 @@ static clast_status round_wall(const diagram *d, int32_t i, clx_cell *cell)
         const double normal[3] = {cos(angle), sin(angle), 0.0};
         const double offset = a - normal[0] * (d->centre[i][0] - d->bed->centre[0]) -
                               normal[1] * (d->centre[i][1] - d->bed->centre[1]);
-        CLX_TRY(clx_cell_cut(cell, normal, offset, -7));
+        CLX_TRY(clx_cell_cut(cell, normal, offset, ROUND));
     }
 done:
     return status;
@@ -317,6 +318,12 @@ done:
     return status;
 }
 
+/// Whether a wall's mark is of a side that cuts the cell but not the grain.
+static bool is_cut(const diagram *d, int32_t mark)
+{
+    return d->bed->is_part && (mark == ROUND || mark >= -4);
+}
+
 static clast_status make_cells(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_status status = CLAST_OK;
@@ -327,12 +334,14 @@ static clast_status make_cells(int64_t begin, int64_t end, int32_t worker, void 
     for (int64_t i = begin; i < end; ++i) {
         CLX_TRY(make_cell(d, (int32_t)i, cell));
         d->volume[i] = clx_cell_volume(cell);
+        d->porosity[i] = d->volume[i] > 0.0 ? 1.0 - d->own[i] / d->volume[i] : (double)NAN;
         d->n_face[i] = cell->n_face;
         d->border[i] = 0.0;
         for (int32_t f = 0; f < cell->n_face; ++f) {
             const int32_t mark = cell->face[f].mark;
             if (mark < -2 * d->n_period) {
                 d->border[i] = 1.0;
+                d->porosity[i] = is_cut(d, mark) ? (double)NAN : d->porosity[i];
             }
         }
     }
@@ -358,6 +367,8 @@ static clast_status make_columns(const clast_assembly *assembly, diagram *d, cla
         table->column[2].number[i] = s * s * s * assembly->shape[assembly->shape_id[grain]].volume;
     }
     d->volume = table->column[1].number;
+    d->own = table->column[2].number;
+    d->porosity = table->column[3].number;
     d->n_face = table->column[4].number;
     d->border = table->column[5].number;
 done:
@@ -387,10 +398,6 @@ clast_status clast_porosity_local(const clast_assembly *assembly, const clast_be
     CLX_TRY(clast_table_init(&made, "local", d.n));
     CLX_TRY(make_columns(assembly, &d, &made));
     CLX_TRY(clx_parallel_try(d.n, BLOCK, make_cells, &d));
-    for (int32_t i = 0; i < d.n; ++i) {
-        made.column[3].number[i] =
-            d.volume[i] > 0.0 ? 1.0 - made.column[2].number[i] / d.volume[i] : (double)NAN;
-    }
     *table = made;
     made = (clast_table){0};
 done:

@@ -173,9 +173,9 @@ static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
     const int32_t n_bench = clx_parallel_workers();
     gathering g = {.assembly = assembly, .method = options->method, .n_slice = n, .edge = edge};
     double period[3];
-    const bool is_window = !clast_bed_period(bed, period) && options->window;
+    (void)clast_bed_period(bed, period);
     g.period = period[2];
-    if (is_window) {
+    if (bed->is_part) {
         CLX_TRY(clx_alloc(&g.beyond, assembly->n_grain, sizeof *g.beyond));
         CLX_TRY(clx_bed_shares_beyond(bed, assembly, options->method, g.beyond));
     }
@@ -184,7 +184,7 @@ static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
     for (int32_t k = 0; k < n_bench; ++k) {
         CLX_TRY(clx_alloc(&g.bench[k].solid, n, sizeof *g.bench[k].solid));
         CLX_TRY(clx_alloc(&g.bench[k].shifted, n + 1LL, sizeof *g.bench[k].shifted));
-        CLX_TRY(clx_alloc(&g.bench[k].whole, is_window ? n : 0, sizeof *g.bench[k].whole));
+        CLX_TRY(clx_alloc(&g.bench[k].whole, bed->is_part ? n : 0, sizeof *g.bench[k].whole));
     }
     for (g.first = 0; g.first < n_block; g.first += most) {
         g.n_block = n_block - g.first < most ? n_block - g.first : most;
@@ -355,7 +355,7 @@ static clast_status find_top(const clast_assembly *assembly, const clast_bed *be
                             strcmp(assembly->unit, "m") == 0 ? "m" : "-"),
               options->cut);
     *top = high[k];
-    if (options->cut >= 1.0 && options->window) {
+    if (options->cut >= 1.0 && bed->is_part) {
         return CLAST_OK; // the highest grain may lie beyond the sides
     }
     if (!options->at_slice && options->cut >= 1.0) {

@@ -24,10 +24,10 @@ static void add_point(const rings *r, const double x[3], double volume)
 {
     const double rho = hypot(x[0] - r->bed->centre[0], x[1] - r->bed->centre[1]);
     const double k = floor(rho / r->step);
-    if (x[2] < r->z_low || x[2] > r->z_high) {
+    if (x[2] < r->z_low || x[2] > r->z_high || (r->bed->is_part && rho > r->bed->radius)) {
         return;
     }
-    // What pokes through the wall counts in the last ring.
+    // What pokes through a wall counts in the last ring.
     const int32_t ring = k < r->n_ring ? (int32_t)k : r->n_ring - 1;
     r->solid[ring] += volume;
     r->error[ring] += volume * volume;

@@ -91,6 +91,14 @@ done:
     return status;
 }
 
+/// Of a part of a packing no stress follows from all contacts.
+static clast_status check_whole(const clast_bed *bed)
+{
+    return bed->is_part ? clx_fail(CLAST_E_USAGE, "stress of a part of a packing: contacts are "
+                                                  "those of all grains")
+                        : CLAST_OK;
+}
+
 static clast_status add_row(clast_table *table, int64_t row, const char *name, double value,
                             const char *unit, const char *meaning)
 {
@@ -136,6 +144,7 @@ clast_status clast_stress(const clast_table *table, const clast_bed *bed, const 
     double volume = 0.0;
     double period[3];
     (void)clast_bed_period(bed, period);
+    CLX_TRY(check_whole(bed));
     CLX_TRY(clx_contacts_read(table, &c));
     clast_bed_volumes(bed, 1, z, &volume);
     CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %s and %s",
@@ -178,6 +187,7 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
     const double *low = clast_table_numbers(profile, "z_low_m");
     const double *high = clast_table_numbers(profile, "z_high_m");
     (void)clast_bed_period(bed, period);
+    CLX_TRY(check_whole(bed));
     CLX_CHECK(n > 0 && n < INT32_MAX && low != NULL && high != NULL, CLAST_E_USAGE,
               "the table is no porosity profile");
     CLX_TRY(clx_contacts_read(table, &c));

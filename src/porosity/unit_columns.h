@@ -11,9 +11,9 @@ typedef struct clx_unit_columns {
 } clx_unit_columns;
 
 /// An empty cell, na or nan, is NaN. A column without any unit stays a text.
-CLX_SHARED clast_status clx_unit_columns_read(const clast_table *from, clx_unit_columns *columns);
+clast_status clx_unit_columns_read(const clast_table *from, clx_unit_columns *columns);
 
 /// SI unit of the column's numbers, "-" for none or for one that its name ends in (d50_mm, "d50
 /// (mm)"): it is the same wherever the name is.
 const char *clx_own_unit(const clast_column *column);
-CLX_SHARED void clx_unit_columns_free(clx_unit_columns *columns);
+void clx_unit_columns_free(clx_unit_columns *columns);

@@ -15,6 +15,9 @@ const char *clx_bed_fault(const clast_bed *bed)
     if ((unsigned)bed->kind > CLAST_BED_PERIODIC_3D) {
         return "its kind is unknown";
     }
+    if (bed->is_part && (bed->kind == CLAST_BED_PERIODIC || bed->kind == CLAST_BED_PERIODIC_3D)) {
+        return "it is periodic, which has no sides to be a part of a packing by";
+    }
     if (bed->kind == CLAST_BED_CYLINDER) {
         return isfinite(bed->centre[0] + bed->centre[1]) && bed->radius >= 0.0 &&
                        isfinite(bed->radius) && isfinite(bed->floor)

@@ -5,45 +5,45 @@
 #include "base/number.h"
 #include "report/page.h"
 #include <clast/field.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/// Unit as a page shows it, where there is but one of its kind: "kg/m^3" -> "kg/m³", "-" -> "".
-static const char *plain_unit(const char *si_unit)
+/// -12 as superscript digits.
+static void raise_digits(int power, char out[32])
 {
-    static const char *const units[][2] = {{"-", ""},
-                                           {"kg/m^3", "kg/m\302\263"},
-                                           {"m/s^2", "m/s\302\262"},
-                                           {"J/m^2", "J/m\302\262"},
-                                           {"J/m^3", "J/m\302\263"},
-                                           {"model units^2", "model units\302\262"},
-                                           {"model units^3", "model units\302\263"},
-                                           {"1/m^2", "1/m\302\262"},
-                                           {"1/m^3", "1/m\302\263"},
-                                           {"m^2", "m\302\262"},
-                                           {"mm^2", "mm\302\262"},
-                                           {"um^2", "\302\265m\302\262"},
-                                           {"nm^2", "nm\302\262"},
-                                           {"m^3", "m\302\263"},
-                                           {"cm^3", "cm\302\263"},
-                                           {"mm^3", "mm\302\263"},
-                                           {"um^3", "\302\265m\302\263"},
-                                           {"nm^3", "nm\302\263"},
-                                           {"deg", "\302\260"},
-                                           {"um", "\302\265m"},
-                                           {"ug", "\302\265g"},
-                                           {"us", "\302\265s"},
-                                           {"um/s", "\302\265m/s"},
-                                           {"uJ", "\302\265J"},
-                                           {"uN", "\302\265N"},
-                                           {"uPa s", "\302\265Pa s"}};
-    for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
-        if (strcmp(units[k][0], si_unit) == 0) {
-            return units[k][1];
-        }
+    static const char *const digit[] = {
+        "\342\201\260", "\302\271",     "\302\262",     "\302\263",     "\342\201\264",
+        "\342\201\265", "\342\201\266", "\342\201\267", "\342\201\270", "\342\201\271"};
+    char plain[16];
+    out[0] = '\0';
+    (void)snprintf(plain, sizeof plain, "%d", power);
+    for (const char *c = plain; *c != '\0'; ++c) {
+        const size_t used = strlen(out);
+        (void)snprintf(out + used, 32 - used, "%s", *c == '-' ? "\342\201\273" : digit[*c - '0']);
     }
-    return si_unit;
+}
+
+void clx_quantity_show_unit(const char *si_unit, char out[CLX_UNIT_SIZE])
+{
+    const bool is_micro = si_unit[0] == 'u' && strspn(si_unit + 1, "mgsJNP") > 0;
+    const char *at = strcmp(si_unit, "-") == 0 ? "" : si_unit;
+    if (strcmp(si_unit, "deg") == 0) {
+        at = "\302\260";
+    }
+    size_t n = (size_t)snprintf(out, CLX_UNIT_SIZE, "%s", is_micro ? "\302\265" : "");
+    at += is_micro ? 1 : 0;
+    while (*at != '\0' && n + 8 < CLX_UNIT_SIZE) {
+        char raised[32] = "";
+        if (at[0] == '^' && isdigit((unsigned char)at[1])) {
+            raise_digits(at[1] - '0', raised);
+        }
+        const bool is_raised = raised[0] != '\0';
+        n += (size_t)snprintf(out + n, CLX_UNIT_SIZE - n, "%.*s", is_raised ? 32 : 1,
+                              is_raised ? raised : at);
+        at += is_raised ? 2 : 1;
+    }
 }
 
 const char *clx_quantity_model_unit(const char *si_unit)
@@ -64,22 +64,9 @@ clx_quantity_scale clx_quantity_scale_for(double value, const char *si_unit)
 {
     double factor = 1.0;
     const char *name = clast_unit_for(value, si_unit, &factor);
-    return (clx_quantity_scale){factor, plain_unit(name), strcmp(si_unit, "m") == 0};
-}
-
-/// -12 as superscript digits.
-static void raise_digits(int power, char out[32])
-{
-    static const char *const digit[] = {
-        "\342\201\260", "\302\271",     "\302\262",     "\302\263",     "\342\201\264",
-        "\342\201\265", "\342\201\266", "\342\201\267", "\342\201\270", "\342\201\271"};
-    char plain[16];
-    out[0] = '\0';
-    (void)snprintf(plain, sizeof plain, "%d", power);
-    for (const char *c = plain; *c != '\0'; ++c) {
-        const size_t used = strlen(out);
-        (void)snprintf(out + used, 32 - used, "%s", *c == '-' ? "\342\201\273" : digit[*c - '0']);
-    }
+    clx_quantity_scale scale = {.factor = factor, .has_floor = strcmp(si_unit, "m") == 0};
+    clx_quantity_show_unit(name, scale.name);
+    return scale;
 }
 
 void clx_quantity_format(double value, const clx_quantity_scale *scale,
@@ -112,6 +99,7 @@ void clx_quantity_put(clx_file *file, double value, const char *si_unit)
 void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, double like)
 {
     char text[CLX_QUANTITY_SIZE];
+    char unit[CLX_UNIT_SIZE];
     if (!isfinite(value)) {
         (void)clx_file_print(file, "<span title=\"%s\">\342\200\223</span>",
                              isnan(value) ? "not known" : "infinite");
@@ -124,8 +112,9 @@ void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, do
         scale = value != 0.0 && fabs(value) * own.factor < 1e-3 ? own : scale;
     }
     clx_quantity_format(value, &scale, text);
+    clx_quantity_show_unit(si_unit, unit);
     (void)clx_file_print(file, "<span title=\"%.17g ", value);
-    clx_page_text(file, plain_unit(si_unit));
+    clx_page_text(file, unit);
     (void)clx_file_print(file, "\">");
     clx_page_text(file, text);
     if (scale.name[0] != '\0') {

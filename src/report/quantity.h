@@ -4,7 +4,7 @@
 
 typedef struct clx_file clx_file;
 
-enum { CLX_QUANTITY_SIZE = 128 };
+enum { CLX_QUANTITY_SIZE = 128, CLX_UNIT_SIZE = 64 };
 
 #define CLX_MODEL_UNITS "model units:"
 
@@ -31,10 +31,13 @@ bool clx_quantity_names_unit(const char *key);
 /// "model units^3"; others as they are.
 const char *clx_quantity_model_unit(const char *si_unit);
 
+/// Unit as a page shows it: "kg/m^3" -> "kg/m³", "um" -> "µm", "-" -> "".
+void clx_quantity_show_unit(const char *si_unit, char out[CLX_UNIT_SIZE]);
+
 /// A unit to show, and how many of them are one SI unit.
 typedef struct clx_quantity_scale {
     double factor;
-    const char *name;
+    char name[CLX_UNIT_SIZE];
     bool has_floor; ///< values below a thousandth are rounding errors, not quantities
 } clx_quantity_scale;
 

@@ -258,10 +258,12 @@ void clx_quantity_put_label(clx_file *file, const char *key, const char *place)
 
 void clx_quantity_put_name(clx_file *file, const char *key)
 {
+    char unit[CLX_UNIT_SIZE];
     clx_quantity_put_label(file, key, NULL);
     if (clx_quantity_names_unit(key)) {
+        clx_quantity_show_unit(clx_quantity_of(key, NULL).unit, unit);
         (void)clx_file_print(file, " (");
-        clx_page_text(file, clx_quantity_of(key, NULL).unit);
+        clx_page_text(file, unit);
         (void)clx_file_print(file, ")");
     }
 }

@@ -30,21 +30,13 @@ static const json_t *bound_of(const json_t *summary, const char *key)
     return json_is_false(json_object_get(summary, "resolved")) && json_is_number(low) ? low : NULL;
 }
 
-/// Whether a bulk porosity is of a part of the packing: of a bed that does not hold its grains, of
-/// which more than 1 % of the solid lies outside, only what is inside counts.
-static bool is_of_part(const json_t *summary)
-{
-    const double beyond = json_number_value(json_object_get(summary, "solid_beyond"));
-    return beyond > 0.01 * json_number_value(json_object_get(summary, "solid"));
-}
-
 /// What the command's own words say against a large number, or NULL.
 static const char *doubt_of(const json_t *summary, const char *key)
 {
     if (bound_of(summary, key) != NULL) {
         return "not resolved";
     }
-    if (strcmp(key, "bulk") == 0 && is_of_part(summary)) {
+    if (strcmp(key, "bulk") == 0 && json_is_true(json_object_get(summary, "is_part"))) {
         return "of a part of the packing";
     }
     const bool fell = json_is_true(json_object_get(summary, "shaken_while_falling"));

@@ -1,4 +1,5 @@
-// manifest.json: version, command line, configuration, seed, inputs' digests, host and times.
+// manifest.json: version and commit, command line, configuration, seed, inputs' digests, host and
+// times.
 #include <clast/run_folder.h>
 
 #include "base/alloc.h"
@@ -370,6 +371,7 @@ clast_status clast_manifest_write(const clast_manifest *manifest, const char *ou
     CLX_TRY(clx_file_begin(path, &file));
     (void)clx_file_print(&file, "{\n  \"format\": \"clast manifest\"");
     put_text(&file, "clast_version", clast_version());
+    put_text(&file, "clast_source", clast_source());
     put_text(&file, "command", manifest->command);
     put_texts(&file, "command_line", manifest->argc, manifest->argv);
     put_text(&file, "outcome", outcome);

@@ -4,6 +4,8 @@
 #include <clast/run_folder.h>
 #include <jansson.h>
 
+typedef struct clast_grading_list clast_grading_list;
+
 /// What a folder holds. Texts are borrowed from the manifest, "" where not known.
 typedef struct clx_run_state {
     bool is_run, is_study;
@@ -44,6 +46,15 @@ CLX_SHARED clast_status clx_run_folder_seal(clast_run_folder *run);
 
 /// The folder that was asked for: where the run will be once it has ended. Borrowed.
 CLX_SHARED const char *clx_run_folder_place(const clast_run_folder *run);
+
+/// Tells what the rows of a list of sizes count: the monitor in a line, and the manifest, as its
+/// note "sizes". One that holds sizes alone leaves nothing to tell.
+///
+/// @param run     NULL without a folder    @param sizes  "list:FILE", or the file
+/// @param by_mass  its column weighs the rows
+CLX_SHARED clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monitor,
+                                          const char *sizes, bool by_mass,
+                                          const clast_grading_list *list);
 
 /// Keeps in the manifest how much of the run is done (0 to 1); to be called beside a checkpoint.
 CLX_SHARED clast_status clx_run_folder_progress(clast_run_folder *run, double share);

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/folder.h"
+#include <clast/grading.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -294,6 +295,22 @@ done:
     free(file); // the system's, both
     free(folder);
     return status;
+}
+
+clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monitor,
+                               const char *sizes, bool by_mass, const clast_grading_list *list)
+{
+    char words[1536];
+    char text[sizeof words + CLX_PATH_LIMIT];
+    if (list->column[0] == '\0' && list->ignored[0] == '\0') {
+        return CLAST_OK;
+    }
+    (void)snprintf(text, sizeof text, "%s: %s", sizes,
+                   clast_grading_list_text(list, by_mass, sizeof words, words));
+    if (monitor != NULL && monitor->note != NULL) {
+        monitor->note(monitor->context, text);
+    }
+    return run != NULL ? clast_manifest_note(run->manifest, "sizes", words) : CLAST_OK;
 }
 
 static clast_status write_manifest(const clast_run_folder *run, const char *outcome)

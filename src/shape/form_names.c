@@ -1,52 +1,73 @@
 // Names of columns that a user gives: those of a form, or of anything.
 #include <clast/form.h>
 
+#include "base/field.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 static bool is_letter(char c)
 {
     return isalpha((unsigned char)c) || c == '/';
 }
 
-/// Whether it is a word of the name; a letter is one at its beginning, else a unit (time_s).
+/// Whether only a unit follows, if anything: "", " (mm)", "_mm".
+static bool is_last(const char *after)
+{
+    const char next = after[strspn(after, " _")];
+    return next == '\0' || next == '(' || next == '[' ||
+           (after[0] == '_' && clx_unit_is_known(after + 1));
+}
+
+/// Whether it is a word of the name, in whatever case; a letter is one at the beginning, and as a
+/// capital at the end (mean L), where a small one is a unit (time_s).
 static bool has_word(const char *name, const char *word)
 {
     const size_t n = strlen(word);
-    for (const char *at = strstr(name, word); at != NULL; at = strstr(at + 1, word)) {
-        if ((at == name || (n > 1 && !is_letter(at[-1]))) && !is_letter(at[n])) {
+    for (const char *at = name; *at != '\0'; ++at) {
+        const bool begins =
+            at == name || (n > 1 ? !is_letter(at[-1])
+                                 : isupper((unsigned char)*at) && strchr(" _-.", at[-1]) != NULL &&
+                                       is_last(at + 1));
+        if (begins && strncasecmp(at, word, n) == 0 && !is_letter(at[n])) {
             return true;
         }
     }
     return false;
 }
 
+/// Whether the name, which ends at a comma or with the text, has a word of the role.
+static bool has_role(const char *name, const char *const words[])
+{
+    char text[256];
+    name += strspn(name, " ");
+    (void)snprintf(text, sizeof text, "%.*s", (int)strcspn(name, ","), name);
+    bool has = false;
+    for (; *words != NULL && !has; ++words) {
+        has = has_word(text, *words);
+    }
+    return has;
+}
+
 bool clast_form_columns_named(const char *columns)
 {
-    enum { N_WORD = 16 };
-    static const char *const ratio[N_WORD] = {"flatness", "elongation", "fl", "el", "s/i", "i/l"};
-    static const char *const length[N_WORD] = {
-        "l",     "i",        "s",     "long",  "longest", "intermediate", "middle",
-        "short", "shortest", "major", "minor", "length",  "width",        "thickness"};
-    if (columns == NULL) {
+    static const char *const ratio[][4] = {{"flatness", "fl", "s/i"}, {"elongation", "el", "i/l"}};
+    static const char *const length[][6] = {{"l", "long", "longest", "major", "length"},
+                                            {"i", "intermediate", "middle", "width"},
+                                            {"s", "short", "shortest", "minor", "thickness"}};
+    int n = 1;
+    if (columns == NULL || columns[0] == '\0') {
         return true;
     }
-    const char *const second = strchr(columns, ',');
-    const char *const *word = second != NULL && strchr(second + 1, ',') != NULL ? length : ratio;
-    bool has = true;
-    for (const char *at = columns; *at != '\0' && has;) {
-        char name[256];
-        const size_t n = strcspn(at, ",");
-        (void)snprintf(name, sizeof name, "%.*s", (int)n, at);
-        for (char *x = name; *x != '\0'; ++x) {
-            *x = (char)tolower((unsigned char)*x);
-        }
-        has = false;
-        for (int k = 0; k < N_WORD && word[k] != NULL && !has; ++k) {
-            has = has_word(name, word[k]);
-        }
-        at += n + (at[n] == ',' ? 1 : 0);
+    for (const char *at = columns; *at != '\0'; ++at) {
+        n += *at == ',' ? 1 : 0;
+    }
+    bool has = n == 2 || n == 3;
+    const char *at = columns;
+    for (int k = 0; k < n && has; ++k) {
+        has = has_role(at, n == 2 ? ratio[k] : length[k]);
+        at += strcspn(at, ",") + 1;
     }
     return has;
 }

@@ -106,6 +106,7 @@ static clast_status named_roles(const clast_table *table, const char *columns, r
     int n = 0;
     for (const char *at = columns; *at != '\0';) {
         char name[256];
+        at += strspn(at, " ");
         const size_t length = strcspn(at, ",");
         CLX_CHECK(n < 3 && length < sizeof name, CLAST_E_USAGE,
                   "columns '%s': two names (flatness, elongation) or three (L, I, S) are taken",

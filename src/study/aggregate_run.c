@@ -10,11 +10,13 @@
 #include "base/queue.h"
 #include "io/config_files.h"
 #include "io/h5.h"
+#include "io/size_columns.h"
 #include "run/checkpoint.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
 #include <clast/field.h>
+#include <clast/grading.h>
 #include <clast/machine.h>
 #include <clast/report.h>
 #include <clast/state.h>
@@ -377,6 +379,19 @@ done:
     return status;
 }
 
+/// What the rows of a file of sizes count.
+static clast_status tell_list(const run *r)
+{
+    clast_status status = CLAST_OK;
+    clx_sizes_columns columns;
+    clast_grading_list list;
+    CLX_TRY(clx_aggregate_list(r->config, &columns, &list));
+    CLX_TRY(clx_run_tell_list(r->own, r->monitor, r->config->sizes, r->config->params.size_by_mass,
+                              &list));
+done:
+    return status;
+}
+
 /// Loads; rank 0 makes the first repeat, so that bad input is refused before anything is written.
 static clast_status begin(run *r, const char *folder, bool force)
 {
@@ -394,6 +409,9 @@ static clast_status begin(run *r, const char *folder, bool force)
     CLX_TRY(clast_aggregate_create(&r->config->params, &r->source.input, 0, &r->aggregate));
     if (r->has_folder) {
         CLX_TRY(note_inputs(r));
+    }
+    CLX_TRY(tell_list(r));
+    if (r->has_folder) {
         CLX_TRY(clast_run_folder_open(r->own));
     }
 done:
@@ -407,6 +425,7 @@ static clast_status begin_again(run *r)
     if (is_first(r)) {
         CLX_TRY(clx_run_folder_resume(r->folder, "aggregate", r->monitor, &r->own));
         CLX_TRY(note_inputs(r));
+        CLX_TRY(tell_list(r));
         CLX_TRY(clast_run_folder_open(r->own));
     }
 done:

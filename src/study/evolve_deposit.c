@@ -275,6 +275,7 @@ clast_status clx_evolve_write_bed(const char *folder, double width, const clast_
                              clast_table_numbers(&deposit, "mass_kg")[i], place, &bed));
         }
     }
+    result->is_bed_empty = bed.n_grain == 0;
     if (bed.n_grain > 0) {
         CLX_TRY(place_all(domain, width, &bed, result));
         CLX_TRY(clx_path_join(path, folder, "deposit.h5"));

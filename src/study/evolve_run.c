@@ -11,10 +11,12 @@
 #include "run/checkpoint.h"
 #include "run/run.h"
 #include "study/evolve_folder.h"
+#include <clast/grading.h>
 #include <clast/report.h>
 #include <clast/state.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct {
     const clast_evolve_config *config;
@@ -52,6 +54,14 @@ done:
     return status;
 }
 
+/// What the rows of a list of sizes count.
+static clast_status tell_list(const run *r)
+{
+    const clast_grading_list list = clast_grading_list_of(r->source.grading);
+    const bool by_mass = strncmp(r->config->curve, "masses:", 7) == 0;
+    return clx_run_tell_list(r->own, r->monitor, r->config->curve, by_mass, &list);
+}
+
 /// Loads all that can be wrong before anything is written.
 static clast_status prepare(run *r, bool goes_on)
 {
@@ -64,6 +74,7 @@ static clast_status prepare(run *r, bool goes_on)
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
     }
+    CLX_TRY(tell_list(r));
 done:
     return status;
 }

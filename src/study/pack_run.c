@@ -17,6 +17,7 @@
 #include "run/run.h"
 #include "study/pack_folder.h"
 #include <clast/field.h>
+#include <clast/grading.h>
 #include <clast/machine.h>
 #include <clast/status.h>
 #include <inttypes.h>
@@ -282,6 +283,14 @@ done:
     return status;
 }
 
+/// What the rows of a list of sizes count.
+static clast_status tell_list(const run *r)
+{
+    const clast_grading_list list = clast_grading_list_of(r->source.grading);
+    const bool by_mass = strncmp(r->config->curve, "masses:", 7) == 0;
+    return clx_run_tell_list(r->own, r->monitor, r->config->curve, by_mass, &list);
+}
+
 /// Loads all that can be wrong before anything is written.
 static clast_status prepare(run *r, bool goes_on)
 {
@@ -294,6 +303,9 @@ static clast_status prepare(run *r, bool goes_on)
     CLX_TRY(clx_pack_share(r->pack, r->comm));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
+    }
+    if (is_first(r)) {
+        CLX_TRY(tell_list(r));
     }
 done:
     return status;

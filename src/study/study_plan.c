@@ -5,10 +5,12 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/number.h"
-#include "porosity/unit_columns.h"
+#include "io/points.h"
 #include <clast/table.h>
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -151,17 +153,26 @@ done:
     return status;
 }
 
-/// A cell as the text that a command reads; numbers in the fewest digits that keep them.
-static clast_status cell_text(const clast_column *column, int64_t row, char out[KEY_LIMIT])
+/// Whether it is a whole number of more digits than a double always keeps.
+static bool is_long_integer(const char *text)
+{
+    const size_t n = strspn(text, "0123456789");
+    return n > 15 && text[n] == '\0';
+}
+
+/// A cell as the text that a command reads; numbers in the fewest digits that keep them, but those
+/// that a double does not keep, such as seeds, as they are `written`.
+static clast_status cell_text(const clast_column *column, int64_t row, const char *written,
+                              char out[KEY_LIMIT])
 {
     clast_status status = CLAST_OK;
-    if (column->text != NULL) {
-        CLX_CHECK(strlen(column->text[row]) < KEY_LIMIT, CLAST_E_CONFIG,
-                  "column '%s', row %lld: the text is too long", column->name, (long long)row + 1);
-        (void)snprintf(out, KEY_LIMIT, "%s", column->text[row]);
+    CLX_CHECK(strlen(written) < KEY_LIMIT, CLAST_E_CONFIG,
+              "column '%s', row %lld: the text is too long", column->name, (long long)row + 1);
+    if (column->number == NULL || is_long_integer(written)) {
+        (void)snprintf(out, KEY_LIMIT, "%s", written);
     } else {
-        CLX_CHECK(column->number[row] == column->number[row], CLAST_E_CONFIG,
-                  "column '%s', row %lld: no value", column->name, (long long)row + 1);
+        CLX_CHECK(!isnan(column->number[row]), CLAST_E_CONFIG, "column '%s', row %lld: no value",
+                  column->name, (long long)row + 1);
         (void)clx_number_format(column->number[row], out);
     }
 done:
@@ -172,9 +183,10 @@ static clast_status add_table(axes *all, const char *path)
 {
     clast_status status = CLAST_OK;
     clast_table read = {0};
+    clast_table texts = {0};
     char text[KEY_LIMIT];
     axis *to = &all->item[all->n];
-    CLX_TRY(clast_table_read_csv(path, NULL, &read, NULL));
+    CLX_TRY(clx_csv_read_texts(path, &read, &texts));
     CLX_CHECK(read.n_row > 0, CLAST_E_FORMAT,
               "%s: a header and no rows; the table of a study has a row for each run", path);
     CLX_TRY(clast_table_init(&to->values, "table", read.n_row));
@@ -183,16 +195,17 @@ static clast_status add_table(axes *all, const char *path)
         CLX_TRY(check_new_key(all, read.column[c].name));
         CLX_TRY(clast_table_add_text(&to->values, read.column[c].name));
         for (int64_t r = 0; r < read.n_row; ++r) {
-            CLX_TRY(cell_text(&read.column[c], r, text));
+            CLX_TRY(cell_text(&read.column[c], r, texts.column[c].text[r], text));
             CLX_TRY(clast_table_set_text(&to->values, c, r, text));
         }
     }
 done:
+    clast_table_free(&texts);
     clast_table_free(&read);
     return status;
 }
 
-/// A row's values as one text, to be compared: quantities in SI, so that 1g and 1000mg are one.
+/// A row's values as one text, to be compared: 1g, 1000mg and 0.001 are one, as are yes and true.
 typedef struct {
     char *text;
     int64_t row;
@@ -206,24 +219,40 @@ static int by_text(const void *a, const void *b)
     return order != 0 ? order : (x->row > y->row) - (x->row < y->row);
 }
 
+/// A value as it is compared: numbers by their digits in SI, in `number`.
+static const char *value_key(const char *text, char number[KEY_LIMIT])
+{
+    static const char *const same[][2] = {{"true", "1"},  {"yes", "1"}, {"on", "1"},
+                                          {"false", "0"}, {"no", "0"},  {"off", "0"}};
+    double value = 0.0;
+    if (is_long_integer(text)) {
+        return text + strspn(text, "0");
+    }
+    if (clx_unit_is_number(text, &value)) { // 15 digits: 0.3mm and 3e-4 may differ in the last
+        (void)clx_number_print(number, KEY_LIMIT, "%.15g", value + 0.0);
+        return number;
+    }
+    for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
+        if (strcmp(text, same[k][0]) == 0) {
+            return same[k][1];
+        }
+    }
+    return text;
+}
+
 static clast_status make_key(const clast_table *values, int64_t row, row_key *key)
 {
-    enum { NUMBER = 24 };
     clast_status status = CLAST_OK;
+    char number[KEY_LIMIT];
     size_t size = 1;
     size_t n = 0;
     for (int32_t c = 0; c < values->n_column; ++c) {
-        size += values->column[c].number != NULL ? NUMBER : strlen(values->column[c].text[row]) + 1;
+        size += strlen(value_key(values->column[c].text[row], number)) + 1;
     }
     CLX_TRY(clx_alloc(&key->text, (int64_t)size, 1));
     for (int32_t c = 0; c < values->n_column; ++c) {
-        const clast_column *column = &values->column[c];
-        char number[NUMBER];
-        if (column->number != NULL) {
-            (void)clx_number_print(number, sizeof number, "%.13g", column->number[row]);
-        }
         n += (size_t)snprintf(key->text + n, size - n, "%s\x1f",
-                              column->number != NULL ? number : column->text[row]);
+                              value_key(values->column[c].text[row], number));
     }
     key->row = row;
 done:
@@ -251,12 +280,10 @@ static clast_status check_rows(const clast_table *values)
 {
     clast_status status = CLAST_OK;
     const int64_t n = values->n_row;
-    clx_unit_columns read = {0};
     row_key *key = NULL;
-    CLX_TRY(clx_unit_columns_read(values, &read));
     CLX_TRY(clx_alloc(&key, n, sizeof *key));
     for (int64_t i = 0; i < n; ++i) {
-        CLX_TRY(make_key(&read.table, i, &key[i]));
+        CLX_TRY(make_key(values, i, &key[i]));
     }
     qsort(key, (size_t)n, sizeof *key, by_text);
     for (int64_t i = 1; i < n; ++i) {
@@ -269,7 +296,6 @@ done:
         clx_free(key[i].text);
     }
     clx_free(key);
-    clx_unit_columns_free(&read);
     return status;
 }
 

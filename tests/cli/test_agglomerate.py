@@ -161,6 +161,16 @@ class Agglomerate(Case):
         mass = 2650 * 4 / 3 * math.pi * 0.1**3
         self.assertAlmostEqual(momentum / mass, sum(row["n"] * row["u"] for row in rows_of(self.folder / "p.csv")), places=9)
 
+    def test_parcels_that_come_apart_have_no_members_and_no_exact_numbers(self):
+        """members.csv gave each parcel itself alone; the process of 800 particles was called exact for 8 parcels of 100."""
+        rng, kernel = random.Random(1), ("--domain", CUBE, "--constant", 0.02, "--json", "--weight-column", "w")
+        for weights, options, is_known, is_exact in (((1,), (), True, True), ((2,), (), True, False), ((2,), ("--self-collisions",), False, False),
+                                                     ((1, 3), (), False, False)):
+            rows, run = [[rng.random() for _ in range(3)] + [weights[k % len(weights)]] for k in range(20)], self.folder / "run"
+            r = clast("agglomerate", write(self.folder / "p.csv", ["x", "y", "z", "w"], rows), *kernel, *options, "--force", "-o", run)
+            self.assertEqual(r.code, 0, r.err)
+            self.assertEqual(((run / "members.csv").exists(), "exact" in r.json), (is_known, is_exact), (weights, options))
+
     def test_parcels_that_are_left_go_on(self):
         """They came to lie on one another: 2000 at 578 places, a second run gave half of what should be left, and evolve refused the file."""
         rng, run, exact = random.Random(1), self.folder / "run", 1 / (1 / 5600 + 0.003)

@@ -630,6 +630,16 @@ class BadInput(Case):
             self.assert_fails(2, *SPHERES, *options, says=(says,))
         self.assert_fails(2, *CLUSTER, "--n-final", "9", says=("n_final",))
 
+    def test_refusals_name_what_helps(self):
+        """A unit was asked for that was there, a file that there was not, cells that no option has, and a bound of inf m."""
+        coat = ("--coat", "sphere", "--size", "5um")
+        for core in ("sphere", "ellipsoid:3,2,1"):
+            self.assert_fails(2, "aggregate", "--core", core, "--unit", "um", *coat, says=("have no size of their own; give core_size",))
+        self.assert_fails(2, *SPHERES[:5], "--coat", "ellipsoid:3um,2um,1um", "--size", "5um", says=("ratios of its axes: they have no unit",))
+        self.assert_fails(3, *SPHERES, "--envelope", "wrap", "--envelope-length", "1m", says=("a ball of radius 1 m", "a smaller envelope_length"))
+        self.assert_fails(2, *SPHERES[:7], "--size-law", "lognormal", "--size-mean", "1um", "--size-shape", "0.1", "--size-low", "70um",
+                          "--n-particle", 3, says=("none of 10000 draws lies above size_low 70 um\n",))
+
     def test_options_without_effect_are_refused(self):
         """Each was taken, and the run's numbers were those without it."""
         run = self.folder / "run"

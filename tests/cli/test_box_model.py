@@ -128,6 +128,13 @@ class BoxModel(Case):
         on = clast(*run, "--initial", "table", "--initial-file", self.folder / "first/spectrum.csv").json
         self.assertAlmostEqual(on["n_particle"][0], first["n_particle"][-1], places=9)
         self.assertAlmostEqual(on["moments"]["M1"][0], 2.0, delta=2e-2)
+        start = ("agglomerate", "--box-model", "--constant", "1e-9", "--n-step", 1, "--json", "--initial", "table", "--initial-file", table)
+        table.write_text("time_s,size,n\n0,1,9\n1,1,5\n0,2,1\n1,2,1\n")  # by size: the last row alone was taken
+        self.assertEqual(clast(*start).json["moments"]["M0"][0], 6)
+        for text, line in (("time_s,size,n\n0,1,9\nnan,1,5\n", "row 2: time_s is nan"), ("size,number\n", "no row of sizes"),
+                           ("time_s,size,size_low,size_high,n\n0,1,1,1,9\n", "the spectrum of a cloud, whose n counts particles")):
+            table.write_text(text)
+            self.assert_fails(3, *start, says=["sizes.csv", line])
         table.write_text("size,number\n1,3\n-4,1\n")
         self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
                           says=["sizes.csv", "row 2", "-4"])

@@ -120,9 +120,20 @@ class CloudInputs(Case):
         for unit, scale in (("m/s", 1), ("cm/s", 100), ("mm/s", 1000)):
             head = words.replace("{}", unit)
             self.assertEqual(left(head, lambda row, k=scale: [k * v for v in row[3:]], *ballistic, head), wanted)
+        # a unit that stands inside the name was known, and not used; one with a power was taken for SI
+        for words in ("U (cm/s) {}", "U_cm/s:{}", "U_cm/s_{}", "Velocity {} [ cm s^-1 ]", "{} (cm s-1)", "{} (cm s\u207b\u00b9)"):
+            head = ",".join(words.replace("{}", str(k)) for k in range(3))
+            self.assertEqual(left(head, lambda row: [100 * v for v in row[3:]], *ballistic, head), wanted, words)
+        for words in ("{} (mean)", "U:{}", "velocity_{}", "U{}(t)", "U_t_{}"):  # which tell none
+            head = ",".join(words.replace("{}", str(k)) for k in range(3))
+            self.assertEqual(left(head, lambda row: row[3:], *ballistic, head), wanted, words)
+        for name, unit in (("u_ft/s,v,w", "ft/s"), ("u (ft s-1),v,w", "ft s-1"), ("u [mm],v,w", "mm")):
+            left(name, lambda row: row[3:], *ballistic, name, fails=(2, f"column '{name.split(',')[0]}'", f"unknown unit '{unit}'; known here: m/s"))
+        left("U (cm/s) x,U (cm/s) y,w", lambda row: row[3:], *ballistic, "U (cm/s) x,U (cm/s) y,w", fails=(3, "is in cm/s by its name"))
         left("u_mm/s,v,w", lambda row: row[3:], *ballistic, "u_mm/s,v,w", fails=(3, "column 'u_mm/s' is in mm/s", "column 'w' says no unit"))
         for option, value, kernel, names in (
-                ("--shear-column", 100, ("shear_laminar",), (("G", 1), ("G_1/min", 60), ("G (1/h)", 3600))),
+                ("--shear-column", 100, ("shear_laminar",), (("G", 1), ("G_1/min", 60), ("G (1/h)", 3600), ("G (1/min) mean", 60),
+                                                                    ("G [min^-1]", 60))),
                 ("--dissipation-column", 0.1, ("shear_turbulent", "--density", 1000), (("e", 1), ("eps_cm2/s3", 1e4), ("eps [mm^2/s^3]", 1e6))),
                 ("--speed-rms-column", 1, ("inertial", "--particle-density", 1000), (("u", 1), ("urms_cm/s", 100)))):
             found = {left(name, lambda row, k=scale: [k * value], "--kernel", *kernel, option, name) for name, scale in names}
@@ -133,6 +144,54 @@ class CloudInputs(Case):
         fixed = {left(f"c,{name}", lambda row, k=scale: [0, k], "--constant", 0.01, "--fixed-column", "c", "--fixed-volume-column", name)
                  for name, scale in (("v", 0.5), ("v_cm3", 5e5))}
         self.assertEqual(len(fixed), 1)
+
+    def test_units_in_names_count_in_every_format(self):
+        """d_mm was 8 m in VTK, PLY and dumps; a vector U_cm/s was in m/s, and x_mm of a PLY no coordinate."""
+        rows = [[1e3 * c for c in p] + [8.0, 100.0 * k] for k, p in enumerate(ROWS)]
+        n, lines = len(rows), "".join(" ".join(map(repr, row)) + "\n" for row in rows)
+        names = ("x_mm", "y_mm", "z_mm", "d_mm", "u_cm/s")
+        places = "".join(" ".join(map(repr, p)) + "\n" for p in ROWS)
+        files = {
+            "a.csv": ",".join(names) + "\n" + lines.replace(" ", ","),
+            "a.ply": f"ply\nformat ascii 1.0\nelement vertex {n}\n" + "".join(f"property double {name}\n" for name in names) + "end_header\n" + lines,
+            "a.dump": f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS {' '.join(names)}\n" + lines,
+            "a.vtk": f"# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS {n} double\n{places}POINT_DATA {n}\nSCALARS d_mm double 1\n"
+                     "LOOKUP_TABLE default\n" + "8\n" * n + "VECTORS U_cm/s double\n" + "".join(f"{row[4]} 0 0\n" for row in rows)}
+        found = set()
+        for name, text in files.items():
+            path, u = self.folder / name, ("U_cm/s_x", "U_cm/s_y", "U_cm/s_z") if name == "a.vtk" else ("u_cm/s",) * 3
+            path.write_text(text)
+            r = clast("agglomerate", path, "--domain", CUBE, "--diameter-column", "d_mm", "--kernel", "shear_laminar", "--shear", "5/s",
+                      "--out-of-range", "extrapolate", "--duration", "100s", "--n-step", 1, "--json")
+            self.assertEqual(r.code, 0, r.err)
+            found.add(r.json["n_particle"][-1])
+            r = clast("agglomerate", path, "--domain", CUBE, "--diameter-column", "d_mm", "--kernel", "ballistic", "--velocity-columns", ",".join(u),
+                      "--out-of-range", "extrapolate", "--duration", "1e-9s", "--n-step", 1, "--json")
+            self.assertEqual(r.code, 0, r.err)
+        self.assertEqual(len(found), 1, found)
+
+    def test_sizes_in_phi_are_lengths(self):
+        """7 phi, 7.8 um, was a radius of 3.5 m."""
+        found = set()
+        for name, value in (("d", 2.0 ** -7 * 1e-3), ("diameter_phi", 7), ("d (phi)", 7)):
+            path = self.write("phi.csv", [[*p, value] for p in ROWS], f"x,y,z,{name}\n")
+            r = clast("agglomerate", path, "--domain", CUBE, "--diameter-column", name, "--kernel", "shear_laminar", "--shear", "1/s", "--out-of-range",
+                      "extrapolate", "--duration", "2e10s", "--n-step", 1, "--json")
+            self.assertEqual(r.code, 0, r.err)
+            found.add((r.json["n_particle"][-1], r.json["volume_fraction"]))
+        self.assertEqual(len(found), 1, found)
+
+    def test_lengths_in_units_that_are_not_read_are_refused(self):
+        """x [ft] and x (MM) were metres; --unit of x_rel/L was not asked."""
+        for names in ("{} [ft]", "{} (inch)", "{} (MM)", "{} (millimeter)", "{}_ft", "{} (g)", "{}_rel/L"):
+            head = ",".join(names.replace("{}", axis) for axis in "xyz")
+            path = self.write("foreign.csv", ROWS, head + "\n")
+            self.assert_fails(2, "decompose", path, "--domain", CUBE, "--columns", head, says=("unknown unit", "known here: m, cm"))
+            self.assert_same(self.answer(path, CUBE, "--columns", head, "--unit", "m"), self.answer(CSV, CUBE))
+        for names, scale in (("{} [ mm ]", 1e3), ("{}_mm:0", 1e3), ("{} (mean)", 1), ("{}_min", 1), ("{} [-]", 1), ("{}_t", 1)):
+            head = ",".join(names.replace("{}", axis) for axis in "xyz")
+            path = self.write("usual.csv", [[scale * v for v in p] for p in ROWS], head + "\n")
+            self.assert_same(self.answer(path, CUBE, "--columns", head), self.answer(CSV, CUBE))
 
     def test_some_coordinates_with_a_unit_and_some_without_are_refused(self):
         """x_mm, y_mm beside z: z was taken as metres."""

@@ -413,12 +413,34 @@ class Evolve(Case):
         self.assert_fails(2, *sheared, "--eddy-diffusivity", "2e-5", "--duration", "60s", says=("into sides that reflect",))  # calm where they start
         self.assert_fails(2, *cube, "--wind", "0,0,0.05", says=("wind", "into a top that reflects", "take open_top"))
         self.assertEqual(clast(*cube, "--wind", "0,0,0.05", "--open-top").code, 0)
+        calm = (*cube, "--gravity", 0, "--floor", "reflect", "--wind")  # one into the floor was taken, its mirror image refused
+        self.assert_fails(2, *calm, "0,0,-0.05", says=("wind", "into a floor that reflects", "take floor: deposit"))
+        self.assert_fails(2, *calm, "0,0,0.05", says=("wind", "into a top that reflects"))
+        rise = clast(*cube, "--fluid-density", 4000).err  # it was told to take --floor deposit, which it had
+        self.assertRegex(rise, r"^clast evolve: warning: \d+\.\d % of the mass comes to a top that reflects .*\(take --open-top .*\n$")
         floor = (*cube, "--floor", "reflect")
-        self.assertRegex(clast(*floor).err, r"^clast evolve: warning: 100 % of the mass comes to a floor or top that reflects .* depends on the steps .*\n$")
+        self.assertRegex(clast(*floor).err, r"^clast evolve: warning: 100 % of the mass comes to a floor that reflects .* depends on the steps .*\(take --floor deposit, or.*\n$")
         self.assertEqual(clast(*floor, "--json", "-q").json["gathered"], 1)
         for words in ((*floor, "--eddy-diffusivity", "1e-3"), (*floor, "--sides", "deposit", "--wind", "10,0,0"), cube):  # 3 cm; blown out before
             calm = clast(*words, "--json")
             self.assertEqual((calm.code, calm.err, calm.json["gathered"]), (0, "", 0))
+
+    def test_a_field_that_does_not_meet_the_domain_is_told(self):
+        """A grid 5 m away, or in millimetres without a unit: every body had the velocity of an edge or of the first cell."""
+        for scale, shift, is_told in ((1e-2, 0, False), (1e-2, 5, True), (10, 0, True)):
+            field = self.folder / "field.csv"
+            field.write_text("x,y,z,u,v,w\n" + "".join(f"{shift + scale * x},{shift + scale * y},{shift + scale * z},0,0,0\n"
+                                                       for x in (0, 0.5, 1) for y in (0, 0.5, 1) for z in (0, 0.5, 1)))
+            r = clast("evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--particles", 20, "--curve", "1um", "--kernel", "constant", "--constant", "1e-30",
+                      "--duration", "1ms", "--rows", 1, "--no-structure", "--field", field, "--field-columns", "u,v,w", "--sides", "deposit")
+            self.assertEqual((r.code, "are both in the same unit?" in r.err), (0, is_told), r.err)
+
+    def test_a_bed_of_nothing_is_told(self):
+        """All bodies blown onto the walls: no deposit.h5 and no word."""
+        r = clast("evolve", "--curve", "30um", "--particles", 20, "--release", "box:1mm,1mm,40mm,4mm,4mm,45mm", "--domain", "box:0,0,0,5mm,5mm,50mm",
+                  "--sides", "deposit", "--wind", "5,0,0", "--duration", "1s", "--rows", 1, "--bed-width", "1mm", "-o", self.folder / "blown")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertRegex(r.out, r"(?m)^bed +none: nothing lies on the floor$")
 
     def test_a_vortex_takes_no_steps_of_its_grid(self):
         """A field without compression took 610, 325 and 165 steps on 6, 11 and 21 nodes an axis: the error of the interpolation between them."""

@@ -150,15 +150,15 @@ class Fit(Case):
         path = self.write("sample,sand,mu,moisture,porosity\n" + "".join(f"{k},{a!r},{b!r},{m!r},{0.3 + 0.1 * b + 0.002 * k!r}\n" for k, a, b, m in rows))
         said = clast("fit", path, "--n-permutation", 0)
         self.assertIn("counts the rows; if it says nothing of a bed, name the candidates: --features columns --columns a,b\n", said.err)
-        for columns in ("sand,mu", "sand,mu,moisture"):
+        for columns in ("sand,mu", "sand, mu", "sand,mu,moisture"):
             fit = clast("fit", path, "--columns", columns, "--n-permutation", 0, "--json")
             self.assertEqual((fit.code, fit.json["kind"], fit.json["n_bed"]), (0, "columns", 24))
-            self.assertEqual({r["feature"] for r in fit.json["ranking"]}, set(columns.split(",")))
+            self.assertEqual({r["feature"] for r in fit.json["ranking"]}, set(columns.replace(" ", "").split(",")))
             self.assertEqual(fit.err, f"clast fit: {path}: columns {columns} are candidates; --features form takes them as a form\n")
         self.assertEqual(clast("fit", path, "--columns", "sand,mu", "--n-permutation", 0, "--features", "form", "--json").json["kind"], "single_form")
-        for names in ("flatness_mean,elongation_mean", "mean FL,mean-EL", "S/I,I/L", "major (mm),I_mm,S_mm"):
+        for names in ("flatness_mean,elongation_mean", "mean FL,mean-EL", "S/I,I/L", "major (mm),I_mm,S_mm", "mean L,mean I,mean S", "L, I, S"):
             n = names.count(",") + 1
-            text = f"{names},porosity\n" + "".join(",".join(repr(x) for x in sorted((a, b, m), reverse=True)[:n]) + f",{0.3 + 0.1 * b!r}\n" for _, a, b, m in rows)
+            text = f"{names.replace(', ', ',')},porosity\n" + "".join(",".join(repr(x) for x in sorted((a, b, m), reverse=True)[:n]) + f",{0.3 + 0.1 * b!r}\n" for _, a, b, m in rows)
             fit = clast("fit", self.write(text), "--columns", names, "--n-permutation", 0, "--json")
             self.assertEqual((fit.code, fit.err, fit.json["kind"]), (0, "", "single_form"), names)
 

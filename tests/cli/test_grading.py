@@ -170,6 +170,25 @@ class Grading(Case):
                       clast(*self.grades("masses", "size_mm,count,mass_g\n10,1,3\n5,2,2\n")[:-1]).out)
         self.assertNotIn("list", clast("grading", "U3", "--json").json)
 
+    def test_runs_tell_what_their_list_counted(self):
+        """pack, evolve and aggregate read the same lists without a word."""
+        sizes, beds, run = self.folder / "um.csv", self.folder / "mm.csv", self.folder / "run"
+        for path in (sizes, beds):
+            path.write_text(f"id,size_{path.stem},count\n1,4,2\n2,5,1\n")
+        told = "2 rows, counted by column 'count': 3 in all; not looked at: id"
+        evolve = ("evolve", "--particles", 9, "--domain", "box:0,0,0,1m,1m,1m", "--kernel", "constant", "--constant", "1e-9", "--duration", "1s", "--curve")
+        for words, name in ((("pack", "--mass", "1g", "--width", "20mm", "--height", "60mm", "--max-steps", 5, "--curve"), f"list:{beds}"),
+                            (evolve, f"list:{sizes}"),
+                            (("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--sizes"), str(sizes))):
+            found = clast(*words, name, "-o", run, "--force")
+            self.assertEqual(found.code, 0, found.err)
+            self.assertIn(f"{name}: {told}\n", found.err)
+            self.assertEqual(json.loads((run / "manifest.json").read_text())["sizes"], told)
+            self.assertEqual(clast(*words, name, "--quiet").err, "")
+        plain = self.folder / "plain.csv"  # sizes alone: nothing to tell
+        plain.write_text("size_um\n4\n5\n")
+        self.assertNotIn("rows", clast(*evolve, f"list:{plain}").err)
+
     def test_words_in_quotes_are_words(self):
         """Column '"count"' was not understood."""
         plain = clast(*self.grades("list", "size_mm,count\n10,3\n5,2\n")).json

@@ -1,4 +1,5 @@
 """CLI: the frame itself, whatever the subcommand."""
+import json
 import re
 import subprocess
 import unittest
@@ -26,6 +27,13 @@ class Frame(Case):
         self.assertRegex(told, r"^clast \d+\.\d+\.\d+\nsource (unknown|[0-9a-f]{12}(-dirty)?)\nwith .+\n(without .+\n)?$")
         parts = set(told.replace("without", "with").split("with ", 1)[1].replace("with ", "").replace("\n", ", ").split(", ")) - {""}
         self.assertEqual(parts, {"threads", "HDF5", "TIFF", "SUNDIALS"})
+
+    def test_a_run_names_the_source_that_made_it(self):
+        """Its manifest had the release alone, which two sources may share."""
+        run = self.folder / "run"
+        self.assertEqual(clast("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--size", "60um", "-o", run, "-q").code, 0)
+        made = json.loads((run / "manifest.json").read_text())
+        self.assertEqual(clast("--version").out.split("\n")[:2], ["clast " + made["clast_version"], "source " + made["clast_source"]])
 
     def test_no_command_is_a_usage_error(self):
         result = clast()

@@ -256,5 +256,71 @@ class Nested(Case):
             self.assertEqual(clast("shape", ROOT / "data" / name).err, "", name)
 
 
+def quads(path, n_vertex, *faces, turned=()):
+    """OFF of quadrangles of a row of unit cubes (vertex 4 x + 2 y + z), each cut in two; those of `turned` again, turned over and cut otherwise."""
+    lines = [f"3 {a} {b} {c}\n3 {a} {c} {d}" for a, b, c, d in faces] + [f"3 {c} {b} {a}\n3 {d} {c} {a}" for d, a, b, c in turned]
+    vertices = [f"{i // 4} {i // 2 % 2} {i % 2}" for i in range(n_vertex)]
+    path.write_text("\n".join([f"OFF\n{n_vertex} {2 * len(lines)} 0", *vertices, *lines]) + "\n")
+    return path
+
+
+def cube(x):
+    """Quadrangles of the cube from x to x + 1, outward; the first is its low, the second its high side."""
+    i = 4 * x
+    return [(i, i + 1, i + 3, i + 2), (i + 4, i + 6, i + 7, i + 5), (i, i + 4, i + 5, i + 1), (i + 2, i + 3, i + 7, i + 6),
+            (i, i + 2, i + 6, i + 4), (i + 1, i + 5, i + 7, i + 3)]
+
+
+class TwoSided(Case):
+    """Faces written on both sides: sheets without volume, walls."""
+
+    def test_parts_without_volume_are_no_solid(self):
+        """All six faces two-sided: repair made six sheets of it, and check called those a solid of volume 0."""
+        both = quads(self.folder / "both.off", 8, *cube(0), turned=cube(0))
+        self.assertEqual(clast("mesh", "check", both).code, 1)
+        self.assert_fails(3, "mesh", "repair", both, "-o", self.folder / "o.ply", says=("nothing is left", "6 parts had no volume"))
+        sheet = quads(self.folder / "sheet.off", 16, *cube(0), (12, 13, 15, 14), turned=[(12, 13, 15, 14)])
+        found = clast("mesh", "check", sheet, "--json")
+        self.assertEqual(found.code, 1)
+        self.assertIn("1 of 2 parts has no volume", {fault["code"]: fault["text"] for fault in found.json["faults"]}["flat_parts"])
+        self.assertIn("1 of its 2 parts has no volume (the two sides of a sheet)", clast("shape", sheet).err)
+        closed = self.folder / "closed.ply"
+        self.assertEqual(clast("mesh", "repair", sheet, "-o", closed).code, 0)
+        found = clast("mesh", "check", closed, "--json").json
+        self.assertEqual((found["n_part"], found["volume"], found["hull_volume"]), (1, 1, 1))
+
+    def test_a_face_of_two_sides_is_repaired_at_once(self):
+        """The volume came out as 2/3, with windings mixed; repair of that was right."""
+        for k in range(6):
+            path = quads(self.folder / f"{k}.off", 8, *cube(0), turned=[cube(0)[k]])
+            result = clast("mesh", "repair", path, "-o", self.folder / "o.ply", "--json")
+            self.assertEqual((result.code, result.json["n_triangle"]), (0, 12), result.err)
+            self.assertAlmostEqual(result.json["volume"], 1, places=12)
+
+    def test_a_wall_inside_is_told_by_shape(self):
+        """Area 12 for 10 and sphericity 0.64 for 0.77 came without a word."""
+        wall = quads(self.folder / "wall.off", 12, *cube(0), *cube(1))
+        result = clast("shape", wall)
+        self.assertEqual(result.code, 0)
+        self.assertIn("4 of its triangles are a wall inside it", result.err)
+        self.assertIn("drop it: clast mesh repair", result.err)
+        self.assertEqual(clast("shape", quads(self.folder / "one.off", 12, *cube(0)[:1], *cube(0)[2:], *cube(1)[1:])).err, "")
+
+    def test_a_neck_of_one_edge_is_none(self):
+        """aggregate took two cubes that share an edge as one rigid grain; of a common wall they are one."""
+        grain = ("aggregate", "--unit", "um", "--coat", "sphere", "--size", "1um", "--core")
+        other = [[{0: 6, 1: 7, 2: 8, 3: 9, 4: 10, 5: 11, 6: 12, 7: 13}[i] for i in face] for face in cube(0)]
+        edge = quads(self.folder / "edge.off", 14, *cube(0), *other)
+        lines = edge.read_text().split("\n")
+        lines[10:16] = ["1 2 0", "1 2 1", "2 1 0", "2 1 1", "2 2 0", "2 2 1"]
+        edge.write_text("\n".join(lines))
+        self.assert_fails(3, *grain, edge, says=("2 bodies that do not hang together",))
+        self.assertEqual(clast(*grain, quads(self.folder / "wall.off", 12, *cube(0), *cube(1))).code, 0)
+
+    def test_a_body_too_small_for_a_volume_is_not_called_flat(self):
+        tiny = boxes(self.folder / "tiny.off", (1e-120, 0, 1))
+        self.assertIn("an extent of 1.73e-120 is too small for a volume", clast("mesh", "check", tiny).out)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -132,7 +132,7 @@ class Porosity(Case):
         folder = self.folder / "means"
         found = clast("porosity", *runs, *options, "-o", folder)
         self.assertEqual(found.code, 0, found.err)
-        numbers = [k for k, v in alone[0].items() if isinstance(v, (int, float)) and k != "profile"]
+        numbers = [k for k, v in alone[0].items() if isinstance(v, (int, float)) and not isinstance(v, bool)]
         self.assertLessEqual({"bulk", "local_mean", "local_deviation", "pore_mean", "coordination", "top"}, set(numbers))
         rows = list(csv.DictReader((folder / "means.csv").read_text().splitlines()))
         self.assertEqual(len({r["quantity"] for r in rows}), len(rows))
@@ -278,6 +278,18 @@ class Porosity(Case):
         self.assert_fails(2, "porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--gap", "0.1mm", says=["knows its contacts"])
         self.assertEqual(clast("porosity", bed, "--cut", 0.95, "--bed", "cylinder:15mm", "--floor=-1mm", "--json").json["z_low"], -1e-3)
 
+    def test_force_chains_of_a_bed_in_which_nothing_touches(self):
+        """The chart ended the command with "chart axis 'x (mm)' has no finite value to show", its tables were not written."""
+        bed, out = self.folder / "bed", self.folder / "out"
+        made = clast("pack", "--curve", "4mm", "--mass", "1g", "--width", "20mm", "--height", "60mm", "--max-steps", 20, "--seed", 2, "-q", "-o", bed)
+        self.assertEqual(made.code, 0, made.err)
+        found = clast("porosity", bed, "--cut", 0.99, "--chains", "-o", out)
+        self.assertEqual(found.code, 0, found.err)
+        self.assertIn("force chains        none: no grain touches another or a wall, so there is no chains.svg", found.out)
+        for name, is_there in [("chains.csv", True), ("chains.vtp", True), ("chains.svg", False), ("profile.csv", True), ("summary.json", True)]:
+            self.assertEqual((out / name).exists(), is_there, name)
+        self.assert_fails(2, "porosity", self.lattice(2), "--bed", "box:9,9,10,10", "--chains", says=["this bed knows none"])  # before it is measured
+
     def test_a_cell_carries_its_stress_through_its_borders(self):
         """Contacts across the border in z were left out of porosity's stress, and piled on the end slices; a sheared cell had a floor."""
         cell = ["--density", 2500, "--domain", "cell", "--no-floor", "--gravity", 0, "--fluid-density", 0, "-q"]
@@ -338,6 +350,55 @@ class Porosity(Case):
                 self.assertAlmostEqual(found.json["bulk"], close, 2)
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,1,1", "--layer", 0.1, says=["between z = 0 model units and 6"])
 
+    def test_what_a_part_of_a_packing_is_told_to_have(self):
+        """The last ring held all grains beyond (porosity -3.9), a grain had more solid than its cell, and a cut was told to be a wall."""
+        path, out = self.lattice(8), self.folder / "out"
+        words = ("porosity", path, "--bed", "cylinder:3,4,4", "--layer", 0.1, "--pores", 20000)
+        text = clast(*words, "--rings", 4, "--local", "-o", out)
+        self.assertEqual(text.code, 0, text.err)
+        self.assertIn("side walls          none: the bed is a part of a packing", text.out)
+        found = json.loads((out / "summary.json").read_text())
+        self.assertIs(found["is_part"], True)
+        self.assertNotIn("wall_ratio", found)
+        rings = [float(row["porosity"]) for row in csv.DictReader((out / "radial.csv").read_text().splitlines())]
+        mean = sum(n * (2 * k + 1) / 16 for k, n in enumerate(rings))
+        self.assertAlmostEqual(mean, found["bulk"], 2)
+        self.assertTrue(all(0.2 < n < 0.7 for n in rings), rings)
+        cells = list(csv.DictReader((out / "local.csv").read_text().splitlines()))
+        self.assertTrue({"", "0"} <= {row["porosity"] and row["border"] for row in cells})
+        self.assertTrue(all(row["porosity"] == "" or float(row["porosity"]) > 0.3 for row in cells))
+        self.assert_fails(2, *words, "--core", 1, says=["a part of a packing has no side walls"])
+        self.assertIs(clast("porosity", path, "--bed", "box:0,0,8,8", "--layer", 0.1, "--json").json["is_part"], False)
+        # nothing said so of several
+        other = self.folder / "other.csv"
+        other.write_text(path.read_text() + "\n")
+        several = clast("porosity", path, other, *words[2:], "-o", self.folder / "two")
+        self.assertIn("the beds are parts of packings", several.out)
+        self.assertIs(json.loads((self.folder / "two/summary.json").read_text())["is_part"], True)
+        self.assertEqual(clast("report", self.folder / "two").code, 0)
+        self.assertIn("(of a part of the packing)", (self.folder / "two/report.html").read_text())
+        small = self.spheres([(x + 0.5, y + 0.5, z + 0.5, 0.5) for x in range(2, 6) for y in range(2, 6) for z in range(8)], "small.csv")
+        self.assert_fails(2, "porosity", path, small, "--bed", "box:2,2,6,6", "--layer", 0.1, "--pores", 100, says=["small.csv and is a part of the packing of"])
+
+    def test_a_part_of_a_run_has_no_stress_and_ends_at_its_walls(self):
+        """All contacts over the window's volume were 3.2 times the stress; a tenth of a square about a cylinder was pores without a word."""
+        bed, out = self.folder / "bed", self.folder / "out"
+        made = clast("pack", "--curve", "4mm", "--mass", "5g", "--width", "2cm", "--height", "4cm", "--shaking-time", 0, "--rule", "speed", "--initial-speed", 0.5,
+                     "-o", bed, "-q")
+        self.assertEqual(made.code, 0, made.err)
+        words = ("porosity", bed, "--cut", 0.9)
+        self.assertIn("stress", clast(*words, "--bed", "cylinder:10mm", "--json").json)
+        text = clast(*words, "--bed", "box:-9mm,-9mm,9mm,9mm", "--pores", 500, "-o", out)
+        self.assertEqual(text.code, 0, text.err)
+        self.assertIn("no stress (--fields has it by place)", text.out)
+        self.assertIn("outside             10.3 % of the bed lies outside the run's own", text.out)
+        found = json.loads((out / "summary.json").read_text())
+        self.assertAlmostEqual(found["bed_outside"], 0.1032, 3)
+        self.assertNotIn("stress", found)
+        self.assertFalse((out / "stress.csv").exists() or (out / "stress.svg").exists())
+        self.assertNotIn("bed_outside", clast(*words, "--json").json)
+        self.assertEqual(clast(*words, "--bed", "cylinder:10mm", "--json").json["bed_outside"], 0)
+
     def test_a_periodic_bed_repeats_as_its_grains_do(self):
         """A smaller period than the packing's had a porosity of 0.2772 for 0.4408, and no word but of the run's own contacts."""
         path = self.lattice(6)
@@ -345,6 +406,10 @@ class Porosity(Case):
         for bed in ("periodic:0,0,5,5", "periodic:0,0,0,6,6,5", "periodic:0,0,0,6,6,5.5,2"):
             for pores in ([], ["--pores", 100]):
                 self.assert_fails(3, "porosity", path, "--bed", bed, *more[:2], *pores, says=["--bed: its images lie on", "its period is not theirs"])
+        big = self.lattice(22)  # one cell of a lattice had all pairs of all images looked at: minutes
+        for bed in ("periodic:0,0,1,1", "periodic:0,0,0,1,1,1"):
+            self.assert_fails(3, "porosity", big, "--bed", bed, *more[:2], says=["times the room of one period", "the bed's period is not theirs"])
+        path = self.lattice(6)
         for bed in ("periodic:0,0,6,6", "periodic:-1,2,5,8", "periodic:0,0,0,6,6,6,1"):
             self.assertEqual(clast("porosity", path, "--bed", bed, *more).code, 0, bed)
         # grains that overlap by themselves do so across the borders too

@@ -295,7 +295,12 @@ class Units(Case):
         for files in ((mm,), (mm, self.folder / "ratios.csv"), (mm, um)):
             self.assert_fails(2, "shape", *files, "--unit", "cm", says=("csv:1 says its unit of length", "--unit another, 0.01 m"))
         self.assertEqual(clast("shape", mm, "--unit", "mm").code, 0)
-        self.assertEqual(clast("shape", self.folder / "clump.csv", "--unit", "mm").code, 0)
+        clump = self.folder / "clump.csv"  # it was ignored beside clumps to the last
+        for files in ((clump,), (clump, mm)):
+            self.assert_fails(2, "shape", *files, "--unit", "cm", says=("says its unit of length", "--unit another, 0.01 m"))
+            self.assertEqual(clast("shape", *files, "--unit", "mm").code, 0)
+        several = self.shape_file("x_mm,y_um,z_mm,r_mm\n0,0,0,1\n")
+        self.assert_fails(2, "shape", several, "--unit", "mm", says=("says a unit of length for each column",))
 
     def test_each_column_counts_by_its_own_unit(self):
         """30 mm, 2 cm and 1 cm were a blade of I/L 0.067."""
@@ -347,7 +352,8 @@ class Units(Case):
         self.assert_fails(2, "shape", none, mixed, says=("mixed.csv:2 says a unit of length that others do not share", "none.csv:2 says none", "--unit"))
         both = clast("shape", none, mixed, "--unit", "mm", "--json")
         self.assertEqual([round(grain["L"], 12) for grain in both.json["grains"]], [0.01, 0.02, 0.01, 0.02], both.err)
-        self.assertEqual(clast("shape", mixed, "--unit", "mm").code, 0)  # it said 1e-06 m, which is that of S alone
+        self.assert_fails(2, "shape", mixed, "--unit", "mm",  # it said 1e-06 m, which is that of S alone; then nothing
+                          says=("mixed.csv:2 says a unit of length for each column", "--unit another, 0.001 m"))
         for files, n_note in (((none, one), 1), ((none, none), 0)):
             said = clast("shape", *files, "--statistics", self.folder / f"forms{n_note}", "--resamples", 10).err
             self.assertEqual(said.count("one.csv:1 says its unit of length and"), n_note, said)

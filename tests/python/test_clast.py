@@ -187,6 +187,12 @@ class Numbers(unittest.TestCase):
         said = command("porosity", path, "--bed", "box:0mm,0mm,3mm,3mm", "--layer", "0.2mm", "--pores", 500)
         self.assertEqual((window.n_beyond, window.max_beyond, window.porosity), (said["n_beyond"], said["max_beyond"], said["bulk"]))
         self.assertAlmostEqual(window.porosity, float(said["pore_porosity"]), places=1)
+        self.assertEqual((window.is_part, window.wall_ratio, found.is_part, said["is_part"]), (True, float("inf"), False, True))
+        with self.assertWarns(UserWarning):  # the last ring held what lies beyond it, of porosity -2.6
+            rings = clast.porosity(path, bed="cylinder:1.5mm,2mm,2mm", layer="0.2mm", pores=500, rings=3).radial
+        self.assertTrue(np.all((rings["porosity"] > 0.2) & (rings["porosity"] < 0.8)))
+        with self.assertWarns(UserWarning), self.assertRaisesRegex(clast.Error, "a part of a packing has no side walls"):
+            clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm", pores=500, core=1)
         self.assertEqual(found.n_beyond, -1)
         with self.assertRaisesRegex(clast.Error, "^bed: its images lie on .* of 128 grains"):  # 0.2772 for 0.4408
             clast.porosity(path, bed="periodic:0mm,0mm,3mm,3mm", layer="0.2mm")

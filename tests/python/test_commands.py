@@ -191,7 +191,7 @@ class Commands(unittest.TestCase):
         said = clast.aggregate(**fix, replicate=2, cone=0.2, output=self.folder / "said")
         self.assertEqual((one.summary["n_grain"], one.summary["d_agg"]), (said.n_grain, said.d_agg))
         for vary, line in (({"spheres": np.ma.MaskedArray([3, 4], mask=[0, 1])}, "^spheres: .*masked"), ({"spheres": [b"3"]}, "^spheres: a bytes"), ({"sphere": 3}, "did you mean spheres"),
-                           ({"spheres": []}, "^spheres: ")):
+                           ({"spheres": []}, "^spheres: "), ({"spheres": [5, "5.0"]}, r"are the same \('5', '5.0'\)")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(run="fill", argument=MENGER, vary=vary, output=self.folder / "x")
 
@@ -285,6 +285,8 @@ class Commands(unittest.TestCase):
         path = self.write("sizes.csv", sizes)
         said = command(*words[:2], "--initial", "table", "--initial-file", path, "--constant", 1, "--n-step", 2)
         self.assertEqual(list(clast.box_model(sizes=sizes, constant=1, n_step=2).history["M1"]), said["moments"]["M1"])
+        before = clast.box_model(sizes=sizes, constant=1, n_step=2)  # whose spectrum was refused as a start
+        self.assertAlmostEqual(clast.box_model(sizes=before.spectrum, constant=1, n_step=2).history["M0"][0], before.history["M0"][-1], places=9)
         for keys, line in ((dict(solver="sectional", particles=3), "^particles does nothing with this solver"), (dict(initial="table"), "^sizes: and"),
                            (dict(concentration=1, shear=3), "^shear does nothing with this kernel"),
                            (dict(sizes={"size": [1.0]}), "columns size and number"), (dict(concentratio=1), "did you mean concentration")):

@@ -162,7 +162,7 @@ class Warnings(Case):
     def test_evolve_above_a_floor_that_reflects(self):
         keys = {"domain": "box:0,0,0,0.1,0.1,0.1", "curve": "20um", "particles": 100, "kernel": "constant", "constant": 1e-9, "duration": "10s"}
         [told] = self.heard(lambda: clast.evolve(floor="reflect", **keys))
-        self.assertRegex(told, r"^100 % of the mass comes to a floor or top that reflects .* take floor='deposit' or shorter steps$")
+        self.assertRegex(told, r"^100 % of the mass comes to a floor that reflects .* take floor='deposit' or shorter steps$")
         self.assertEqual(self.heard(lambda: clast.evolve(**keys)), [])
 
     def test_a_bed_heavier_than_asked_for(self):
@@ -362,6 +362,7 @@ class Results(Case):
             numbers, sizes = np.unique(run.members["aggregate"], return_counts=True)
             self.assertTrue(np.array_equal(numbers, left["particle"]) and np.array_equal(sizes, left["monomers"]))
             places = np.column_stack([left[name] for name in ("x_m", "y_m", "z_m")])
+            self.assertIsNone(clast.agglomerate(X, weight=np.arange(1.0, 1 + len(X)), **keys).members)  # parcels that come apart
             on = clast.agglomerate(places, monomers=left["monomers"], **keys).history
             self.assertEqual((on["n_particle"][0], on["M2"][0]), (run.history["n_particle"][-1], run.history["M2"][-1]))
 

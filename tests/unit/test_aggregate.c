@@ -1,6 +1,7 @@
 /* Unit: aggregates whose geometry is known. */
 #include "aggregates.h"
 
+#include "base/alloc.h"
 #include <clast/aggregate_run.h>
 #include <clast/settling.h>
 #include <stdio.h>
@@ -139,6 +140,10 @@ static void parameters_alone_are_enough(void **state)
     assert_memory_equal(one->position, other->position, 6 * sizeof *one->position);
     clast_aggregate_destroy(a[0]);
     clast_aggregate_destroy(a[1]);
+    s.input.coat = NULL;
+    CHECK_STATUS(clast_aggregate_create(&params, &s.input, 0, &a[0]), CLAST_E_ARGUMENT);
+    assert_non_null(strstr(clast_error_detail(), "input->coat is NULL"));
+    s.input.coat = s.coat;
     params.size_law = CLAST_SIZE_LIST; /* and no sizes with it */
     CHECK_STATUS(clast_aggregate_create(&params, &s.input, 0, &a[0]), CLAST_E_CONFIG);
     clast_aggregate_params_free(&params);
@@ -190,6 +195,72 @@ static void refused_memory_leaves_nothing(void **state)
         support_refuse_each_allocation(whole_life, &s);
         support_aggregate_free(&s);
     }
+}
+
+#ifdef CLAST_ALLOC_INJECT
+/// Grows to the end, the k-th allocation refused, and tries again where a call has failed; whether
+/// none was refused. A handle that cannot go on says so by every call.
+static bool grow_with_one_refused(support_aggregate *s, int64_t k, clast_aggregate_result *result)
+{
+    clast_aggregate *a = NULL;
+    clast_table table = {0};
+    CHECK_OK(clast_aggregate_create(&s->config.params, &s->input, 0, &a));
+    (void)clx_alloc_refuse(k);
+    const clast_status first = clast_aggregate_grow(a, 100, NULL);
+    (void)clx_alloc_refuse(0);
+    assert_true(first == CLAST_OK || first == CLAST_E_MEMORY);
+    const clast_status again = clast_aggregate_grow(a, 100, NULL);
+    result->n_grain = 0;
+    if (again == CLAST_OK) {
+        assert_true(clast_aggregate_is_done(a));
+        CHECK_OK(clast_aggregate_measure(a, result));
+    } else {
+        assert_int_equal(first, CLAST_E_MEMORY);
+        assert_int_equal(again, CLAST_E_USAGE);
+        CHECK_STATUS(clast_aggregate_measure(a, result), CLAST_E_USAGE);
+        CHECK_STATUS(clast_aggregate_history(a, &table), CLAST_E_USAGE);
+        CHECK_STATUS(clast_aggregate_members(a, &table), CLAST_E_USAGE);
+        assert_null(clast_aggregate_assembly(a));
+    }
+    clast_aggregate_destroy(a);
+    return first == CLAST_OK;
+}
+#endif
+
+/* A call that lacks memory leaves the aggregate whole, or one that no later call goes on with. */
+static void refused_memory_leaves_no_torn_aggregate(void **state)
+{
+    (void)state;
+#ifdef CLAST_ALLOC_INJECT
+    static const char *const runs[] = {
+        "", "contact=march;march_vertices=10;envelope=enclosing_sphere", "mode=cluster"};
+    for (int r = 0; r < 3; ++r) {
+        support_aggregate s;
+        clast_aggregate_result reference = {0};
+        clast_aggregate_result result = {0};
+        int n_whole = 0;
+        int n_torn = 0;
+        bool is_whole = false;
+        support_aggregate_make(&s, NULL, 1, "n_particle=5;size_law=uniform;size_low=1;size_high=2");
+        support_aggregate_options(&s.config, runs[r]);
+        assert_true(grow_with_one_refused(&s, 0, &reference));
+        for (int64_t k = 1; !is_whole; k += 1 + k / 16) {
+            is_whole = grow_with_one_refused(&s, k, &result);
+            n_whole += result.n_grain > 0;
+            n_torn += result.n_grain == 0;
+            if (result.n_grain > 0) {
+                assert_int_equal(result.n_grain, reference.n_grain);
+                assert_int_equal(result.n_contact, reference.n_contact);
+                assert_true(result.mass == reference.mass);
+                assert_true(result.porosity[0] == reference.porosity[0]);
+                assert_true(result.max_overlap == reference.max_overlap ||
+                            isnan(reference.max_overlap));
+            }
+        }
+        assert_true(n_whole > 1 && n_torn > 0);
+        support_aggregate_free(&s);
+    }
+#endif
 }
 
 static void grow_and_measure(const double (*axes)[3], const char *options,
@@ -284,6 +355,7 @@ int main(void)
         cmocka_unit_test(coat_has_a_permeability),
         cmocka_unit_test(parameters_alone_are_enough),
         cmocka_unit_test(refused_memory_leaves_nothing),
+        cmocka_unit_test(refused_memory_leaves_no_torn_aggregate),
         cmocka_unit_test(results_say_what_they_are_of),
         cmocka_unit_test(a_core_is_one_piece),
     };

@@ -199,6 +199,25 @@ static void sums_of_kernels_meet_their_exact_moments(void **state)
     }
 }
 
+/* Whatever was in the memory: alpha was 0 of zeros, positions and counts were left of the rest. */
+static void the_default_leaves_no_member_unset(void **state)
+{
+    (void)state;
+    const double volume = 1.0;
+    const clast_collide_cells cells = one_cell(&volume);
+    clast_collide_config c;
+    clast_population p = singles(2);
+    int64_t n_event = 0;
+    memset(&c, 0xAB, sizeof c);
+    CHECK_OK(clast_collide_config_default(&c));
+    assert_true(c.alpha == 1.0 && c.count_unit == 0.0 && !c.keep_positions && c.seed == 0);
+    CHECK_STATUS(clast_collide(&p, &cells, 1e9, 0, &c, &n_event), CLAST_E_CONFIG);
+    CHECK_OK(clast_kernel_parse("constant", &c.kernel));
+    CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, &n_event));
+    assert_int_equal(n_event, 1);
+    CHECK_STATUS(clast_collide_config_default(NULL), CLAST_E_ARGUMENT);
+}
+
 /* Two particles: the chance of an event is 1 - exp(-K dt / V), however it is drawn. */
 static void a_pair_collides_with_its_exact_chance(void **state)
 {
@@ -738,33 +757,6 @@ static void parcels_beyond_64_bits_are_refused(void **state)
     assert_non_null(strstr(clast_error_detail(), "count_unit"));
 }
 
-/* Independent uniform samples are called changed at the stated rate, 5 % of 1000: 4 standard
- * deviations are 2.8 %. A moved sample is found. */
-static void change_test_has_its_level(void **state)
-{
-    (void)state;
-    enum { N = 500, R = 1000 };
-    static double u[2 * N * 2];
-    int n_alarm = 0;
-    double p = 0.0;
-    clx_rng rng = clx_rng_at(11, CLX_STREAM_TEST, 0);
-    for (int r = 0; r < R; ++r) {
-        for (int i = 0; i < 4 * N; ++i) {
-            u[i] = clx_rng_uniform(&rng);
-        }
-        CHECK_OK(clast_agglomeration_change_test(u, u + 2 * N, N, 2, &p));
-        n_alarm += p < 0.05 ? 1 : 0;
-    }
-    CHECK_ABS((double)n_alarm / R, 0.05, 0.028);
-    for (int i = 0; i < 2 * N; ++i) {
-        u[2 * N + i] = u[i] * u[i];
-    }
-    CHECK_OK(clast_agglomeration_change_test(u, u + 2 * N, N, 2, &p));
-    assert_true(p < 1e-6);
-    CHECK_OK(clast_agglomeration_change_test(u, u, N, 2, &p));
-    CHECK_REL(p, 1.0, 0.0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -772,6 +764,7 @@ int main(void)
         cmocka_unit_test(additive_kernel_is_golovins),
         cmocka_unit_test(product_kernel_is_mcleods),
         cmocka_unit_test(sums_of_kernels_meet_their_exact_moments),
+        cmocka_unit_test(the_default_leaves_no_member_unset),
         cmocka_unit_test(a_pair_collides_with_its_exact_chance),
         cmocka_unit_test(no_event_is_lost_at_caps),
         cmocka_unit_test(radii_follow_their_law),
@@ -790,7 +783,6 @@ int main(void)
         cmocka_unit_test(wrong_cells_are_refused),
         cmocka_unit_test(counts_beyond_64_bits_are_refused),
         cmocka_unit_test(parcels_beyond_64_bits_are_refused),
-        cmocka_unit_test(change_test_has_its_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

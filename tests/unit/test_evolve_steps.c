@@ -370,7 +370,7 @@ static void a_wind_into_mirrors_is_refused(void **state)
     check_mirrors(CLAST_E_CONFIG, "wind=0,0,0.4", "open_top=no");
     assert_non_null(strstr(clast_error_detail(), "into a top that reflects"));
     check_mirrors(CLAST_OK, "wind=0,0,0.4", "open_top=yes");
-    check_mirrors(CLAST_OK, "wind=0,0,-0.4", "floor=reflect"); // told
+    check_mirrors(CLAST_OK, "wind=0,0,-0.4", "floor=reflect"); // they fall by themselves: told
     check_mirrors(CLAST_E_CONFIG, "wind=0,0,0.4", "domain=sphere:0.5");
     assert_non_null(strstr(clast_error_detail(), "take sides: deposit or"));
 }

@@ -109,6 +109,43 @@ static void names_and_symbols_find_their_factor(void **state)
     assert_null(clast_form_feature_name(CLAST_N_FORM_FEATURE));
 }
 
+/* The second of its documented lists was none, and names by one letter anywhere were one. */
+static void columns_are_a_forms_by_the_word_of_their_place(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"",
+                                        "flatness_mean,elongation_mean",
+                                        "mean FL, mean-EL",
+                                        "S/I,I/L",
+                                        "L,I,S",
+                                        "mean L,mean I,mean S",
+                                        "d_L,d_I,d_S",
+                                        "d_L_mm,d_I_mm,d_S_mm",
+                                        "L, I, S",
+                                        "mean L (mm),mean I (mm),mean S (mm)",
+                                        "l_mm,i_mm,s_mm",
+                                        "Major Axis Length,Middle Axis Length,Minor Axis Length",
+                                        "length,width,thickness"};
+    static const char *const others[] = {"sand,mu",
+                                         "sand,mu,moisture",
+                                         "elongation,flatness",
+                                         "flatness",
+                                         "i_mean,s_total,l_organic",
+                                         "short_term,long_term,intermediate_step",
+                                         "length,width,time_s",
+                                         "length,width,time s",
+                                         "d_L,d_I,d_Sand",
+                                         "L,L,L",
+                                         "L,I,S,D"};
+    assert_true(clast_form_columns_named(NULL));
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
+        assert_true(clast_form_columns_named(forms[i]));
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        assert_false(clast_form_columns_named(others[i]));
+    }
+}
+
 /* The two Rhine scans are stored with D = 1 [data README of the scans]. */
 static void sieve_size_of_the_rhine_scans_is_one(void **state)
 {
@@ -175,6 +212,7 @@ int main(void)
         cmocka_unit_test(factors_stay_in_their_ranges_and_forget_the_scale),
         cmocka_unit_test(lengths_out_of_order_have_no_form),
         cmocka_unit_test(names_and_symbols_find_their_factor),
+        cmocka_unit_test(columns_are_a_forms_by_the_word_of_their_place),
         cmocka_unit_test(sieve_size_of_the_rhine_scans_is_one),
         cmocka_unit_test(lengths_give_back_flatness_elongation_and_size),
         cmocka_unit_test(differences_of_rounding_have_no_ratio),

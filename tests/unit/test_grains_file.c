@@ -62,7 +62,7 @@ static void spheres_are_a_clump_and_not_the_hull_of_their_centres(void **state)
     assert_int_equal(grains.record[2].kind, CLAST_GRAINS_POINTS);
     CHECK_REL(grains.record[0].grain.volume, 4.0 * 4.0 / 3.0 * CLAST_PI, 1e-13);
     CHECK_REL(grains.record[1].grain.volume, 2.0 * 4.0 / 3.0 * CLAST_PI * 1e-9, 1e-13);
-    CHECK_REL(grains.record[1].unit_m, 1.0, 0.0);
+    CHECK_REL(grains.record[1].unit_m, 1e-3, 1e-15); // of its columns; it is in metres
     CHECK_OK(clast_grains_table(&grains, CLAST_AXES_BOX, false, &table));
     assert_true(isnan(clast_table_numbers(&table, "flatness")[0]));
     assert_string_equal(table.column[clast_table_find(&table, "zingg")].text[0], "-");

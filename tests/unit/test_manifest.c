@@ -156,6 +156,7 @@ static void seed_keeps_all_digits(void **state)
     CHECK_OK(make((void *)support_scratch_file("manifest.json")));
     CHECK_OK(clx_file_read_all(support_scratch_file("manifest.json"), 1 << 20, &text, &n));
     assert_non_null(strstr(text, "\"seed\": 18446744073709551615"));
+    assert_non_null(strstr(text, "\"clast_source\": \""));
     clx_free(text);
 }
 

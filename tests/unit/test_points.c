@@ -187,11 +187,14 @@ static void vertices_of_a_surface_are_no_cloud(void **state)
     static const char vtk_surface[] =
         "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 "
         "float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+    static const char vtk_grid[] =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 2 1\nPOINTS 4 "
+        "float\n0 0 0 1 0 0 0 1 0 1 1 0\n";
     char surface[sizeof ply];
     (void)snprintf(surface, sizeof surface, "%s", ply);
     memcpy(strstr(surface, "face 0"), "face 1", 6);
-    const char *const text[2] = {surface, vtk_surface};
-    for (int k = 0; k < 2; ++k) {
+    const char *const text[3] = {surface, vtk_surface, vtk_grid};
+    for (int k = 0; k < 3; ++k) {
         clast_table table = {0};
         CHECK_STATUS(clast_cloud_parse("a", text[k], strlen(text[k]), NULL, &table),
                      CLAST_E_FORMAT);

@@ -38,6 +38,15 @@ static void box_on_the_axis_is_solid_within(void **state)
     CHECK_ABS(porosity[2], 1.0 - (4.0 - CLAST_PI) / (CLAST_PI * 1.25), 4.0 * error[2]);
     CHECK_ABS(porosity[3], 1.0, 0.0);
     clast_table_free(&radial);
+    // within 1 it is solid; what lies beyond is no grain at a wall: it made the last ring -0.70
+    CHECK_OK(clast_bed_parse("cylinder:1", &bed));
+    bed.is_part = true;
+    CHECK_OK(clast_porosity_radial(&a, &bed, z, &options, &radial));
+    for (int k = 0; k < 4; ++k) {
+        CHECK_ABS(clast_table_numbers(&radial, "porosity")[k], 0.0,
+                  4.0 * clast_table_numbers(&radial, "porosity_error")[k]);
+    }
+    clast_table_free(&radial);
     CHECK_STATUS(clast_porosity_radial(&a, &bed, none, &options, &radial), CLAST_E_USAGE);
     CHECK_OK(clast_bed_parse("box:0,0,1,1", &bed));
     CHECK_STATUS(clast_porosity_radial(&a, &bed, z, &options, &radial), CLAST_E_USAGE);

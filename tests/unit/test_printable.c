@@ -83,6 +83,22 @@ static void a_neck_too_thin_for_the_gap_is_refused(void **state)
     clast_assembly_free(&pair);
 }
 
+/* Two balls of 8 m^3 came out as one of 4188. */
+static void a_neck_that_would_be_the_body_is_refused(void **state)
+{
+    (void)state;
+    clast_assembly pair = {0};
+    clast_mesh mesh = {0};
+    clast_printable_report report;
+    clast_printable_config config = {.neck = 20.0, .spacing = 0.1};
+    make_pair(&pair, false, 0.0);
+    CHECK_STATUS(clast_assembly_printable(&pair, &config, NULL, &mesh, &report), CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "a neck of 20 m is thicker than every grain"));
+    config.neck = 1.0;
+    CHECK_OK(clast_assembly_printable_plan(&pair, &config, &report));
+    clast_assembly_free(&pair);
+}
+
 /* "use a thicker neck or a finer spacing" was said of grains that no neck joins, too. */
 static void grains_without_a_contact_are_told_as_such(void **state)
 {
@@ -194,6 +210,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tangent_spheres_become_one_body),
+        cmocka_unit_test(a_neck_that_would_be_the_body_is_refused),
         cmocka_unit_test(a_neck_too_thin_for_the_gap_is_refused),
         cmocka_unit_test(grains_without_a_contact_are_told_as_such),
         cmocka_unit_test(a_closed_void_is_filled_or_kept),

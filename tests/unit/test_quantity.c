@@ -79,6 +79,13 @@ static void a_number_reads_in_the_unit_of_its_size(void **state)
         {2.1e-5, "J", "21.00", MICRO "J"},
         {0.017453292519943295, "rad", "1.000", "\302\260"},
         {310.0, "kg/m^3", "310.0", "kg/m\302\263"},
+        {310.0, "N/m^3", "310.0", "N/m\302\263"}, /* only some units were raised */
+        {310.0, "m^2/s^3", "310.0", "m\302\262/s\302\263"},
+        {310.0, "m^3/kg", "310.0", "m\302\263/kg"},
+        {310.0, "1/m^d", "310.0", "1/m^d"},
+        {310.0, "-", "310", ""},
+        {310.0, "u", "310.0", "u"},
+        {2e-6, "Pa s", "2.000", MICRO "Pa s"},
         {301.0, "", "301", ""},
         {-14.76, "", "-14.76", ""},
         {7.39e-54, "", "7.390\302\240\303\227\302\24010\342\201\273\342\201\265\342\201\264", ""},
@@ -169,13 +176,16 @@ static void what_is_printed_can_be_read(void **state)
     CHECK_REL(value, 1e-9, 1e-15);
     static const char *const twice[][3] = {
         {"um^2", "um2", "m^2"},          {"mm^3", "mm3", "m^3"},     {"1/mm^3", "1/mm3", "1/m^3"},
-        {"m^2/s^3", "m2/s3", "m^2/s^3"}, {"m/s^2", "m/s2", "m/s^2"}, {"mJ/m^2", "mJ/m2", "J/m^2"}};
+        {"m^2/s^3", "m2/s3", "m^2/s^3"}, {"m/s^2", "m/s2", "m/s^2"}, {"mJ/m^2", "mJ/m2", "J/m^2"},
+        {"1/min", "/min", "1/s"},        {"1/h", "/h", "1/s"},       {"1/cm^3", "/cm3", "1/m^3"}};
     for (size_t k = 0; k < sizeof twice / sizeof *twice; ++k) {
         double factor[2] = {0.0, 0.0};
         CHECK_OK(clast_unit_factor(twice[k][0], twice[k][2], &factor[0]));
         CHECK_OK(clast_unit_factor(twice[k][1], twice[k][2], &factor[1]));
         CHECK_REL(factor[1], factor[0], 0.0);
     }
+    CHECK_OK(clast_unit_parse("60/min", "1/s", &value)); /* of rates only /s was read so */
+    CHECK_REL(value, 1.0, 1e-15);
     CHECK_STATUS(clast_unit_parse("1 oz", "kg", &value), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "known here: kg, g, mg, ug, ng, pg, fg, t"));
 }

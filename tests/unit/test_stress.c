@@ -121,6 +121,9 @@ static void stress_goes_through_a_periodic_border(void **state)
     CHECK_REL(out.column[1].number[2], 7.0, 1e-13);
     clast_table_free(&out);
     CHECK_STATUS(clast_stress(&contacts, &bed, more, &out), CLAST_E_USAGE);
+    const clast_bed window = {.kind = CLAST_BED_BOX, .is_part = true, .high = {1.0, 1.0}};
+    CHECK_STATUS(clast_stress(&contacts, &window, whole, &out), CLAST_E_USAGE);
+    CHECK_STATUS(clast_stress_profile(&contacts, &window, &profile, &out), CLAST_E_USAGE);
     contacts.column[8].number[0] = 1e300;
     CHECK_STATUS(clast_stress(&contacts, &bed, whole, &out), CLAST_E_FORMAT);
     clast_table_free(&contacts);

@@ -143,6 +143,67 @@ static void a_key_of_two_spellings_varies_once(void **state)
     }
 }
 
+/* 10000000000000003 became ...4 without a word, and 10000000000000001 was 1e+16. */
+static void seeds_of_a_table_keep_their_digits(void **state)
+{
+    (void)state;
+    clast_study_config config = fresh();
+    clast_table plan = {0};
+    set(&config, "run", "pack");
+    set(&config, "table",
+        write_file("seeds.csv", "seed,friction\n10000000000000003,0.50\n10000000000000001,6e-1\n"
+                                "20261130025411111,1\n20261130025411113,1\n"
+                                "18446744073709551615,1\n7.0,1\n"));
+    CHECK_OK(clast_study_plan(&config, &plan));
+    static const char *const seed[] = {"10000000000000003",    "10000000000000001",
+                                       "20261130025411111",    "20261130025411113",
+                                       "18446744073709551615", "7"};
+    for (int64_t i = 0; i < 6; ++i) {
+        assert_string_equal(cell(&plan, "seed", i), seed[i]);
+    }
+    assert_string_equal(cell(&plan, "friction", 0), "0.5");
+    assert_string_equal(cell(&plan, "friction", 1), "0.6");
+    clast_table_free(&plan);
+    clast_fields_free(clast_study_fields, &config);
+}
+
+/* Bare numbers and lists with one word in them were compared as texts, and were run twice. */
+static void the_same_values_are_refused_however_they_are_written(void **state)
+{
+    (void)state;
+    static const char *const same[] = {
+        "friction=0.1|0.10",   "mass=0.0005|0.5e-3",
+        "mass=0.5g|0.0005",    "mass=0.3mg|3e-7|U1",
+        "gyroscopic=yes|true", "gyroscopic=0|off",
+        "curve=4mm|U1|0.4cm",  "curve=2phi|250um",
+        "rate=60/min|1 1/s",   "seed=10000000000000003|010000000000000003",
+        "friction=0|-0"};
+    static const char *const other[] = {"friction=0.1|0.10000000000001",
+                                        "curve=4mm|U1|4cm",
+                                        "seed=10000000000000003|"
+                                        "10000000000000005",
+                                        "seed=9007199254740993|9007199254740992",
+                                        "config=a.yaml|b.yaml",
+                                        "law=linear|hertz"};
+    clast_table plan = {0};
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; ++i) {
+        clast_study_config config = fresh();
+        set(&config, "run", "pack");
+        set(&config, "vary", same[i]);
+        CHECK_STATUS(clast_study_plan(&config, &plan), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "are the same ("));
+        clast_fields_free(clast_study_fields, &config);
+    }
+    for (size_t i = 0; i < sizeof other / sizeof other[0]; ++i) {
+        clast_study_config config = fresh();
+        set(&config, "run", "pack");
+        set(&config, "vary", other[i]);
+        CHECK_OK(clast_study_plan(&config, &plan));
+        clast_table_free(&plan);
+        clast_fields_free(clast_study_fields, &config);
+    }
+}
+
 static void malformed_designs_are_refused(void **state)
 {
     (void)state;
@@ -547,6 +608,8 @@ int main(void)
         cmocka_unit_test(table_rows_are_runs_and_cross_with_lists),
         cmocka_unit_test(a_table_without_rows_is_refused),
         cmocka_unit_test(a_key_of_two_spellings_varies_once),
+        cmocka_unit_test(seeds_of_a_table_keep_their_digits),
+        cmocka_unit_test(the_same_values_are_refused_however_they_are_written),
         cmocka_unit_test(malformed_designs_are_refused),
         cmocka_unit_test(plan_survives_refused_memory),
         cmocka_unit_test(failed_runs_are_noted_and_tried_again),
