@@ -400,6 +400,9 @@ clast_status clast_grading_load(const char *text, clast_grading_spread spread,
     CLX_ARGUMENTS(text, curve, grading);
     clast_status status = CLAST_OK;
     double size = 0.0;
+    CLX_CHECK((unsigned)spread <= CLAST_SPREAD_MEANS && (unsigned)count <= CLAST_COUNT_EXACT,
+              CLAST_E_ARGUMENT, "%s: there is no spread %d, or no count %d", __func__, (int)spread,
+              (int)count);
     if (strncmp(text, "uniform:", 8) == 0 || strncmp(text, "lognormal:", 10) == 0) {
         return load_law(text, text[0] == 'l', grading);
     }
