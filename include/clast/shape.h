@@ -97,11 +97,13 @@ CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, 
 ///
 /// Text columns are found by name (x, y, z and radius, r, diameter or d, with or without a unit as
 /// in x_um) or, when the header names no x, y, z, by place: the first four. Numbers stay as they
-/// are (a diameter is halved).
+/// are (a diameter is halved); columns of several units are in that of x.
 ///
 /// @param name     of the set in a state file; NULL: its only one. Must be NULL for text
 /// @param spheres  empty; filled on success
-/// @return CLAST_E_FORMAT for missing columns, numbers that are not finite, radii not above 0
+/// @return CLAST_E_FORMAT for missing columns, some that say a unit beside some that say none or
+/// one
+///         that is no length, numbers that are not finite, radii not above 0
 CLAST_API clast_status clast_spheres_read(const char *path, const char *name,
                                           clast_spheres *spheres);
 

@@ -1,6 +1,7 @@
 // Which columns of a table are spheres, and the spheres in them.
 #include "io/spheres_table.h"
 
+#include "base/column_unit.h"
 #include "base/status.h"
 #include "shape/form_set.h"
 #include <clast/field.h>
@@ -187,8 +188,8 @@ done:
     return status;
 }
 
-/// Metres in the units of the columns: all or none of them say one.
-static clast_status find_factors(const columns *c, double factor[N_COLUMN], bool *in_metres)
+/// Metres in the units of the columns: all or none of them say one, and none says another quantity.
+static clast_status find_factors(const columns *c, double factor[N_COLUMN], bool *says_unit)
 {
     clast_status status = CLAST_OK;
     int n_unit = 0;
@@ -196,10 +197,18 @@ static clast_status find_factors(const columns *c, double factor[N_COLUMN], bool
     for (int k = 0; k < N_COLUMN; ++k) {
         factor[k] = 1.0;
         if (c->column[k] != NULL) {
-            const char *unit = c->column[k]->unit;
+            char unit[CLX_COLUMN_UNIT];
+            const char *name = c->column[k]->name;
+            const clx_unit_said said = clx_column_unit(name, unit);
+            const bool is_length =
+                clast_unit_factor(c->column[k]->unit, "m", &factor[k]) == CLAST_OK;
+            CLX_CHECK(is_length || (said != CLX_UNIT_TOLD && strcmp(unit, "phi") != 0),
+                      CLAST_E_FORMAT,
+                      "column '%s' is in no unit of length that is read here (m, mm, "
+                      "um, ...): convert or rename it",
+                      name);
             ++n;
-            n_unit += strcmp(unit, "-") != 0 && unit[0] != '\0' &&
-                      clast_unit_factor(unit, "m", &factor[k]) == CLAST_OK;
+            n_unit += is_length;
         }
     }
     CLX_CHECK(
@@ -207,7 +216,7 @@ static clast_status find_factors(const columns *c, double factor[N_COLUMN], bool
         "%d of the %d columns x, y, z, radius say their unit of length; give all of them one, "
         "or none",
         n_unit, n);
-    *in_metres = n_unit > 0;
+    *says_unit = n_unit > 0;
 done:
     return status;
 }
@@ -255,7 +264,8 @@ done:
     return status;
 }
 
-/// The spheres, in metres where in_metres is not NULL and the columns say their unit.
+/// The spheres, in metres where in_metres is not NULL and the columns say their unit; else in the
+/// unit of x.
 static clast_status make_spheres(const clast_table *table, const clx_spheres_wanted *wanted,
                                  const columns *c, bool *in_metres, clast_spheres *spheres)
 {
@@ -263,9 +273,15 @@ static clast_status make_spheres(const clast_table *table, const clx_spheres_wan
     clast_spheres made = {0};
     double factor[N_COLUMN] = {1.0, 1.0, 1.0, 1.0};
     double diameter = wanted != NULL ? wanted->options.diameter : 0.0;
+    bool says_unit = false;
+    CLX_TRY(find_factors(c, factor, &says_unit));
     if (in_metres != NULL) {
-        CLX_TRY(find_factors(c, factor, in_metres));
-        diameter /= wanted != NULL && wanted->metre > 0.0 && !*in_metres ? wanted->metre : 1.0;
+        *in_metres = says_unit;
+        diameter /= wanted != NULL && wanted->metre > 0.0 && !says_unit ? wanted->metre : 1.0;
+    } else { // numbers as they are; of several units in that of x
+        for (int k = N_COLUMN - 1; k >= 0; --k) {
+            factor[k] /= factor[0];
+        }
     }
     CLX_CHECK(table->n_row > 0 && table->n_row <= INT32_MAX, CLAST_E_FORMAT, "%lld spheres",
               (long long)table->n_row);

@@ -239,7 +239,8 @@ clast_status clast_bed_outside(const clast_bed *bed, const clast_bed *own, const
     double cube[3];
     int32_t n = 0;
     int32_t n_outside = 0;
-    CLX_CHECK(z[1] > z[0], CLAST_E_USAGE, "no height between %g and %g", z[0], z[1]);
+    CLX_CHECK(z[1] > z[0], CLAST_E_USAGE, "no height between %s and %s", clx_unit_text(z[0], "m"),
+              clx_unit_text(z[1], "m"));
     for (int b = 0; b < 2; ++b) {
         bed_bounds(beds[b], z, low[b], high[b]);
         if (beds[b]->kind == CLAST_BED_MESH) {

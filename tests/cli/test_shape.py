@@ -343,6 +343,14 @@ class Units(Case):
         table.write_text("x_mm,y_mm,z_mm,d_mm\n1,2,3,4\n5,6,7,8\n")
         self.assertEqual([grain["kind"] for grain in clast("shape", table, "--json").json["grains"]], ["clump"])
 
+    def test_spheres_in_units_that_are_not_read_are_refused(self):
+        """Diameters in phi and feet were lengths of the model."""
+        table = self.folder / "clump.csv"
+        for names in ("x,y,z,d (phi)", "x (ft),y (ft),z (ft),r (ft)"):
+            table.write_text(f"{names}\n0,0,0,1\n5,0,0,2\n")
+            for command in (("shape", table), ("pack", "--shapes", table, "--curve", "6 mm", "--max-steps", "1", "-q")):
+                self.assert_fails(3, *command, says=("column '", "is in no unit of length that is read here", "convert or rename it"))
+
     def test_rows_of_several_units_are_in_metres(self):
         """10 mm were 10000 of "the files' units", beside 10 of a table without any; the mean was of both."""
         mixed, none, one = (self.folder / name for name in ("mixed.csv", "none.csv", "one.csv"))

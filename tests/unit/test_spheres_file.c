@@ -33,16 +33,18 @@ static void columns_are_found_by_name_or_place(void **state)
 {
     (void)state;
     static const char *const texts[] = {"x_um,y_um,z_um,r_um\n1,2,3,4\n", "radius,z,y,x\n4,3,2,1\n",
-                                        "1 2 3 4\n", "a,b,c,d\n1,2,3,4\n"};
+                                        "1 2 3 4\n", "a,b,c,d\n1,2,3,4\n",
+                                        "x_mm,y_cm,z_mm,r_um\n1,0.2,3,4000\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         clast_spheres s = {0};
+        const double most = i < 4 ? 0.0 : 1e-12; // of several units in that of x
         const char *path = support_scratch_file("columns.csv");
         put(path, texts[i]);
         CHECK_OK(clast_spheres_read(path, NULL, &s));
         for (int k = 0; k < 3; ++k) {
-            CHECK_ABS(s.centre[0][k], k + 1.0, 0.0);
+            CHECK_ABS(s.centre[0][k], k + 1.0, most);
         }
-        CHECK_ABS(s.radius[0], 4.0, 0.0);
+        CHECK_ABS(s.radius[0], 4.0, most);
         clast_spheres_free(&s);
     }
 }
@@ -50,9 +52,14 @@ static void columns_are_found_by_name_or_place(void **state)
 static void bad_rows_and_columns_are_refused(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"x,y,z\n1,2,3\n", "x,y,z,radius\n1,2,3,0\n",
-                                        "x,y,z,radius\n1,nan,3,1\n", "x,y,z,radius\n1,2,3,big\n",
-                                        "x,y,z,radius\n"};
+    static const char *const texts[] = {"x,y,z\n1,2,3\n",
+                                        "x,y,z,radius\n1,2,3,0\n",
+                                        "x,y,z,radius\n1,nan,3,1\n",
+                                        "x,y,z,radius\n1,2,3,big\n",
+                                        "x,y,z,radius\n",
+                                        "x,y,z,d (phi)\n1,2,3,1\n",
+                                        "x (ft),y (ft),z (ft),r (ft)\n1,2,3,1\n",
+                                        "x_mm,y_mm,z_mm,radius\n1,2,3,1\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         clast_spheres s = {0};
         const char *path = support_scratch_file("bad.csv");
