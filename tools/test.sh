@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests, those of memory under sanitizers, exported symbols,
 # and then side by side: tests of numbers, Python and ranks, WebAssembly, 32 bits, packages, documents, short fuzzing.
-# FUZZ_SECONDS (default 10) and SKIP ("tidy mpich docs wasm i386 packages fuzz site") shorten it by hand; `tools/test.sh JOB` runs one of the side by side.
+# FUZZ_SECONDS (default 10) and SKIP ("tidy mpich docs wasm i386 packages fuzz site") shorten it by hand; `tools/test.sh JOB` runs one of the side by side;
+# ALSO=bare, as in CI, adds the new machine to them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 # what another clone of this machine has compiled is taken from there
@@ -22,14 +23,18 @@ job() { # what needs the release build
         tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
         ;;
     fuzz) FUZZ_JOBS=1 tools/fuzz.sh "${FUZZ_SECONDS:-10}" ;;
+    bare) tools/check_bare.sh ;;
     site) tools/check_web.sh; tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py ;;
-    *) echo "test: $1 is none of numbers, python, mpi, mpich, docs, wasm, i386, packages, fuzz, site" >&2; return 2 ;;
+    *) echo "test: $1 is none of numbers, python, mpi, mpich, docs, wasm, i386, packages, fuzz, site, bare" >&2; return 2 ;;
     esac
 }
 if [ "${1:-}" = logged ]; then # JOB: prints when it ends, as a whole; 255 keeps the next from beginning
     log=build/job-$2.log
     status=0; tools/test.sh "$2" > "$log" 2>&1 || status=$?
-    { printf '\n-- %s: %s (%d s)\n' "$2" "$([ "$status" = 0 ] && echo passed || echo "FAILED, exit code $status")" "$SECONDS"; grep -v '^ *Start ' "$log"; } || true
+    times > "$log.cpu" # not in a pipe, whose shell has children of its own
+    cpu=$(awk 'END {gsub("s", ""); split($1, u, "m"); split($2, k, "m"); printf "%d", 60 * (u[1] + k[1]) + u[2] + k[2]}' "$log.cpu")
+    said=$([ "$status" = 0 ] && echo passed || echo "FAILED, exit code $status")
+    { printf '\n-- %s: %s (%d s, %d s of CPU)\n' "$2" "$said" "$SECONDS" "$cpu"; grep -v '^ *Start ' "$log"; } || true
     [ "$status" = 0 ] || exit 255
     exit 0
 elif [ $# -gt 0 ]; then job "$1"; exit; fi
@@ -55,7 +60,7 @@ tools/check_symbols.sh
 tools/check_install.sh
 say "side by side, the longest first; one more than cores, since ranks wait much of their time"
 jobs=()
-for name in mpi packages i386 wasm docs fuzz python numbers site mpich; do skip "$name" || jobs+=("$name"); done
+for name in mpi packages ${ALSO:-} i386 wasm docs fuzz python numbers site mpich; do skip "$name" || jobs+=("$name"); done
 printf '%s\n' "${jobs[@]}" | xargs -P "$(($(nproc) + 1))" -I{} tools/test.sh logged {} | tee -a build/ctest.log
 say "reports in a browser, nothing beside them: their first picture is timed"; skip site || python3 tools/check_report.py
 say "done"
