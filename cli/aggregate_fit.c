@@ -1,11 +1,13 @@
 // clast aggregate --fit, printed.
 #include "aggregate_fit.h"
 
+#include <clast/field.h>
 #include <stdio.h>
 
-static void print_estimate(const char *name, const clast_fit_estimate *e, double factor,
-                           const char *unit)
+static void print_estimate(const char *name, const clast_fit_estimate *e, const char *si_unit)
 {
+    double factor = 1.0;
+    const char *unit = clast_unit_for(e->best, si_unit, &factor);
     (void)printf("%-18s %10.4g   %10.4g .. %-10.4g %s\n", name, e->best * factor, e->low * factor,
                  e->high * factor, unit);
 }
@@ -14,12 +16,12 @@ static void print_fit(const clast_aggregate_fit *fit)
 {
     (void)printf("%s\n\n", fit->words);
     (void)printf("%-18s %10s   %s\n", "", "best", "68 % of the weight between");
-    print_estimate("rays x orient.", &fit->trials, 1.0, "");
-    print_estimate("replicate (N_A)", &fit->n_replica, 1.0, "");
-    print_estimate("D_agg", &fit->model[CLAST_FIT_SIZE], 1e6, "um");
-    print_estimate("density", &fit->model[CLAST_FIT_DENSITY], 1.0, "kg/m^3");
-    print_estimate("settling velocity", &fit->model[CLAST_FIT_VELOCITY], 1.0, "m/s");
-    print_estimate("porosity", &fit->porosity, 1.0, "");
+    print_estimate("rays x orient.", &fit->trials, "");
+    print_estimate("replicate (N_A)", &fit->n_replica, "");
+    print_estimate("D_agg", &fit->model[CLAST_FIT_SIZE], "m");
+    print_estimate("density", &fit->model[CLAST_FIT_DENSITY], "kg/m^3");
+    print_estimate("settling velocity", &fit->model[CLAST_FIT_VELOCITY], "m/s");
+    print_estimate("porosity", &fit->porosity, "");
     (void)printf("\n%d aggregates grown at %d packings%s\n", fit->n_run, fit->n_level,
                  fit->cut_short ? ", tighter ones left out" : "");
 }

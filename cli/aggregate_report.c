@@ -58,7 +58,6 @@ static double read_porosity_union(const clast_aggregate_result *r, int32_t k)
 
 typedef struct {
     const char *name, *unit;
-    double scale;
     reader read;
     int32_t index;
 } line;
@@ -85,7 +84,7 @@ static void print_line(const clast_aggregate_report *report, const line *l)
         return;
     }
     for (int32_t i = 0; i < report->n; ++i) {
-        value[i] = l->scale * l->read(&report->result[i], l->index);
+        value[i] = l->read(&report->result[i], l->index);
     }
     const clast_interval i = clast_interval_of(report->n, value, report->confidence);
     double factor = 1.0;
@@ -105,7 +104,7 @@ static void print_line(const clast_aggregate_report *report, const line *l)
 /// The permeable velocity, or why it has none: of the first aggregate that has none.
 static void print_permeable(const clast_aggregate_report *report)
 {
-    static const line l = {"settling, permeable coat", "m/s", 1.0, read_permeable, 0};
+    static const line l = {"settling, permeable coat", "m/s", read_permeable, 0};
     for (int32_t i = 0; i < report->n; ++i) {
         if (report->result[i].permeable != CLAST_PERMEABLE_YES) {
             (void)printf("%-28s %12s (%s)\n", l.name, "-",
@@ -128,21 +127,21 @@ static void print_porosity(const clast_aggregate_report *report)
     for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
         const char *envelope = clast_envelope_name(report->result[0].envelope[k].kind);
         (void)snprintf(name, sizeof name, "porosity, %s", envelope);
-        print_line(report, &(line){name, "", 1.0, read_porosity, k});
+        print_line(report, &(line){name, "", read_porosity, k});
         (void)snprintf(name, sizeof name, "porosity_union, %s", envelope);
         if (overlap) {
-            print_line(report, &(line){name, "", 1.0, read_porosity_union, k});
+            print_line(report, &(line){name, "", read_porosity_union, k});
         }
     }
 }
 
 void aggregate_report_print(const clast_aggregate_report *report)
 {
-    const line lines[] = {{"grains", "", 1.0, read_n_grain, 0},
-                          {"d_agg", "um", 1e6, read_d_agg, 0},
-                          {"density", "kg/m^3", 1.0, read_density, 0},
-                          {"radius of gyration", "um", 1e6, read_gyration, 0},
-                          {"settling velocity in air", "m/s", 1.0, read_settling, 0}};
+    const line lines[] = {{"grains", "", read_n_grain, 0},
+                          {"d_agg", "m", read_d_agg, 0},
+                          {"density", "kg/m^3", read_density, 0},
+                          {"radius of gyration", "m", read_gyration, 0},
+                          {"settling velocity in air", "m/s", read_settling, 0}};
     char scope[512];
     if (report->n > 1) {
         (void)printf("%d aggregates, intervals of the mean at level %g\n", report->n,

@@ -156,7 +156,7 @@ static const char details[] =
     "printable.stl (mm) and its smallest feature (printable.json). When it cannot be made, the "
     "run\n"
     "is whole all the same (exit code 5; 130, 143 where it was stopped); --resume RUN --printable\n"
-    "--spacing S makes it then.\n"
+    "--spacing S makes it then, or ends with 5 too (2, 3: no body has such a neck or spacing).\n"
     "A folder that holds a run is refused: go on with --resume RUN if it has not ended, or "
     "replace\n"
     "it with --force (the new run is made in RUN.new and takes its place when it has succeeded).";

@@ -248,5 +248,6 @@ const cli_command cli_export = {
     .config_size = sizeof(export_config),
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run,
 };

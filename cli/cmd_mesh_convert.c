@@ -239,5 +239,6 @@ const cli_command cli_mesh_convert = {
     .config_size = sizeof(convert_config),
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run,
 };

@@ -193,5 +193,6 @@ const cli_command cli_mesh_form = {
     .config_size = sizeof(form_config),
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run,
 };

@@ -147,5 +147,6 @@ const cli_command cli_mesh_repair = {
     .config_size = sizeof(clast_mesh_repair_config),
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run,
 };

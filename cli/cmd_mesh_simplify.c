@@ -241,6 +241,7 @@ const cli_command cli_mesh_simplify = {
     .config_size = sizeof(simplify_config),
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run_simplify,
 };
 
@@ -259,5 +260,6 @@ const cli_command cli_mesh_hull = {
     .config_size = 0,
     .n_min = 1,
     .n_max = 1,
+    .needs_file = true,
     .run = run_hull,
 };

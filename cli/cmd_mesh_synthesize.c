@@ -260,5 +260,6 @@ const cli_command cli_mesh_synthesize = {
     .config_size = sizeof(synthesize_config),
     .n_min = 0,
     .n_max = 0,
+    .needs_file = true,
     .run = run,
 };

@@ -215,12 +215,13 @@ const cli_command cli_render = {
         "INPUT is a surface (STL, OBJ, PLY, OFF; several are drawn together, each at the place\n"
         "that its file gives it), a run's folder, or a state.h5. The output is a PNG file.\n"
         "Colours by size mean the diameter of the sphere of equal volume (of a surface without\n"
-        "volume, flat say, its length). The picture is framed so that nothing is cut off, and "
-        "equal\n"
-        "runs give equal bytes.",
+        "volume, flat say, its length). The picture is framed so that nothing is cut off; with "
+        "--cut\n"
+        "the frame is still that of the whole body. Equal runs give equal bytes.",
     .fields = clast_render_fields,
     .config_size = sizeof(clast_render_config),
     .n_min = 1,
     .n_max = 64,
+    .needs_file = true,
     .run = run,
 };

@@ -1,5 +1,6 @@
 // clast study: many runs of one command, one table of results.
 #include "command.h"
+#include "configs.h"
 #include "json.h"
 #include "workers.h"
 
@@ -19,6 +20,19 @@ static const cli_command *find_command(const char *name)
     return NULL;
 }
 
+/// The field of a "key=value" of a command that has it.
+static const clast_field *find_fixed(const cli_command *command, const char *pair)
+{
+    char name[256];
+    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(pair, "="), pair);
+    return clast_fields_find(command->fields, name);
+}
+
+static bool is_list(const clast_field *field)
+{
+    return field->type == CLAST_FIELD_TEXT_LIST || field->type == CLAST_FIELD_F64_LIST;
+}
+
 /// Refuses a key that the command does not have.
 static clast_status check_key(const cli_command *command, const char *key, size_t n)
 {
@@ -30,6 +44,21 @@ static clast_status check_key(const cli_command *command, const char *key, size_
         return cli_fail(CLAST_E_CONFIG, "clast %s has no key '%s'%s%s%s", command->name, name,
                         near != NULL ? " (did you mean '" : "", near != NULL ? near : "",
                         near != NULL ? "'?)" : "");
+    }
+    return CLAST_OK;
+}
+
+/// Refuses a key of one value that is fixed twice: the runs would take the last without a word.
+static clast_status check_fixed_once(const cli_command *command, const clast_text_list *set)
+{
+    for (int32_t i = 0; i < set->n; ++i) {
+        const clast_field *field = find_fixed(command, set->item[i]);
+        for (int32_t k = 0; k < i && !is_list(field); ++k) {
+            if (find_fixed(command, set->item[k]) == field) {
+                return cli_fail(CLAST_E_CONFIG, "fix: '%s' and '%s': %s takes one value",
+                                set->item[k], set->item[i], field->name);
+            }
+        }
     }
     return CLAST_OK;
 }
@@ -50,7 +79,7 @@ static clast_status check_keys(const cli_command *command, const clast_study_con
         }
         CLI_GUARD(check_key(command, pair, strcspn(pair, "=")));
     }
-    return CLAST_OK;
+    return check_fixed_once(command, &config->set);
 }
 
 static bool has_field(const cli_command *command, const char *name)
@@ -68,6 +97,12 @@ static clast_status check(const clast_study_config *config, const cli_command **
                         "run: '%s' is no command that a study can run; see clast "
                         "--help",
                         config->run);
+    }
+    if ((*command)->needs_file || (*command)->writes_no_data) {
+        return cli_fail(CLAST_E_CONFIG,
+                        "run: clast %s %s; a study tabulates the numbers of its runs", config->run,
+                        (*command)->needs_file ? "writes the file that its -o names"
+                                               : "prints no numbers");
     }
     clast_status status = CLAST_OK;
     CLI_TRY(clast_study_plan(config, &plan));
@@ -103,6 +138,7 @@ static clast_status print(const cli_common *common, const clast_study_config *co
         cli_json_count(object, "n_done", report->n_done);
         cli_json_count(object, "n_failed", report->n_failed);
         cli_json_count(object, "n_other", report->n_other);
+        cli_json_count(object, "n_unconverged", report->n_unconverged);
         return cli_print_json(object);
     }
     (void)printf("%lld run%s: %lld done now, %lld before", (long long)report->n_run,
@@ -110,27 +146,88 @@ static clast_status print(const cli_common *common, const clast_study_config *co
     if (report->n_other > 0) {
         (void)printf(", %lld left to others", (long long)report->n_other);
     }
+    if (report->n_unconverged > 0) {
+        (void)printf("; %lld did not converge (exit code 5)", (long long)report->n_unconverged);
+    }
     (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", common->output,
                  common->output);
     return CLAST_OK;
 }
 
-static clast_status begin(const cli_common *common, const clast_study_config *config,
+/// Marks the seed as not given: no seed is as large.
+static const uint64_t no_seed = UINT64_MAX;
+
+static void prepare(void *config)
+{
+    ((clast_study_config *)config)->seed = no_seed;
+}
+
+/// The seed that the command would take: the configuration's, or its default.
+static clast_status read_seed(const cli_command *command, const char *path, uint64_t *seed)
+{
+    clast_status status = CLAST_OK;
+    cli_configs configs = {0};
+    char *values = NULL;
+    CLI_CHECK(cli_configs_init(command, &configs), CLAST_E_MEMORY, "out of memory");
+    values = calloc(1, configs.size);
+    CLI_CHECK(values != NULL, CLAST_E_MEMORY, "out of memory");
+    CLI_TRY(clast_fields_default(configs.fields, values));
+    CLI_TRY(clast_fields_read(path, configs.fields, values));
+    memcpy(seed, values + clast_fields_find(configs.fields, "seed")->offset, sizeof *seed);
+done:
+    if (values != NULL) {
+        clast_fields_free(configs.fields, values);
+    }
+    free(values);
+    cli_configs_free(&configs);
+    return status;
+}
+
+/// The first seed, where none is given.
+static clast_status find_seed(clast_study_config *config)
+{
+    const cli_command *command = find_command(config->run);
+    if (config->seed != no_seed) {
+        return CLAST_OK;
+    }
+    config->seed = (uint64_t)clast_fields_find(clast_study_fields, "seed")->value;
+    return command == NULL || config->config[0] == '\0' || !has_field(command, "seed")
+               ? CLAST_OK
+               : read_seed(command, config->config, &config->seed);
+}
+
+/// The parser takes the last value of an option; of two tables the first would be left out.
+static clast_status check_one_table(const cli_common *common)
+{
+    int n = 0;
+    for (int32_t i = 0; i < common->n_word; ++i) {
+        const char *word = common->word[i];
+        n += strcmp(word, "--table") == 0 || strncmp(word, "--table=", 8) == 0;
+    }
+    return n < 2 ? CLAST_OK
+                 : cli_fail(CLAST_E_USAGE, "--table is given %d times: a study takes one table", n);
+}
+
+static clast_status begin(const cli_common *common, clast_study_config *config,
                           const cli_command **command, cli_workers *workers)
 {
     clast_status status = CLAST_OK;
+    clast_status agreed = CLAST_OK;
     int64_t n_run = 0;
+    CLI_TRY(check_one_table(common));
+    CLI_TRY(find_seed(config));
     CLI_TRY(check(config, command, &n_run));
     CLI_CHECK(common->output != NULL, CLAST_E_USAGE,
               "-o FOLDER is missing: a study needs a place for its runs");
     CLI_TRY(workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers, n_run));
 done:
-    return cli_agree(common, status);
+    agreed = cli_agree(common, status);
+    return agreed == CLAST_OK ? status : agreed;
 }
 
 static clast_status run(const cli_common *common, void *context)
 {
-    const clast_study_config *config = context;
+    clast_study_config *config = context;
     const cli_command *command = NULL;
     clast_study_report report = {0};
     clast_status status = CLAST_OK;
@@ -179,7 +276,9 @@ static const char details[] =
     "file, a configuration or a table that is not the one of the runs done is refused (study.json "
     "has\n"
     "their digests, and the versions of clast that worked on it).\n"
-    "Exit code 1 when runs failed; they are tried again by the same call.";
+    "Without --seed the first seed is that of the configuration, or 1.\n"
+    "A run that did not converge is done: its row has exit code 5, and no numbers where it has no\n"
+    "result. Exit code 1 when runs failed; they are tried again by the same call.";
 
 const cli_command cli_study = {
     .name = "study",
@@ -193,5 +292,6 @@ const cli_command cli_study = {
     .config_size = sizeof(clast_study_config),
     .writes_folder = true,
     .shares_ranks = true,
+    .prepare = prepare,
     .run = run,
 };

@@ -167,6 +167,9 @@ int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const
         (void)fputs("clast: not enough memory\n", stderr);
         goto done;
     }
+    if (command->prepare != NULL) {
+        command->prepare(p.config);
+    }
     cli_signals_begin(command->name, comm);
     code = exit_code(perform(&p, argc - n_skip, argv + n_skip), comm);
     if (p.configs.fields != NULL) {

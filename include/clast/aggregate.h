@@ -75,10 +75,10 @@ typedef struct clast_aggregate_params {
     clast_f64_list size; ///< sizes given here
     int32_t size_law;
     double size_mean, size_deviation, size_shape, size_low, size_high;
-    int32_t n_particle; ///< 0: all of the list
+    int32_t n_particle; ///< in all, 0: all of the list; of a law or size_draw: in each replicate
     bool size_draw;     ///< draw n_particle sizes from the histogram instead of taking all
     bool size_by_mass;  ///< the histogram's counts are masses
-    int32_t replicate;
+    int32_t replicate;  ///< how often the list is used, or n_particle sizes are drawn
     int32_t size_meaning;
     int32_t order;
 

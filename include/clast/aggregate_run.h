@@ -127,7 +127,8 @@ CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config,
 ///
 /// @param monitor  may stop it; may be NULL    @param report  may be NULL
 /// @return CLAST_E_IO when the folder holds no whole run, CLAST_E_USAGE when it is one of another
-///         command, CLAST_E_CONFIG for a neck below two spacings; as clast_assembly_printable
+///         command, CLAST_E_CONFIG for a neck below two spacings; CLAST_E_CONVERGE when the body
+///         falls into several pieces or is no closed surface; else as clast_assembly_printable
 CLAST_API clast_status clast_aggregate_make_printable(const char *folder,
                                                       const clast_printable_config *config,
                                                       const clast_monitor *monitor,
@@ -160,7 +161,7 @@ CLAST_API const char *clast_fit_verdict_name(clast_fit_verdict verdict);
 typedef struct clast_fit_estimate {
     double best;            ///< at the best node
     double mean, deviation; ///< over all nodes by weight
-    double low, high;       ///< between which the middle 68 % of the weight lies
+    double low, high;       ///< around the middle 68 % of the weight, and best
 } clast_fit_estimate;
 
 /// What packing and how many times the list of sizes explain an observation.

@@ -167,9 +167,9 @@ typedef struct clast_form_set {
     int64_t n;                     ///< grains kept
     int64_t *row;                  ///< [n] their rows in the table, from 0
     double *flatness, *elongation; ///< [n] S/I and I/L in (0, 1]
-    double *size;                  ///< [n] in the unit of its column, or that of L, I and S (metres
-                                   ///< where they say several); NAN for none above 0; NULL if the
-                                   ///< table has no size
+    double *size;                  ///< [n] in the unit of its column (mm for phi), or that of L, I
+                                   ///< and S (metres where they say several); NAN for none above 0;
+                                   ///< NULL if the table has no size
     char size_label[64];           ///< "sieve size (mm)", "diameter_m"
     int64_t n_left_out;
     clast_left_out *left_out; ///< [n_left_out] by row
@@ -187,13 +187,13 @@ CLAST_API bool clast_form_columns_named(const char *columns);
 /// L, I and S (also long, intermediate, short; major, middle, minor axis length; length, width,
 /// thickness); where a table has both, L, I and S count and must agree with the ratios to 0.006. A
 /// size column (sieve_size, D, size, diameter, equivalent_diameter) is kept; lengths give the sieve
-/// size of eq. 1, each by the unit that its column says. Rows with cells that are no numbers, not
-/// finite, not positive, ratios above 1 (by more than 1e-9) or lengths out of order are left out
-/// and listed; a form whose size alone is so is kept.
+/// size of eq. 1, each by the unit that its column says; in phi both are 2^-phi mm. Rows with cells
+/// that are no numbers, not finite, not positive, ratios above 1 (by more than 1e-9) or lengths out
+/// of order are left out and listed; a form whose size alone is so is kept.
 ///
 /// @param columns  NULL or "": as above; "a,b": flatness and elongation by name; "a,b,c": L, I, S
 /// @return CLAST_E_FORMAT if columns are missing or disagree, some of L, I and S alone say a unit,
-///         or no row is left
+///         lengths or sizes say one that is no length or not read (ft), or no row is left
 CLAST_API clast_status clast_form_set_of(const clast_table *table, const char *columns,
                                          clast_form_set *set);
 CLAST_API void clast_form_set_free(clast_form_set *set);

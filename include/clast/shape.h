@@ -97,7 +97,8 @@ CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, 
 ///
 /// Text columns are found by name (x, y, z and radius, r, diameter or d, with or without a unit as
 /// in x_um) or, when the header names no x, y, z, by place: the first four. Numbers stay as they
-/// are (a diameter is halved); columns of several units are in that of x.
+/// are (a diameter is halved); columns of several units, radii and diameters in phi among them, are
+/// in that of x.
 ///
 /// @param name     of the set in a state file; NULL: its only one. Must be NULL for text
 /// @param spheres  empty; filled on success

@@ -60,12 +60,13 @@ typedef struct clast_study_worker {
 typedef struct clast_study_report {
     int64_t n_run;         ///< of the whole plan
     int64_t n_before;      ///< that were whole already when this call began
-    int64_t n_done;        ///< of this call that ended with 0
+    int64_t n_done;        ///< of this call that ended with an answer: 0, 1 or 5
     int64_t n_failed;      ///< of this call that ended otherwise
     int64_t n_other;       ///< left to other shards, or done by another study beside this one
     int64_t first_failed;  ///< number of the first run that failed, or 0
     int32_t n_unknown;     ///< names of `keep` that no run's result has
     int32_t first_unknown; ///< the first of them, as an index into `keep`
+    int64_t n_unconverged; ///< of all that are whole: did not converge (exit code 5)
 } clast_study_report;
 
 /// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.
@@ -76,7 +77,8 @@ typedef struct clast_study_report {
 /// versions of clast that worked on it, and the digests of its configuration, table and arguments'
 /// files. The same call again goes on: whole runs stay, runs that were cut off resume from their
 /// checkpoint where the command can, and start anew where not. A run that fails is noted and the
-/// study goes on; it is tried again by the next call.
+/// study goes on; it is tried again by the next call. One that did not converge is whole: its row
+/// has exit code 5 and, where it printed no result, no numbers.
 /// A second call beside the first joins in: each run is done by one of them (a lock,
 /// runs/NNNNNN.lock). A run that a killed call has left under way is waited for, for 30 s. Ranks
 /// take runs from rank 0 one by one, each clast_parallel_threads() at a time, and write them into

@@ -233,7 +233,8 @@ class Run:
         if self._has("study.json"):  # a folder of runs: each has its manifest
             self.manifest: dict[str, Any] = {"command": "study", "study": self._json("study.json")}
             codes = self.table("results")["exit_code"]
-            self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int((codes == 0).sum()), "n_failed": int((codes > 0).sum())}
+            done = np.isin(codes, (0, 1, 5))  # an answer, as clast study counts
+            self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int(done.sum()), "n_failed": int((~done & (codes > 0)).sum())}
         else:
             self.manifest = self._json("manifest.json")
             self.summary = self._json("summary.json") if self._has("summary.json") else {}

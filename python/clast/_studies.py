@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -27,6 +28,7 @@ class Study:
     n_done: int
     n_failed: int
     n_other: int
+    n_unconverged: int
 
     @property
     def results(self) -> Table:
@@ -107,19 +109,37 @@ class _Workers:
 
 _FOLDERS = frozenset(c.FOLDERS)
 
+# no study can run them, as in clast study: they write the file that -o names, or print no numbers
+_FILES = frozenset(("mesh convert", "mesh repair", "mesh hull", "mesh simplify", "mesh form", "mesh synthesize",
+                    "render", "export", "completion", "man"))
+
 
 def _check_keys(command: str, keys: dict[str, Any]) -> None:
     """Refuses keys that the command does not have before the first run."""
     if command == "study" or command not in c.KEYS:
         raise refuse(f"run: '{command}' is no command that a study can run{nearest(command, c.KEYS)}")
+    if command in _FILES:
+        raise refuse(f"run: clast {command} has no numbers for a study to tabulate")
+    fixed: set[str] = set()
     for name in ("vary", "fix"):
         for entry in [] if keys.get(name) is None else map(str, items(name, keys[name])):
             key = entry.split("=")[0].strip().replace("-", "_")
             if "=" not in entry or key not in c.KEYS[command]:
                 raise Error("CLAST_E_CONFIG", f"{name}: clast {command} has no key '{key}'{nearest(key, c.KEYS[command])}" if "=" in entry
                             else f"{name}: takes key=value, not '{entry}'")
+            if name == "fix" and key in fixed and c.KEYS[command][key][0] not in ("texts", "numbers"):
+                raise Error("CLAST_E_CONFIG", f"fix: '{key}' is given twice; it takes one value")
+            fixed.add(key if name == "fix" else "")
     if settled("study", dict(seeds=keys.get("seeds")))["seeds"] > 1 and "seed" not in c.KEYS[command]:
         raise refuse(f"seeds: clast {command} draws nothing at random; seeds must be 1")
+
+
+def _seed(command: str, config: Path) -> int | None:
+    """The first seed where none is given: the configuration's, where it has one."""
+    path = pathlib.Path(os.fsdecode(config))
+    text = path.read_text("utf-8-sig", "replace") if "seed" in c.KEYS[command] and path.is_file() else ""
+    found = re.search(r"""^[ {]*["']?seed["']?\s*:\s*["']?(\d+)""", text, re.MULTILINE)
+    return int(found[1]) if found else None
 
 
 def _entries(command: str, name: str, values: dict[str, Any]) -> list[str]:
@@ -157,6 +177,8 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
         if value is not None:
             keys[name] = _entries(run, name, value) if isinstance(value, dict) else value
     _check_keys(run, keys)
+    if keys.get("seed") is None and keys.get("config"):
+        keys["seed"] = _seed(run, keys["config"])
     n_job = whole("jobs", jobs, 0, 4096)
     workers, report, monitor = _Workers(_program(), run), c.clast_study_report(), Monitor(progress)
     before = call("clast_parallel_threads")()
@@ -177,4 +199,7 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
     if report.n_failed:
         warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
              f"{report.first_failed:06d}.part/messages.txt; the same call tries them again")
-    return Study(os.path.abspath(os.fsdecode(output)), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)
+    if report.n_unconverged:
+        warn(f"{report.n_unconverged} of {report.n_run} runs did not converge (exit code 5)")
+    return Study(os.path.abspath(os.fsdecode(output)), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other,
+                 report.n_unconverged)

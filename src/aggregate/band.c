@@ -17,17 +17,20 @@ static bool is_banded(const clast_column *column)
             strncmp(name, "density_", 8) == 0 || strcmp(name, "radius_of_gyration_m") == 0);
 }
 
-int64_t clx_history_common(const double *n, int64_t n_row, int32_t *n_repeat)
+int64_t clx_history_common(const double *n, const double *value, int64_t n_row, int32_t *n_repeat)
 {
-    double least = n_row > 0 ? 1e9 : 0.0;
+    double least = 1e9;
+    double last = -1.0;
     *n_repeat = 0;
     for (int64_t i = 0; i < n_row; ++i) {
+        last = value == NULL || isfinite(value[i]) ? n[i] : last;
         if (i + 1 == n_row || n[i + 1] <= n[i]) { // the next row is another repeat's first
-            least = fmin(least, n[i]);
-            ++*n_repeat;
+            least = last >= 0.0 ? fmin(least, last) : least;
+            *n_repeat += last >= 0.0;
+            last = -1.0;
         }
     }
-    return (int64_t)fmax(least, 0.0);
+    return *n_repeat > 0 ? (int64_t)least : 0;
 }
 
 /// Values of all repeats after `wanted` particles; rows that were not measured are left out.
@@ -90,7 +93,8 @@ clast_status clast_aggregate_band(const clast_table *history, double confidence,
               confidence);
     CLX_CHECK(n != NULL, CLAST_E_USAGE, "%s has no column n", history->name);
     CLX_TRY(clx_alloc(&found, history->n_row, sizeof *found));
-    CLX_TRY(clast_table_init(&made, "band", clx_history_common(n, history->n_row, &n_repeat) + 1));
+    CLX_TRY(clast_table_init(&made, "band",
+                             clx_history_common(n, NULL, history->n_row, &n_repeat) + 1));
     CLX_TRY(clast_table_add_number(&made, "n", "-", NULL));
     CLX_TRY(clast_table_add_number(&made, "n_repeat", "-", &repeats));
     for (int64_t row = 0; row < made.n_row; ++row) {

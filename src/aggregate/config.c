@@ -66,7 +66,8 @@ const clast_field clast_aggregate_fields[] = {
 
     TEXT(, sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts",
          .common = true, .group = "sizes"),
-    TEXT(, size_column, "", "its column; none: the first"),
+    TEXT(, size_column, "",
+         "its column; none: the one that is named a size, else the first that counts nothing"),
     TEXT(, size_unit, "", "its unit, um, mm, m or phi; none: from the column's name",
          .common = true),
     LIST(params., size, 1e-12, 1e6, "m", "", "a size, instead of a file"),
@@ -80,11 +81,15 @@ const clast_field clast_aggregate_fields[] = {
            "lognormal: standard deviation of ln size; weibull: exponent"),
     NUMBER(params., size_low, 0, 0, 1e6, "m", "smallest size of a law"),
     NUMBER(params., size_high, 0, 0, 1e6, "m", "greatest size of a law; 0: none"),
-    COUNT(params., n_particle, 0, 0, 1e8, "particles to place; 0: the whole list"),
+    COUNT(
+        params., n_particle, 0, 0, 1e8,
+        "particles to place, 0: the whole list; from a law or with size_draw: how many are drawn, "
+        "replicate times"),
     FLAG(params., size_draw, "draw n_particle sizes from the histogram at random"),
     FLAG(params., size_by_mass,
          "rows of the histogram hold masses (a column mass, mass_g, weight ..), not numbers"),
-    COUNT(params., replicate, 1, 1, 1e6, "how often the list is used (N_A of the paper)",
+    COUNT(params., replicate, 1, 1, 1e6,
+          "how often the list is used, or n_particle sizes are drawn (N_A of the paper)",
           .common = true),
     CHOICE(
         params., size_meaning, 0, "length|volume|mean_diameter",

@@ -3,6 +3,7 @@
 #include "aggregate/fit.h"
 #include "base/number.h"
 
+#include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,9 +47,9 @@ static void say_pulls(clast_aggregate_fit *r)
 {
     char part[160];
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
-        const bool is_size = k == CLAST_FIT_SIZE;
-        const double factor = is_size ? 1e6 : 1.0;
-        const char *unit = is_size ? "um" : clast_aggregate_fit_observable_unit(k);
+        double factor = 1.0;
+        const char *unit =
+            clast_unit_for(r->observed[k], clast_aggregate_fit_observable_unit(k), &factor);
         if (isfinite(r->observed[k])) {
             (void)clx_number_print(
                 part, sizeof part, "%s %.4g %s against %.4g +- %.2g %s (%+.1f errors); ",

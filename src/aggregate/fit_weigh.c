@@ -125,7 +125,9 @@ static int by_value(const void *p, const void *q)
     return (a->value > b->value) - (a->value < b->value);
 }
 
-/// A quantity of the nodes by weight; `list` is scratch [n_node] that holds the values.
+/// A quantity of the nodes by weight; `list` is scratch [n_node] that holds the values. Where it
+/// does not go one way with N_A the best may be its least or greatest value of all: the interval is
+/// widened to it.
 static clast_fit_estimate estimate(const clx_fit *fit, weighed *list, int32_t best)
 {
     CLAST_ASSERT(best >= 0 && best < fit->n_node);
@@ -154,6 +156,8 @@ static clast_fit_estimate estimate(const clx_fit *fit, weighed *list, int32_t be
             break;
         }
     }
+    e.low = fmin(e.low, e.best);
+    e.high = fmax(e.high, e.best);
     return e;
 }
 

@@ -51,5 +51,7 @@ clast_status clx_history_read(clx_history *history, const clast_table *table);
 
 /// The last number of particles that all repeats have reached, whose rows n lie one below the
 /// other, and how many they are. Beyond it a mean would be of those that a stop criterion has left.
+/// Of `value`, where it is not NULL: rows and repeats in which it is no number do not count.
 /// No more than a billion.
-CLX_SHARED int64_t clx_history_common(const double *n, int64_t n_row, int32_t *n_repeat);
+CLX_SHARED int64_t clx_history_common(const double *n, const double *value, int64_t n_row,
+                                      int32_t *n_repeat);

@@ -2,8 +2,9 @@
 #include "base/column_unit.h"
 
 #include "base/field.h"
+#include <clast/field.h>
 #include <ctype.h>
-#include <stdbool.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -129,6 +130,58 @@ clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT])
         (void)snprintf(unit, CLX_COLUMN_UNIT, "-");
     }
     return said;
+}
+
+/// The unit of a column that is known to hold lengths: "L_in" is in inches then.
+static clx_unit_said unit_of_length(const char *name, char unit[CLX_COLUMN_UNIT])
+{
+    const char *bar = strrchr(name, '_');
+    const clx_unit_said said = clx_column_unit(name, unit);
+    if (said != CLX_UNIT_NONE || bar == NULL || strcmp(bar, "_in") != 0) {
+        return said;
+    }
+    (void)snprintf(unit, CLX_COLUMN_UNIT, "in");
+    return CLX_UNIT_WORD;
+}
+
+bool clx_column_says_length(const char *name, char unit[CLX_COLUMN_UNIT])
+{
+    double metre = 0.0;
+    const clx_unit_said said = unit_of_length(name, unit);
+    return clast_unit_factor(unit, "m", &metre) == CLAST_OK || strcmp(unit, "phi") == 0 ||
+           (said == CLX_UNIT_TOLD && strchr(unit, '/') == NULL && !is_known(unit));
+}
+
+clast_status clx_column_length(const clast_column *column, bool takes_phi, clx_length_unit *length)
+{
+    clast_status status = CLAST_OK;
+    clx_length_unit found = {.metre = 0.0};
+    clx_unit_said said = unit_of_length(column->name, found.unit);
+    const bool has_own = column->unit != NULL && strlen(column->unit) < sizeof found.unit;
+    const clx_unit_said own = has_own ? judge(column->unit, true) : CLX_UNIT_NONE;
+    if (own != CLX_UNIT_NONE && strcmp(column->unit, found.unit) != 0) {
+        (void)snprintf(found.unit, sizeof found.unit, "%s", column->unit);
+        said = own;
+    }
+    found.is_phi = takes_phi && strcmp(found.unit, "phi") == 0;
+    if (found.is_phi) {
+        (void)snprintf(found.unit, sizeof found.unit, "mm");
+    }
+    if (clast_unit_factor(found.unit, "m", &found.metre) != CLAST_OK) {
+        CLX_CHECK(said != CLX_UNIT_TOLD && strcmp(found.unit, "phi") != 0, CLAST_E_FORMAT,
+                  "column '%s' is in no unit of length that is read here (m, mm, um, ...%s): "
+                  "convert or rename it",
+                  column->name, takes_phi ? "; phi" : "");
+        found = (clx_length_unit){.metre = 0.0};
+    }
+    *length = found;
+done:
+    return status;
+}
+
+double clx_length_value(const clx_length_unit *length, double number)
+{
+    return length->is_phi ? exp2(-number) : number;
 }
 
 clast_status clx_table_add_said(clast_table *table, const char *name, const char *said,

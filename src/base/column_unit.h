@@ -2,6 +2,7 @@
 // What the name of a column says of its unit, for every reader of tables and whoever uses them.
 #include "base/status.h"
 #include <clast/table.h>
+#include <stdbool.h>
 
 typedef enum {
     CLX_UNIT_NONE, ///< "x", "u (mean)", "Points:0", "flow_in"
@@ -14,6 +15,26 @@ enum { CLX_COLUMN_UNIT = 32 };
 /// The unit in a name: in brackets anywhere, else behind "_", a component's name or number
 /// after it or not ("U_cm/s_x", "U_cm/s:0"). One that is TOLD may be none that clast knows.
 clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT]);
+
+/// True where a name says a unit of length, phi, or one that may be of length and is not read here:
+/// "d_mm", "x (ft)", "d_ft", "L_in"; false of "r_g" and "x_m/s".
+bool clx_column_says_length(const char *name, char unit[CLX_COLUMN_UNIT]);
+
+/// The unit of a column of lengths. {0} where it says none.
+typedef struct {
+    char unit[CLX_COLUMN_UNIT]; ///< "" for none; "mm" of phi
+    double metre;               ///< in the unit; 0 for none
+    bool is_phi;                ///< numbers v stand for 2^-v mm
+} clx_length_unit;
+
+/// What a column, or else its name, says of the unit of its lengths.
+///
+/// @param takes_phi  of sizes: phi is a unit
+/// @return CLAST_E_FORMAT for one that is told and is none of length that is read here
+clast_status clx_column_length(const clast_column *column, bool takes_phi, clx_length_unit *length);
+
+/// A number of such a column in `unit`.
+double clx_length_value(const clx_length_unit *length, double number);
 
 /// clast_table_add_number with the unit that the text `said` says, "-" where clast knows none.
 clast_status clx_table_add_said(clast_table *table, const char *name, const char *said,

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/path.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -33,11 +34,12 @@ static bool is_unknown(int error)
     return error == ENOSYS || error == ENOTSUP || error == EINVAL || error == ENOLCK;
 }
 
-/// Locks the file: 0, or why not; EWOULDBLOCK: another has it.
-static int lock_file(int file)
+/// Locks the file, for itself (F_WRLCK) or beside others that only ask (F_RDLCK): 0, or why not;
+/// EWOULDBLOCK: another has it.
+static int lock_file(int file, short type)
 {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    int error = flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    struct flock whole = {.l_type = type, .l_whence = SEEK_SET};
+    int error = flock(file, (type == F_RDLCK ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 ? 0 : errno;
 #ifdef F_OFD_SETLK // the open file's, as flock's; the plain one goes as any descriptor is closed
     if (is_unknown(error)) {
         error = fcntl(file, F_OFD_SETLK, &whole) == 0 ? 0 : errno;
@@ -56,7 +58,7 @@ static int try_take(const char *path, int *descriptor)
     if (file < 0) {
         return -1;
     }
-    const int refused = lock_file(file);
+    const int refused = lock_file(file, F_WRLCK);
     // held, but by a name that is gone: once more
     const int error = refused == 0 ? EWOULDBLOCK : refused;
     if (refused == 0 && is_named(file, path)) {
@@ -138,6 +140,18 @@ clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bo
 done:
     clx_free(name);
     return status;
+}
+
+bool clx_lock_is_held(const char *path)
+{
+    char name[CLX_PATH_LIMIT];
+    const int n = snprintf(name, sizeof name, "%s.lock", path);
+    const int file = n > 0 && n < CLX_PATH_LIMIT ? open(name, O_RDONLY | O_CLOEXEC) : -1;
+    const bool is_held = file >= 0 && lock_file(file, F_RDLCK) == EWOULDBLOCK;
+    if (file >= 0) {
+        (void)close(file); // and with it the lock
+    }
+    return is_held;
 }
 
 void clx_lock_release(clx_lock *lock)

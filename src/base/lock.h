@@ -23,5 +23,8 @@ enum { CLX_PROCESS_NAME = 300 };
 /// This process for messages of others: "process 4711 on node3".
 void clx_process_name(char name[CLX_PROCESS_NAME]);
 
+/// Whether somebody has the lock of PATH now; takes, waits for and writes nothing.
+CLX_SHARED bool clx_lock_is_held(const char *path);
+
 /// Lets go; does nothing for {0}.
 CLX_SHARED void clx_lock_release(clx_lock *lock);

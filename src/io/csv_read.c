@@ -78,6 +78,14 @@ static void skip_line_end(cursor *c)
     }
 }
 
+static void skip_line(cursor *c)
+{
+    while (c->at < c->end && !is_line_end(*c->at)) {
+        ++c->at;
+    }
+    skip_line_end(c);
+}
+
 /// Goes to the next line that holds cells; false at the end. A line of separators alone holds
 /// cells.
 static bool begin_row(cursor *c)
@@ -92,12 +100,42 @@ static bool begin_row(cursor *c)
         }
         c->n_comment += comment;
         c->n_blank += !comment;
-        while (c->at < c->end && !is_line_end(*c->at)) {
-            ++c->at;
-        }
-        skip_line_end(c);
+        skip_line(c);
     }
     return false;
+}
+
+bool clx_csv_next_row(const char *bytes, int64_t n, char separator, clx_csv_row *row)
+{
+    cursor c = {.at = bytes + row->next,
+                .end = bytes + n,
+                .line = row->n_line,
+                .separator = separator,
+                .comment = '#',
+                .has_comment = true};
+    const bool is_row = begin_row(&c);
+    row->begin = c.at - bytes;
+    row->line = c.line;
+    skip_line(&c);
+    row->next = c.at - bytes;
+    row->n_line = c.line;
+    return is_row;
+}
+
+bool clx_csv_begins_line(const char *bytes, int64_t at, int64_t n)
+{
+    return at > 0 &&
+           (bytes[at - 1] == '\n' || (bytes[at - 1] == '\r' && at < n && bytes[at] != '\n'));
+}
+
+int64_t clx_csv_count_lines(const char *bytes, int64_t n, char before)
+{
+    int64_t lines = 0;
+    for (int64_t i = 0; i < n; ++i) {
+        lines += bytes[i] == '\r' || (bytes[i] == '\n' && before != '\r');
+        before = bytes[i];
+    }
+    return lines;
 }
 
 static clast_status quoted_cell(cursor *c, cell *out)

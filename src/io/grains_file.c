@@ -5,6 +5,7 @@
 #include "io/grains_file.h"
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/field.h"
 #include "base/file.h"
 #include "base/monitor.h"
@@ -421,7 +422,7 @@ static clast_status points_of_table(const clast_table *table, clast_mesh *points
     static const char *const names[3] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
     const clast_column *x[3];
-    double metre[3] = {0.0};
+    clx_length_unit length[3];
     int n_unit = 0;
     for (int k = 0; k < 3; ++k) {
         x[k] = clx_column_find(table, names[k]);
@@ -430,7 +431,8 @@ static clast_status points_of_table(const clast_table *table, clast_mesh *points
         }
         CLX_CHECK(x[k] != NULL && x[k]->number != NULL, CLAST_E_FORMAT,
                   "no column of numbers is called '%s'; points need x, y and z", names[k]);
-        n_unit += clast_unit_factor(x[k]->unit, "m", &metre[k]) == CLAST_OK;
+        CLX_TRY(clx_column_length(x[k], false, &length[k]));
+        n_unit += length[k].metre > 0.0;
     }
     CLX_CHECK(n_unit == 0 || n_unit == 3, CLAST_E_FORMAT,
               "%d of the 3 columns x, y, z say their unit of length; give all of them one, or none",
@@ -439,12 +441,13 @@ static clast_status points_of_table(const clast_table *table, clast_mesh *points
               (long long)table->n_row);
     CLX_TRY(clast_mesh_alloc((int32_t)table->n_row, 0, points));
     for (int k = 0; k < 3; ++k) {
-        const double factor = metre[k] == metre[0] ? 1.0 : metre[k] / metre[0];
+        const double factor =
+            length[k].metre == length[0].metre ? 1.0 : length[k].metre / length[0].metre;
         for (int32_t i = 0; i < points->n_vert; ++i) {
             points->vert[i][k] = factor * x[k]->number[i];
         }
     }
-    *unit_m = metre[0];
+    *unit_m = length[0].metre;
 done:
     return status;
 }

@@ -24,7 +24,7 @@ typedef struct {
     int64_t capacity;
 } sink;
 
-/// Appends n numbers to an array of the cloud, where the piece has it.
+/// Appends n numbers to an array of the cloud, where the piece has it and the capacity is enough.
 static clast_status append(double **array, int64_t at, int64_t capacity, const double *value,
                            int64_t n)
 {
@@ -35,7 +35,6 @@ static clast_status append(double **array, int64_t at, int64_t capacity, const d
     if (*array == NULL) {
         CLX_TRY(clx_alloc(array, capacity, sizeof **array));
     }
-    CLAST_ASSERT(at + n <= capacity);
     if (n > 0) {
         memcpy(*array + at, value, (size_t)n * sizeof *value);
     }
@@ -51,6 +50,8 @@ static clast_status take_rows(sink *s, const clast_table *table, const clast_clo
     clast_cloud *c = &s->cloud;
     CLX_TRY(clast_cloud_from_table(table, columns, &piece));
     const int32_t d = piece.dimension;
+    CLX_CHECK(piece.n <= s->capacity - c->n && (c->x == NULL || d == c->dimension), CLAST_E_IO,
+              "%s holds more than was counted in it: it changed while it was read", table->name);
     c->dimension = d;
     CLX_TRY(append(&c->x, c->n * d, s->capacity * d, piece.x, piece.n * d));
     CLX_TRY(append(&c->radius, c->n, s->capacity, piece.radius, piece.n));
@@ -93,57 +94,45 @@ static clast_status read_at(const text *t, int64_t at, char *bytes, int64_t n)
     return CLAST_OK;
 }
 
-static int64_t count_lines(const char *bytes, int64_t n)
-{
-    int64_t lines = 0;
-    const char *at = bytes;
-    const char *end = bytes + n;
-    while (at < end && (at = memchr(at, '\n', (size_t)(end - at))) != NULL) {
-        ++lines;
-        ++at;
-    }
-    return lines;
-}
-
-/// Whether a line, which ends before `end`, holds cells.
-static bool has_cells(const char *at, const char *end)
-{
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
-        ++at;
-    }
-    return at < end && *at != '#';
-}
-
-/// Splits the head into what stands before the first row and the rest; keeps the line of names.
+/// Splits the head into what stands before the first row and the rest; keeps the line of names,
+/// behind a byte-order mark: the reader takes one away, which may be part of the first name.
 static clast_status find_begin(text *t, const char *bytes, int64_t n, bool has_header)
 {
+    static const char mark[] = "\xef\xbb\xbf";
+    const int64_t n_mark = (int64_t)sizeof mark - 1;
     clast_status status = CLAST_OK;
-    const char *at = bytes + (n >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
-    const char *end = bytes + n;
-    const char *line_end = end;
-    for (; at < end; at = line_end < end ? line_end + 1 : end) {
-        line_end = memchr(at, '\n', (size_t)(end - at));
-        line_end = line_end != NULL ? line_end : end;
-        if (has_cells(at, line_end)) {
-            break;
-        }
-    }
-    const int64_t names = line_end - at;
-    CLX_TRY(clx_alloc(&t->head, (has_header ? names : 64 * (int64_t)t->columns.n_column) + 2, 1));
+    clx_csv_row row = {.next =
+                           n >= n_mark && memcmp(bytes, mark, (size_t)n_mark) == 0 ? n_mark : 0};
+    (void)clx_csv_next_row(bytes, n, t->options.separator, &row);
+    const int64_t names = has_header ? row.next - row.begin : 64 * (int64_t)t->columns.n_column;
+    CLX_TRY(clx_alloc(&t->head, n_mark + names + 2, 1));
+    memcpy(t->head, mark, (size_t)n_mark);
+    t->n_head = n_mark;
     if (has_header) {
-        memcpy(t->head, at, (size_t)names);
-        t->n_head = names;
-        at = line_end < end ? line_end + 1 : end;
+        memcpy(t->head + n_mark, bytes + row.begin, (size_t)names);
+        t->n_head += names; // its own line end, where it has one, goes
+        t->n_head -= t->n_head > n_mark && t->head[t->n_head - 1] == '\n';
+        t->n_head -= t->n_head > n_mark && t->head[t->n_head - 1] == '\r';
     }
     for (int32_t k = 0; k < t->columns.n_column && !has_header; ++k) {
         t->n_head += snprintf(t->head + t->n_head, 64, "%scolumn_%d",
                               k > 0 ? (char[2]){t->options.separator, 0} : "", k + 1);
     }
     t->head[t->n_head++] = '\n';
-    t->begin = at - bytes;
-    t->head_line = count_lines(bytes, t->begin);
+    t->begin = has_header ? row.next : row.begin;
+    t->head_line = has_header ? row.n_line : row.line;
 done:
     return status;
+}
+
+/// Bytes of the lines that are whole.
+static int64_t whole_lines(const char *bytes, int64_t n)
+{
+    int64_t whole = n;
+    while (whole > 0 && !clx_csv_begins_line(bytes, whole, n)) {
+        --whole;
+    }
+    return whole;
 }
 
 /// The first lines: separator, names of columns, where rows begin.
@@ -155,9 +144,7 @@ static clast_status read_head(text *t)
     int64_t n = t->size < HEAD ? t->size : HEAD;
     CLX_TRY(clx_alloc(&bytes, n + 1, 1));
     CLX_TRY(read_at(t, 0, bytes, n));
-    while (n > 0 && n < t->size && bytes[n - 1] != '\n') {
-        --n; // whole lines
-    }
+    n = n < t->size ? whole_lines(bytes, n) : n;
     CLX_CHECK(n > 0 || t->size == 0, CLAST_E_LIMIT,
               "%s: the first line is longer than %d bytes; ranks read lines", t->path, HEAD);
     CLX_TRY(clast_table_parse_csv(t->path, bytes, (size_t)n, NULL, &t->columns, &report));
@@ -199,16 +186,14 @@ static clast_status line_from(const text *t, int64_t at, int64_t *begin)
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     CLX_TRY(clx_alloc(&bytes, HEAD, 1));
-    *begin = t->begin;
-    for (int64_t from = at - 1; at > t->begin && *begin <= t->begin; from += HEAD) {
+    *begin = at > t->begin ? t->size : t->begin;
+    for (int64_t from = at - 1; at > t->begin && from < t->size - 1 && *begin == t->size;
+         from += HEAD - 1) { // the last byte again: what follows it tells whether it ends a line
         const int64_t n = t->size - from < HEAD ? t->size - from : HEAD;
-        if (n <= 0) {
-            *begin = t->size;
-            break;
-        }
         CLX_TRY(read_at(t, from, bytes, n));
-        const char *end = memchr(bytes, '\n', (size_t)n);
-        *begin = end != NULL ? from + (end - bytes) + 1 : *begin;
+        for (int64_t k = 1; k <= n && *begin == t->size; ++k) {
+            *begin = clx_csv_begins_line(bytes, k, n) ? from + k : t->size;
+        }
     }
 done:
     clx_free(bytes);
@@ -246,39 +231,47 @@ static bool is_number(const char *cell)
 }
 
 /// Line of a row among these lines, from 0.
-static int64_t line_of_row(const char *at, const char *end, int64_t row)
+static int64_t line_of_row(const text *t, const char *rows, int64_t n, int64_t row)
 {
-    int64_t line = 0;
-    while (at < end) {
-        const char *line_end = memchr(at, '\n', (size_t)(end - at));
-        line_end = line_end != NULL ? line_end : end;
-        row -= has_cells(at, line_end) ? 1 : 0;
-        if (row < 0) {
-            break;
-        }
-        ++line;
-        at = line_end < end ? line_end + 1 : end;
+    clx_csv_row at = {0};
+    while (clx_csv_next_row(rows, n, t->options.separator, &at) && row > 0) {
+        --row;
     }
-    return line;
+    return at.line;
 }
 
-/// Refuses a column that holds numbers in the first rows and a text in these.
+/// Whether the points need the numbers of column k, which are texts in this piece.
+static bool is_needed(const text *t, const clast_table *piece, int32_t k,
+                      const clast_cloud_columns *columns)
+{
+    clast_cloud none = {0};
+    clast_table head = t->columns; // its columns, k of which is lent for the question
+    const clast_column own = head.column[k];
+    head.n_row = 0;
+    head.column[k] = piece->column[k];
+    const bool is = clast_cloud_from_table(&head, columns, &none) == CLAST_E_FORMAT;
+    head.column[k] = own;
+    clast_cloud_free(&none);
+    return is;
+}
+
+/// Refuses a column of the points that holds numbers in the first rows and a text in these.
 static clast_status check_columns(const text *t, const clast_table *piece, const char *rows,
-                                  int64_t n, int64_t first_line)
+                                  int64_t n, int64_t first_line, const clast_cloud_columns *columns)
 {
     clast_status status = CLAST_OK;
     for (int32_t k = 0; k < piece->n_column; ++k) {
         const clast_column *c = &piece->column[k];
         int64_t row = 0;
-        if (c->text == NULL || t->columns.column[k].number == NULL) {
+        if (c->text == NULL || t->columns.column[k].number == NULL ||
+            !is_needed(t, piece, k, columns)) {
             continue;
         }
         while (row + 1 < piece->n_row && is_number(c->text[row])) {
             ++row;
         }
         CLX_CHECK(false, CLAST_E_FORMAT, "%s:%lld: '%.40s' in column '%s' is no number", t->path,
-                  (long long)(first_line + line_of_row(rows, rows + n, row)), c->text[row],
-                  c->name);
+                  (long long)(first_line + line_of_row(t, rows, n, row)), c->text[row], c->name);
     }
 done:
     return status;
@@ -294,9 +287,10 @@ static clast_status take_lines(const text *t, const char *bytes, int64_t n, int6
     CLX_CHECK(quote == NULL, CLAST_E_FORMAT,
               "%s:%lld: ranks read no quoted cells; take the quotes out, or run one process",
               t->path,
-              (long long)(first_line + count_lines(bytes + t->n_head, quote - bytes - t->n_head)));
+              (long long)(first_line +
+                          clx_csv_count_lines(bytes + t->n_head, quote - bytes - t->n_head, 0)));
     CLX_TRY(clx_csv_parse_part(t->path, bytes, (size_t)n, &t->options, first_line - 1, &piece));
-    CLX_TRY(check_columns(t, &piece, bytes + t->n_head, n - t->n_head, first_line));
+    CLX_TRY(check_columns(t, &piece, bytes + t->n_head, n - t->n_head, first_line, columns));
     CLX_TRY(take_rows(s, &piece, columns));
 done:
     clast_table_free(&piece);
@@ -308,11 +302,13 @@ static clast_status count_stretch(const text *t, const int64_t stretch[2], char 
                                   int64_t *n_line)
 {
     clast_status status = CLAST_OK;
+    char before = 0;
     *n_line = 0;
     for (int64_t at = stretch[0]; at < stretch[1]; at += PIECE) {
         const int64_t n = stretch[1] - at < PIECE ? stretch[1] - at : PIECE;
         CLX_TRY(read_at(t, at, bytes, n));
-        *n_line += count_lines(bytes, n);
+        *n_line += clx_csv_count_lines(bytes, n, before);
+        before = bytes[n - 1];
     }
 done:
     return status;
@@ -330,15 +326,12 @@ static clast_status read_stretch(const text *t, const int64_t stretch[2], int64_
     for (int64_t at = stretch[0]; at < stretch[1]; at += PIECE) {
         const int64_t n = stretch[1] - at < PIECE ? stretch[1] - at : PIECE;
         CLX_TRY(read_at(t, at, rows + kept, n));
-        int64_t whole = kept + n;
-        while (at + n < stretch[1] && whole > 0 && rows[whole - 1] != '\n') {
-            --whole;
-        }
+        const int64_t whole = at + n < stretch[1] ? whole_lines(rows, kept + n) : kept + n;
         CLX_CHECK(whole > 0 && kept + n - whole <= PIECE, CLAST_E_LIMIT,
                   "%s:%lld: a line of more than %lld bytes", t->path, (long long)line,
                   (long long)PIECE);
         CLX_TRY(take_lines(t, bytes, t->n_head + whole, line, columns, s));
-        line += count_lines(rows, whole);
+        line += clx_csv_count_lines(rows, whole, 0);
         kept = kept + n - whole;
         memmove(rows, rows + whole, (size_t)kept);
     }
@@ -365,7 +358,7 @@ static clast_status read_text(const clast_comm *comm, const char *path,
         status = clast_cloud_from_table(&t.columns, columns, &first);
     }
     if (status == CLAST_OK) {
-        status = clx_alloc(&bytes, t.n_head + 2 * PIECE, 1);
+        status = clx_alloc(&bytes, t.n_head + (t.size < 2 * PIECE ? t.size : 2 * PIECE), 1);
     }
     if (status == CLAST_OK) {
         status = own_stretch(&t, comm, stretch);

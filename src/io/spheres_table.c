@@ -12,7 +12,7 @@
 
 enum { RADIUS = 3, N_COLUMN = 4 };
 
-/// x, y, z and radius: where they are, and what one is in metres where the table says so.
+/// x, y, z and radius: where they are.
 typedef struct {
     const clast_column *column[N_COLUMN];
     bool is_diameter;
@@ -21,24 +21,43 @@ typedef struct {
 static const char *const names[] = {"x", "y", "z", "radius", "r", "diameter", "d"};
 enum { N_NAME = sizeof names / sizeof names[0], FIRST_DIAMETER = 5 };
 
+/// Whether the unit behind "_" is one: of lengths also one that is then converted or refused.
+static bool is_unit(const char *column, const char *behind, const char *si_unit)
+{
+    char unit[CLX_COLUMN_UNIT];
+    double factor = 0.0;
+    return clast_unit_factor(behind, si_unit, &factor) == CLAST_OK ||
+           (strcmp(si_unit, "m") == 0 && clx_column_says_length(column, unit) &&
+            strcmp(behind, unit) == 0);
+}
+
 bool clx_column_is(const char *column, const char *wanted, const char *si_unit)
 {
     const size_t n = strlen(wanted);
-    double factor = 0.0;
     return strncasecmp(column, wanted, n) == 0 &&
-           (column[n] == '_' ? clast_unit_factor(column + n + 1, si_unit, &factor) == CLAST_OK
+           (column[n] == '_' ? is_unit(column, column + n + 1, si_unit)
                              : strchr(" ([", column[n]) != NULL);
+}
+
+/// Whether its unit, or none, is one that lengths are read in.
+static bool is_read(const clast_column *column, bool takes_phi)
+{
+    clx_length_unit length;
+    return clx_column_length(column, takes_phi, &length) == CLAST_OK;
 }
 
 const clast_column *clx_column_find(const clast_table *table, const char *name)
 {
     const int32_t bare = clast_table_find(table, name);
+    const clast_column *found = bare >= 0 ? &table->column[bare] : NULL;
     for (int32_t c = 0; c < table->n_column && bare < 0; ++c) {
-        if (clx_column_is(table->column[c].name, name, "m")) {
-            return &table->column[c];
+        const clast_column *column = &table->column[c];
+        if (clx_column_is(column->name, name, "m") &&
+            (found == NULL || (!is_read(found, false) && is_read(column, false)))) {
+            found = column; // x_mm rather than an x_ft before it
         }
     }
-    return bare >= 0 ? &table->column[bare] : NULL;
+    return found;
 }
 
 bool clx_points_are_named(const clast_table *table)
@@ -57,14 +76,31 @@ static void take_column(columns *c, int name, const clast_column *column)
     }
 }
 
-static void find_names(const clast_table *table, columns *c)
+/// Columns in units that are read, or in others.
+static void take_named(const clast_table *table, bool are_read, columns *c)
 {
     for (int name = 0; name < N_NAME; ++name) {
         for (int32_t i = 0; i < table->n_column; ++i) {
-            if (clx_column_is(table->column[i].name, names[name], "m")) {
-                take_column(c, name, &table->column[i]);
+            const clast_column *column = &table->column[i];
+            if (clx_column_is(column->name, names[name], "m") &&
+                is_read(column, name >= RADIUS) == are_read) {
+                take_column(c, name, column);
             }
         }
+    }
+}
+
+/// d_mm rather than an r_ft beside it.
+static void find_names(const clast_table *table, columns *c)
+{
+    columns other = {{NULL}, false};
+    take_named(table, true, c);
+    take_named(table, false, &other);
+    if (c->column[RADIUS] == NULL) {
+        c->is_diameter = other.is_diameter;
+    }
+    for (int k = 0; k < N_COLUMN; ++k) {
+        c->column[k] = c->column[k] != NULL ? c->column[k] : other.column[k];
     }
 }
 
@@ -188,27 +224,18 @@ done:
     return status;
 }
 
-/// Metres in the units of the columns: all or none of them say one, and none says another quantity.
-static clast_status find_factors(const columns *c, double factor[N_COLUMN], bool *says_unit)
+/// The units of the columns: all or none of them say one, and none says another quantity.
+static clast_status find_units(const columns *c, clx_length_unit length[N_COLUMN], bool *says_unit)
 {
     clast_status status = CLAST_OK;
     int n_unit = 0;
     int n = 0;
     for (int k = 0; k < N_COLUMN; ++k) {
-        factor[k] = 1.0;
+        length[k] = (clx_length_unit){.metre = 0.0};
         if (c->column[k] != NULL) {
-            char unit[CLX_COLUMN_UNIT];
-            const char *name = c->column[k]->name;
-            const clx_unit_said said = clx_column_unit(name, unit);
-            const bool is_length =
-                clast_unit_factor(c->column[k]->unit, "m", &factor[k]) == CLAST_OK;
-            CLX_CHECK(is_length || (said != CLX_UNIT_TOLD && strcmp(unit, "phi") != 0),
-                      CLAST_E_FORMAT,
-                      "column '%s' is in no unit of length that is read here (m, mm, "
-                      "um, ...): convert or rename it",
-                      name);
+            CLX_TRY(clx_column_length(c->column[k], k == RADIUS, &length[k]));
             ++n;
-            n_unit += is_length;
+            n_unit += length[k].metre > 0.0;
         }
     }
     CLX_CHECK(
@@ -221,18 +248,18 @@ done:
     return status;
 }
 
-static clast_status fill(const columns *c, const double factor[N_COLUMN], double diameter,
+static clast_status fill(const columns *c, const clx_length_unit length[N_COLUMN], double diameter,
                          clast_spheres *made)
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < made->n; ++i) {
         for (int k = 0; k < 3 && c->column[k] != NULL; ++k) { // NULL only for the analyser
-            made->centre[i][k] = factor[k] * c->column[k]->number[i];
+            made->centre[i][k] = length[k].metre * c->column[k]->number[i];
         }
         made->radius[i] = 0.5 * diameter;
         if (diameter <= 0.0 && c->column[RADIUS] != NULL) {
-            made->radius[i] =
-                (c->is_diameter ? 0.5 : 1.0) * factor[RADIUS] * c->column[RADIUS]->number[i];
+            made->radius[i] = (c->is_diameter ? 0.5 : 1.0) * length[RADIUS].metre *
+                              clx_length_value(&length[RADIUS], c->column[RADIUS]->number[i]);
         }
         CLX_CHECK(isfinite(made->centre[i][0]) && isfinite(made->centre[i][1]) &&
                       isfinite(made->centre[i][2]) && isfinite(made->radius[i]) &&
@@ -271,22 +298,25 @@ static clast_status make_spheres(const clast_table *table, const clx_spheres_wan
 {
     clast_status status = CLAST_OK;
     clast_spheres made = {0};
-    double factor[N_COLUMN] = {1.0, 1.0, 1.0, 1.0};
+    clx_length_unit length[N_COLUMN];
     double diameter = wanted != NULL ? wanted->options.diameter : 0.0;
     bool says_unit = false;
-    CLX_TRY(find_factors(c, factor, &says_unit));
+    CLX_TRY(find_units(c, length, &says_unit));
+    for (int k = 0; k < N_COLUMN; ++k) {
+        length[k].metre = length[k].metre > 0.0 ? length[k].metre : 1.0;
+    }
     if (in_metres != NULL) {
         *in_metres = says_unit;
         diameter /= wanted != NULL && wanted->metre > 0.0 && !says_unit ? wanted->metre : 1.0;
     } else { // numbers as they are; of several units in that of x
         for (int k = N_COLUMN - 1; k >= 0; --k) {
-            factor[k] /= factor[0];
+            length[k].metre /= length[0].metre;
         }
     }
     CLX_CHECK(table->n_row > 0 && table->n_row <= INT32_MAX, CLAST_E_FORMAT, "%lld spheres",
               (long long)table->n_row);
     CLX_TRY(clast_spheres_alloc((int32_t)table->n_row, &made));
-    CLX_TRY(fill(c, factor, diameter, &made));
+    CLX_TRY(fill(c, length, diameter, &made));
     *spheres = made;
     made = (clast_spheres){0};
 done:
@@ -302,7 +332,12 @@ clast_status clx_spheres_of_columns(const clast_table *table, const clx_spheres_
     bool in_metres = false;
     CLX_TRY(find_columns(table, wanted, &c));
     CLX_TRY(make_spheres(table, wanted, &c, &in_metres, spheres));
-    (void)snprintf(unit, 16, "%s", in_metres && c.column[0] != NULL ? c.column[0]->unit : "");
+    unit[0] = '\0';
+    if (in_metres && c.column[0] != NULL) {
+        clx_length_unit length;
+        CLX_TRY(clx_column_length(c.column[0], false, &length));
+        (void)snprintf(unit, 16, "%s", length.unit);
+    }
 done:
     return status;
 }
@@ -319,13 +354,13 @@ clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_
     CLX_TRY(find_columns(table, asked, &c));
     CLX_TRY(make_spheres(table, asked, &c, unit_m != NULL ? &in_metres : NULL, spheres));
     if (unit_m != NULL && mixes != NULL) {
-        double factor[N_COLUMN];
-        CLX_TRY(find_factors(&c, factor, &in_metres));
+        clx_length_unit length[N_COLUMN];
+        CLX_TRY(find_units(&c, length, &in_metres));
         *mixes = false;
         for (int k = 1; k < N_COLUMN; ++k) {
-            *mixes = *mixes || (c.column[k] != NULL && factor[k] != factor[0]);
+            *mixes = *mixes || (c.column[k] != NULL && length[k].metre != length[0].metre);
         }
-        *unit_m = !in_metres ? 0.0 : *mixes ? 1.0 : factor[0];
+        *unit_m = !in_metres ? 0.0 : *mixes ? 1.0 : length[0].metre;
     }
 done:
     return status;

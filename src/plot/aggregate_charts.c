@@ -226,14 +226,15 @@ static clast_status lines_of_table(clast_aggregate_chart chart, const clast_tabl
     clast_status status = CLAST_OK;
     const double *x = clast_table_numbers(table, x_column(chart));
     int32_t n_repeat = 0;
-    const double last = chart == CLAST_AGGREGATE_CHART_RADIAL
-                            ? HUGE_VAL
-                            : (double)clx_history_common(x, table->n_row, &n_repeat);
     for (int32_t c = 0; c < table->n_column && d->n_line < MAX_SERIES; ++c) {
         const clast_column *column = &table->column[c];
         if (!is_wanted(chart, column) || count_finite(x, column->number, table->n_row) < 2) {
             continue;
         }
+        const double last =
+            chart == CLAST_AGGREGATE_CHART_RADIAL
+                ? HUGE_VAL
+                : (double)clx_history_common(x, column->number, table->n_row, &n_repeat);
         line *l = &d->lines[d->n_line];
         CLX_TRY(mean_line(x, column->number, table->n_row, last, l));
         ++d->n_line;

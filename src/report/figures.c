@@ -74,8 +74,22 @@ static const clast_column *porosity_of(const clx_run *run)
     return NULL;
 }
 
-/// Adds a column "porosity_<k> <run>" to `all`, filled from row `begin` on, nan elsewhere.
-static clast_status add_run(const clx_run *run, int32_t k, int64_t begin, clast_table *all)
+/// Whether the first envelopes of the runs are not all of one kind, which the legend then names.
+static bool has_envelopes(const clx_run *run, int32_t n_run)
+{
+    const char *first = NULL;
+    bool has = false;
+    for (int32_t i = 0; i < n_run; ++i) {
+        const clast_column *porosity = porosity_of(&run[i]);
+        first = first == NULL && porosity != NULL ? porosity->name : first;
+        has = has || (porosity != NULL && strcmp(porosity->name, first) != 0);
+    }
+    return has;
+}
+
+/// Adds a column "porosity_<k>: <run>" to `all`, filled from row `begin` on, nan elsewhere.
+static clast_status add_run(const clx_run *run, int32_t k, int64_t begin, bool with_envelope,
+                            clast_table *all)
 {
     clast_status status = CLAST_OK;
     const clast_table *history = clx_run_table(run, "history");
@@ -83,7 +97,9 @@ static clast_status add_run(const clx_run *run, int32_t k, int64_t begin, clast_
     const double *n = clast_table_numbers(history, "n");
     char name[128];
     double *out = NULL;
-    (void)snprintf(name, sizeof name, "porosity_%d: %.100s", (int)k + 1, run->name);
+    (void)snprintf(name, sizeof name, "porosity_%d: %.80s%s%.30s", (int)k + 1, run->name,
+                   with_envelope ? ", " : "",
+                   with_envelope ? porosity->name + strlen("porosity_") : "");
     CLX_TRY(clast_table_add_number(all, name, "-", &out));
     double *x = clast_table_numbers(all, "n");
     for (int64_t i = 0; i < all->n_row; ++i) {
@@ -118,7 +134,7 @@ clast_status clx_figures_compare(clx_file *file, const clx_run *run, int32_t n_r
     n_row = 0;
     for (int32_t i = 0, k = 0; i < n_run && k < n_shown; ++i) {
         if (porosity_of(&run[i]) != NULL) {
-            CLX_TRY(add_run(&run[i], i, n_row, &all));
+            CLX_TRY(add_run(&run[i], i, n_row, has_envelopes(run, n_run), &all));
             n_row += clx_run_table(&run[i], "history")->n_row;
             ++k;
         }

@@ -163,7 +163,7 @@ static bool find_part(name key, const char *place, clx_quantity *q)
                                           {".low", "lower bound"},
                                           {".high", "upper bound"}};
     const char *word = NULL;
-    static const char *const groups[] = {"interval.", "inputs."};
+    static const char *const groups[] = {"interval.", "inputs.", "result."};
     for (size_t k = 0; k < sizeof groups / sizeof *groups; ++k) {
         const size_t n = begins(key, groups[k]) ? strlen(groups[k]) : 0;
         key = (name){key.text + n, key.n - n};

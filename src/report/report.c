@@ -4,6 +4,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/lock.h"
 #include "base/path.h"
 #include "base/status.h"
 #include "report/figures.h"
@@ -127,21 +128,93 @@ done:
     return status;
 }
 
-/// How much of a study that was stopped is done: its other runs have no exit code.
-static void put_open_study(clx_file *file, const clx_run *run)
+enum { MAX_CODE = 8 };
+
+/// What became of a study's runs, by results.csv: those without an exit code are open.
+typedef struct {
+    int64_t n_run, n_done, n_unconverged, n_failed;
+    double code[MAX_CODE]; ///< [n_code] of runs that failed, the first few that differ
+    int n_code;
+    bool is_under_way; ///< a process is at one of them, now
+} outcomes;
+
+static void count_failed(outcomes *o, double code)
+{
+    int k = 0;
+    while (k < o->n_code && o->code[k] != code) {
+        ++k;
+    }
+    if (k == o->n_code && k < MAX_CODE) {
+        o->code[o->n_code++] = code;
+    }
+    ++o->n_failed;
+}
+
+/// Whether a clast study holds the lock of the run in this row.
+static bool is_taken(const clx_run *run, int64_t row)
+{
+    char name[48];
+    char path[PATH_SIZE];
+    (void)snprintf(name, sizeof name, "runs/%06" PRId64, row + 1);
+    return clx_run_path(run, name, path, sizeof path) == CLAST_OK && clx_lock_is_held(path);
+}
+
+static outcomes count_outcomes(const clx_run *run, const clast_table *results)
+{
+    const double *code = clast_table_numbers(results, "exit_code"); // NULL: none has ended
+    outcomes o = {.n_run = results->n_row};
+    for (int64_t i = 0; code != NULL && i < o.n_run; ++i) {
+        if (code[i] == 0.0 || code[i] == 1.0) {
+            ++o.n_done;
+        } else if (code[i] == 5.0) {
+            ++o.n_unconverged;
+        } else if (isfinite(code[i])) {
+            count_failed(&o, code[i]);
+        }
+    }
+    const bool is_over = o.n_done + o.n_unconverged == o.n_run;
+    for (int64_t i = 0; !is_over && !o.is_under_way && i < o.n_run; ++i) {
+        o.is_under_way = is_taken(run, i);
+    }
+    return o;
+}
+
+static void put_failed(clx_file *file, const outcomes *o)
+{
+    (void)clx_file_print(file,
+                         "<p class=\"note\">%" PRId64 " of %" PRId64 " runs failed (exit code%s",
+                         o->n_failed, o->n_run, o->n_code > 1 ? "s" : "");
+    for (int k = 0; k < o->n_code; ++k) {
+        (void)clx_file_print(file, "%s %g", k > 0 ? "," : "", o->code[k]);
+    }
+    (void)clx_file_print(file, ")%s</p>\n",
+                         o->is_under_way ? "" : "; the same clast study command tries them again");
+}
+
+/// What became of a study's runs, where not all are done.
+static void put_outcomes(clx_file *file, const clx_run *run)
 {
     const clast_table *results = clx_run_table(run, "results");
-    const double *code = results != NULL ? clast_table_numbers(results, "exit_code") : NULL;
-    int64_t n = 0;
-    for (int64_t i = 0; code != NULL && i < results->n_row; ++i) {
-        n += isfinite(code[i]) ? 1 : 0;
+    if (!clx_run_has(run, "study.json") || results == NULL) {
+        return;
     }
-    if (clx_run_has(run, "study.json") && code != NULL && n < results->n_row) {
+    const outcomes o = count_outcomes(run, results);
+    const bool is_open = o.n_done + o.n_unconverged + o.n_failed < o.n_run;
+    if (o.n_failed > 0) {
+        put_failed(file, &o);
+    }
+    if (o.n_unconverged > 0) {
         (void)clx_file_print(file,
-                             "<p class=\"note\">stopped: %" PRId64 " of %" PRId64
-                             " runs are done; the same clast study command goes on with the "
-                             "rest</p>\n",
-                             n, results->n_row);
+                             "<p class=\"note\">%" PRId64 " of %" PRId64
+                             " runs ended without converging (exit code 5)</p>\n",
+                             o.n_unconverged, o.n_run);
+    }
+    if (is_open || o.is_under_way) {
+        (void)clx_file_print(file, "<p class=\"note\">%s: %" PRId64 " of %" PRId64 " runs %s</p>\n",
+                             o.is_under_way ? "under way" : "stopped", o.n_done, o.n_run,
+                             o.is_under_way ? "were done when results.csv was written"
+                                            : "are done; the same clast study command goes on "
+                                              "with the rest");
     }
 }
 
@@ -171,7 +244,7 @@ static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, run->place);
     (void)clx_file_print(file, "</code></p>\n");
-    put_open_study(file, run);
+    put_outcomes(file, run);
 }
 
 static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,
@@ -248,6 +321,7 @@ static clast_status write_page(const char *const *runs, int32_t n_run, const cha
     for (int32_t i = 0; i < n_run; ++i) {
         CLX_TRY(clx_run_read(runs[i], place, path, &run[i]));
     }
+    clx_runs_tell_apart(run, n_run);
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(put_page(&file, run, n_run, config));
     CLX_TRY(clx_file_commit(&file));

@@ -156,15 +156,45 @@ done:
     return status;
 }
 
+static const char *last_part(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
+}
+
 static clast_status set_path(const char *folder, const char *place, clx_run *run)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(copy_path(folder, &run->path));
     CLX_TRY(copy_path(place != NULL ? place : folder, &run->place));
-    const char *slash = strrchr(run->place, '/');
-    run->name = slash != NULL && slash[1] != '\0' ? slash + 1 : run->place;
+    run->name = last_part(run->place);
 done:
     return status;
+}
+
+/// Length of the folders that both paths begin with, each with its '/'.
+static size_t shared_length(const char *a, const char *b)
+{
+    size_t n = 0;
+    for (size_t i = 0; a[i] != '\0' && a[i] == b[i]; ++i) {
+        n = a[i] == '/' ? i + 1 : n;
+    }
+    return n;
+}
+
+void clx_runs_tell_apart(clx_run *run, int32_t n_run)
+{
+    for (int32_t i = 0; i < n_run; ++i) {
+        const char *last = last_part(run[i].place);
+        size_t n = (size_t)(last - run[i].place);
+        for (int32_t k = 0; k < n_run; ++k) {
+            const size_t shared = strcmp(last, last_part(run[k].place)) == 0
+                                      ? shared_length(run[i].place, run[k].place)
+                                      : n;
+            n = shared < n ? shared : n;
+        }
+        run[i].name = run[i].place + n;
+    }
 }
 
 /// The way from the page's folder to the run's, where their texts tell it.

@@ -8,7 +8,7 @@
 typedef struct clx_run {
     char *path;       ///< of the folder, without '/' at its end
     char *place;      ///< where readers find it: path, or what it is about to take the place of
-    const char *name; ///< last part of place
+    const char *name; ///< last part of place; with clx_runs_tell_apart maybe more
     char link[512];   ///< from the page to the folder, ends in '/' or is empty
     bool can_link;    ///< files of the folder can be reached from the page by `link`
     json_t *summary;  ///< object
@@ -26,6 +26,9 @@ typedef struct clx_run {
 /// @return CLAST_E_IO without summary.json, CLAST_E_FORMAT with file and line if malformed
 clast_status clx_run_read(const char *folder, const char *place, const char *page, clx_run *run);
 void clx_run_free(clx_run *run);
+
+/// Names runs of one name (STUDY/runs/*/out) by their paths from the part on in which they differ.
+void clx_runs_tell_apart(clx_run *run, int32_t n_run);
 
 /// True when the run's lengths are in the unit of a file that does not tell it.
 bool clx_run_is_without_unit(const clx_run *run);

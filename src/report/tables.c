@@ -350,6 +350,18 @@ static void put_link(clx_file *file, const clx_run *run, const clast_table *tabl
     (void)clx_file_print(file, ".csv%s", run->can_link ? "</a>" : "");
 }
 
+/// True where what the user gave stands there as it was written: "300mg".
+static bool holds_given_texts(const clx_run *run, const clast_table *table)
+{
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        if (table->column[c].text != NULL &&
+            clx_given_column(run, table->name, table->column[c].name)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
 {
     clast_status status = CLAST_OK;
@@ -368,7 +380,8 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
         (void)clx_file_print(file, "<p class=\"note\">%s",
                              table->n_row > rows ? "The first rows of " : "All rows of ");
         put_link(file, run, table);
-        (void)clx_file_print(file, "%s.</p></details>\n", is_si ? ", there in SI units" : "");
+        (void)clx_file_print(file, "%s%s.</p></details>\n", is_si ? ", there in SI units" : "",
+                             is_si && holds_given_texts(run, table) ? " but for what varied" : "");
     }
 done:
     return status;

@@ -2,6 +2,7 @@
 #include "shape/form_set.h"
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/number.h"
 #include "base/status.h"
 #include "shape/whole.h"
@@ -16,7 +17,7 @@
 static const double DISAGREE = 0.006;
 static const double ABOVE_ONE = 1e-9;
 
-enum { N_NAME = 8, NAME_SIZE = 64, UNIT_SIZE = 16 };
+enum { N_NAME = 8, NAME_SIZE = 64 };
 enum { LONG, MIDDLE, SHORT, FLATNESS, ELONGATION, SIZE, N_ROLE };
 
 static const char *const names[N_ROLE][N_NAME] = {
@@ -32,8 +33,9 @@ static const char *const names[N_ROLE][N_NAME] = {
 typedef struct {
     int32_t at[N_ROLE];
     bool by_length;
-    bool mixes_units; ///< L, I and S are in different ones
-    double factor[3]; ///< of these: into metres then, else 1
+    bool mixes_units;             ///< L, I and S are in different ones
+    double factor[3];             ///< of these: into metres then, else 1
+    clx_length_unit unit[N_ROLE]; ///< of these, else of the size
 } roles;
 
 const char *clast_row_fault_text(clast_row_fault fault)
@@ -43,34 +45,15 @@ const char *clast_row_fault_text(clast_row_fault fault)
     return (unsigned)fault < CLAST_N_ROW_FAULT ? text[fault] : "unknown";
 }
 
-/// Metres in the unit of length that a column or, where it is text or came without units, the end
-/// of its name tells ("L_mm", "L (mm)"); 0 and "" for none.
-static double metres_of(const clast_column *column, char unit[UNIT_SIZE])
-{
-    double metre = 0.0;
-    const char *open = strpbrk(column->name, "([");
-    const char *start = open != NULL ? open : strrchr(column->name, '_');
-    (void)snprintf(unit, UNIT_SIZE, "%s", column->unit != NULL ? column->unit : "");
-    if (clast_unit_factor(unit, "m", &metre) != CLAST_OK && start != NULL) {
-        (void)snprintf(unit, UNIT_SIZE, "%.*s", (int)strcspn(start + 1, ")]"), start + 1);
-        (void)clast_unit_factor(unit, "m", &metre);
-    }
-    if (metre <= 0.0) {
-        unit[0] = '\0';
-    }
-    return metre;
-}
-
 /// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
 static void plain_name(const clast_column *column, char plain[NAME_SIZE])
 {
-    char length[UNIT_SIZE];
+    char told[CLX_COLUMN_UNIT];
     size_t n = strcspn(column->name, "([");
-    const char *told = metres_of(column, length) > 0.0 ? length : column->unit;
     while (n > 0 && (column->name[n - 1] == ' ' || column->name[n - 1] == '_')) {
         --n;
     }
-    const size_t unit = told != NULL ? strlen(told) : 0;
+    const size_t unit = clx_column_says_length(column->name, told) ? strlen(told) : 0;
     if (unit > 0 && n > unit + 1 && column->name[n - unit - 1] == '_' &&
         strncmp(column->name + n - unit, told, unit) == 0) {
         n -= unit + 1;
@@ -83,19 +66,27 @@ static void plain_name(const clast_column *column, char plain[NAME_SIZE])
     plain[n] = '\0';
 }
 
+/// The first column of a role; of lengths D_mm rather than a D_ft before it.
 static int32_t find_role(const clast_table *table, int role)
 {
     CLAST_ASSERT(role >= 0 && role < N_ROLE);
+    int32_t other = -1; // in a unit that is not read
     for (int k = 0; k < N_NAME && names[role][k] != NULL; ++k) {
         for (int32_t c = 0; c < table->n_column; ++c) {
             char plain[NAME_SIZE];
+            clx_length_unit length;
             plain_name(&table->column[c], plain);
-            if (strcmp(plain, names[role][k]) == 0) {
+            if (strcmp(plain, names[role][k]) != 0) {
+                continue;
+            }
+            if (role == FLATNESS || role == ELONGATION ||
+                clx_column_length(&table->column[c], true, &length) == CLAST_OK) {
                 return c;
             }
+            other = other < 0 ? c : other;
         }
     }
-    return -1;
+    return other;
 }
 
 /// Columns that the caller names: two ratios or three lengths.
@@ -149,20 +140,19 @@ bool clx_form_set_is_named(const clast_table *table)
 static clast_status find_factors(const clast_table *table, roles *r)
 {
     clast_status status = CLAST_OK;
-    double metre[3];
+    const clx_length_unit *unit = &r->unit[LONG];
     int n_unit = 0;
     for (int k = 0; k < 3; ++k) {
-        char unit[UNIT_SIZE];
-        metre[k] = metres_of(&table->column[r->at[LONG + k]], unit);
-        n_unit += metre[k] > 0.0;
+        CLX_TRY(clx_column_length(&table->column[r->at[LONG + k]], true, &r->unit[LONG + k]));
+        n_unit += unit[k].metre > 0.0;
     }
     CLX_CHECK(n_unit == 0 || n_unit == 3, CLAST_E_FORMAT,
               "table %s: %d of the 3 columns of L, I and S say their unit of length; give all of "
               "them one, or none",
               table->name, n_unit);
-    r->mixes_units = metre[0] != metre[2] || metre[1] != metre[2];
+    r->mixes_units = unit[0].metre != unit[2].metre || unit[1].metre != unit[2].metre;
     for (int k = 0; k < 3; ++k) {
-        r->factor[k] = r->mixes_units ? metre[k] : 1.0;
+        r->factor[k] = r->mixes_units ? unit[k].metre : 1.0;
     }
 done:
     return status;
@@ -182,6 +172,8 @@ static clast_status find_roles(const clast_table *table, const char *columns, ro
     }
     if (r->by_length) {
         CLX_TRY(find_factors(table, r));
+    } else if (r->at[SIZE] >= 0) {
+        CLX_TRY(clx_column_length(&table->column[r->at[SIZE]], true, &r->unit[SIZE]));
     }
 done:
     return status;
@@ -222,8 +214,9 @@ static double text_cell(const char *text, clast_row_fault *fault)
     return value;
 }
 
-/// A cell as a number; NAN with *fault set if it is none.
-static double cell(const clast_column *c, int64_t row, clast_row_fault *fault)
+/// A cell as a number in the unit; NAN with *fault set if it is none.
+static double cell(const clast_column *c, const clx_length_unit *unit, int64_t row,
+                   clast_row_fault *fault)
 {
     double value = NAN;
     if (c->number != NULL) {
@@ -233,6 +226,7 @@ static double cell(const clast_column *c, int64_t row, clast_row_fault *fault)
         value = text_cell(c->text[row], fault);
     }
     if (!isnan(value)) {
+        value = isinf(value) ? value : clx_length_value(unit, value);
         *fault = isinf(value) ? CLAST_ROW_INFINITE : value <= 0.0 ? CLAST_ROW_NOT_POSITIVE : *fault;
     }
     return value;
@@ -247,7 +241,7 @@ static clast_row_fault form_of(const clast_table *table, const roles *r, int64_t
     const int first = r->by_length ? LONG : FLATNESS;
     const int n = r->by_length ? 3 : 2;
     for (int k = 0; k < n && fault == CLAST_N_ROW_FAULT; ++k) {
-        v[k] = cell(&table->column[r->at[first + k]], row, &fault);
+        v[k] = cell(&table->column[r->at[first + k]], &r->unit[first + k], row, &fault);
         v[k] *= r->by_length ? r->factor[k] : 1.0;
     }
     if (fault != CLAST_N_ROW_FAULT) {
@@ -273,7 +267,8 @@ static clast_status check_agreement(const clast_table *table, const roles *r, in
     for (int k = 0; k < 2; ++k) {
         clast_row_fault fault = CLAST_N_ROW_FAULT;
         const int32_t c = r->at[FLATNESS + k];
-        const double printed = c >= 0 ? cell(&table->column[c], row, &fault) : (double)NAN;
+        const double printed =
+            c >= 0 ? cell(&table->column[c], &r->unit[FLATNESS + k], row, &fault) : (double)NAN;
         CLX_CHECK(isnan(printed) || fabs(printed - own[k]) <= DISAGREE, CLAST_E_FORMAT,
                   "table %s, row %lld: column '%s' is %g but %s is %g; say with --columns which "
                   "counts",
@@ -312,23 +307,24 @@ void clast_form_set_free(clast_form_set *set)
     *set = (clast_form_set){0};
 }
 
-/// "sieve size (mm)" of lengths and of columns that say so, else the column's own name.
+/// "sieve size (mm)" of lengths and of columns that say so, "diameter (mm)" of others in phi, else
+/// the column's own name.
 static void label_size(const clast_table *table, const roles *r, clast_form_set *s)
 {
     char plain[NAME_SIZE] = "";
-    char unit[UNIT_SIZE];
-    const int32_t c = r->by_length ? r->at[SHORT] : r->at[SIZE];
+    const int role = r->by_length ? SHORT : SIZE;
+    const int32_t c = r->at[role];
     if (c < 0) {
         return;
     }
-    const bool has_unit = metres_of(&table->column[c], unit) > 0.0;
-    if (r->mixes_units) {
-        (void)snprintf(unit, sizeof unit, "m");
-    }
+    const bool has_unit = r->unit[role].metre > 0.0;
+    const char *unit = r->mixes_units ? "m" : r->unit[role].unit;
     plain_name(&table->column[c], plain);
     if (r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0) {
         (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",
                        has_unit ? " (" : "", unit, has_unit ? ")" : "");
+    } else if (r->unit[role].is_phi) { // its own name says phi, its numbers are in mm
+        (void)snprintf(s->size_label, sizeof s->size_label, "%.50s (mm)", plain);
     } else {
         (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[c].name);
     }
@@ -339,7 +335,8 @@ static void label_size(const clast_table *table, const roles *r, clast_form_set 
 static double size_of(const clast_table *table, const roles *r, int64_t row, double sieve)
 {
     clast_row_fault fault = CLAST_N_ROW_FAULT;
-    const double size = r->by_length ? sieve : cell(&table->column[r->at[SIZE]], row, &fault);
+    const double size =
+        r->by_length ? sieve : cell(&table->column[r->at[SIZE]], &r->unit[SIZE], row, &fault);
     return fault == CLAST_N_ROW_FAULT ? size : (double)NAN;
 }
 

@@ -399,6 +399,12 @@ done:
     return status;
 }
 
+/// A body that cannot be made is what it is at the end of a run: no fault of what was read.
+static clast_status as_of_run(clast_status status)
+{
+    return status == CLAST_E_GEOMETRY ? CLAST_E_CONVERGE : status;
+}
+
 clast_status clast_aggregate_make_printable(const char *folder,
                                             const clast_printable_config *config,
                                             const clast_monitor *monitor,
@@ -424,7 +430,7 @@ clast_status clast_aggregate_make_printable(const char *folder,
     }
     const clast_assembly *body = n_cluster > 1 ? &largest : all;
     clx_folder_note_largest(monitor, body, all->n_grain, n_cluster);
-    CLX_TRY(clx_folder_write_printable(folder, body, config, monitor, &made));
+    CLX_TRY(as_of_run(clx_folder_write_printable(folder, body, config, monitor, &made)));
     CLX_TRY(clx_folder_list_printable(folder));
     CLX_TRY(clast_report_write_run(folder, NULL));
     if (report != NULL) {

@@ -57,11 +57,18 @@ clast_status clx_study_check_inputs(const char *folder, const clast_table *plan)
 /// FOLDER/exit_code of a run.
 clast_status clx_study_write_exit(const char *run_folder, int exit_code);
 
+/// Adds the signal that ended the run to FOLDER/messages.txt, where the exit code is one's: such a
+/// run has had no time to say why.
+clast_status clx_study_note_signal(const char *run_folder, int exit_code);
+
+/// Renames the folder of a run that is whole, also in its messages.
+clast_status clx_study_make_whole(const char *part, const char *whole);
+
 /// Refuses a name of `keep` that a run's result has not where it is a slip for one that it has.
 clast_status clx_study_check_kept(const clast_study_config *config, const char *run_folder);
 
 /// Writes FOLDER/results.csv and FOLDER/times.csv from the runs that are there; the report's
-/// n_unknown and first_unknown.
+/// n_unknown, first_unknown and n_unconverged.
 clast_status clx_study_collect(const clast_study_config *config, const char *folder,
                                const clast_table *plan, clast_study_report *report);
 

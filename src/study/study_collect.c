@@ -19,7 +19,8 @@ typedef struct {
     const clast_study_config *config;
     clast_table results, times;
     int64_t row;
-    int64_t n_read;  ///< runs that are whole
+    int64_t n_read; ///< runs that have a result
+    int64_t n_unconverged;
     bool *has_kept;  ///< [keep.n] whether one of them has it
     bool only_times; ///< of all numbers, where some are kept
     clast_status status;
@@ -143,6 +144,35 @@ static void put_kept(gatherer *g, json_t *root)
     }
 }
 
+/// Puts the numbers of a whole run's result. One that ended with another code than 0, such as a bed
+/// that did not converge, may have printed none.
+static clast_status read_result(gatherer *g, const char *run, double exit_code)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH + 16];
+    char *text = NULL;
+    int64_t n = 0;
+    json_t *root = NULL;
+    json_error_t error;
+    (void)snprintf(path, sizeof path, "%s/result.json", run);
+    CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
+    if (n == 0 && exit_code != 0.0) {
+        goto done;
+    }
+    root = json_loadb(text, (size_t)n, 0, &error);
+    CLX_CHECK(json_is_object(root), CLAST_E_FORMAT, "%s: not one JSON object (line %d: %s)", path,
+              error.line, error.text);
+    if (g->config->keep.n > 0) {
+        put_kept(g, root);
+    }
+    put_all(g, "", root, NULL);
+    ++g->n_read;
+done:
+    clx_free(text);
+    json_decref(root);
+    return status;
+}
+
 static clast_status read_run(gatherer *g, const char *folder, bool whole)
 {
     clast_status status = CLAST_OK;
@@ -150,33 +180,21 @@ static clast_status read_run(gatherer *g, const char *folder, bool whole)
     char path[CLX_STUDY_PATH + 16];
     char *text = NULL;
     int64_t n = 0;
-    json_t *root = NULL;
-    json_error_t error;
     CLX_TRY(clx_study_run_folder(folder, g->row, whole ? "" : ".part", run));
     (void)snprintf(path, sizeof path, "%s/exit_code", run);
     if (access(path, F_OK) != 0) {
         goto done; // never begun, or under way
     }
     CLX_TRY(clx_file_read_all(path, 64, &text, &n));
-    append_result(g, "exit_code", clx_number_read(text, NULL));
-    clx_free(text);
-    text = NULL;
-    (void)snprintf(path, sizeof path, "%s/result.json", run);
+    const double exit_code = clx_number_read(text, NULL);
+    append_result(g, "exit_code", exit_code);
     if (whole) {
-        CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
-        root = json_loadb(text, (size_t)n, 0, &error);
-        CLX_CHECK(json_is_object(root), CLAST_E_FORMAT, "%s: not one JSON object (line %d: %s)",
-                  path, error.line, error.text);
-        if (g->config->keep.n > 0) {
-            put_kept(g, root);
-        }
-        put_all(g, "", root, NULL);
-        ++g->n_read;
+        g->n_unconverged += exit_code == clast_status_exit_code(CLAST_E_CONVERGE);
+        CLX_TRY(read_result(g, run, exit_code));
     }
     status = g->status;
 done:
     clx_free(text);
-    json_decref(root);
     return status;
 }
 
@@ -284,6 +302,7 @@ clast_status clx_study_collect(const clast_study_config *config, const char *fol
         report->n_unknown += !g.has_kept[i];
         report->first_unknown = g.has_kept[i] ? report->first_unknown : i;
     }
+    report->n_unconverged = g.n_unconverged;
 done:
     clx_free(g.has_kept);
     clast_table_free(&g.results);

@@ -7,6 +7,7 @@
 #include "base/path.h"
 #include "run/run.h"
 #include <clast/table.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -50,6 +51,67 @@ clast_status clx_study_write_exit(const char *run_folder, int exit_code)
     CLX_CHECK(n > 0 && n < CLX_STUDY_PATH, CLAST_E_DISK, "path too long: %s", run_folder);
     (void)snprintf(text, sizeof text, "%d\n", exit_code);
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+done:
+    return status;
+}
+
+clast_status clx_study_note_signal(const char *run_folder, int exit_code)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
+    const int number = exit_code - 128;
+    if (number <= 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_path_join(path, run_folder, "messages.txt"));
+    FILE *file = fopen(path, "ae");
+    CLX_CHECK(file != NULL, CLAST_E_DISK, "cannot write %s: %s", path, clx_errno_text());
+    (void)fprintf(file, "clast study: the run was ended by signal %d%s\n", number,
+                  number == SIGKILL ? " (the system's or a job's memory limit? see --max-memory)"
+                                    : "");
+    CLX_CHECK(fclose(file) == 0, CLAST_E_DISK, "cannot write %s: %s", path, clx_errno_text());
+done:
+    return status;
+}
+
+/// Names the folder `whole` where a run's messages name `part`, in which it worked.
+static clast_status rename_in_messages(const char *part, const char *whole)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
+    char *text = NULL;
+    int64_t n = 0;
+    clx_file file = {0};
+    CLX_TRY(clx_path_join(path, part, "messages.txt"));
+    if (access(path, F_OK) != 0) {
+        goto done;
+    }
+    CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &text, &n));
+    const char *at = text;
+    const char *found = strstr(at, part);
+    if (found == NULL) {
+        goto done;
+    }
+    CLX_TRY(clx_file_begin(path, &file));
+    for (; found != NULL; found = strstr(at, part)) {
+        CLX_TRY(clx_file_write(&file, at, (size_t)(found - at)));
+        CLX_TRY(clx_file_write(&file, whole, strlen(whole)));
+        at = found + strlen(part);
+    }
+    CLX_TRY(clx_file_write(&file, at, (size_t)(text + n - at)));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    clx_free(text);
+    return status;
+}
+
+clast_status clx_study_make_whole(const char *part, const char *whole)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(rename_in_messages(part, whole));
+    CLX_CHECK(rename(part, whole) == 0, CLAST_E_DISK, "cannot rename %s: %s", part,
+              clx_errno_text());
 done:
     return status;
 }

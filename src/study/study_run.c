@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 /// A run that this process does, and no other study beside it.
 typedef struct {
@@ -154,11 +155,14 @@ static clast_status prepare_run(const scheduler *s, int64_t row, const char *fol
                                 clast_text_list *words)
 {
     clast_status status = CLAST_OK;
+    char exit_code[CLX_PATH_LIMIT];
     const bool resume = s->worker->has_folder && s->worker->has_resume && has_checkpoint(folder);
     if (!resume) {
         CLX_TRY(clx_run_remove_tree(folder));
     }
     CLX_TRY(clx_folder_make(folder));
+    CLX_TRY(clx_path_join(exit_code, folder, "exit_code"));
+    (void)unlink(exit_code); // of the attempt that is gone on with
     const clx_study_words_of shared = {s->config, s->worker, s->plan};
     CLX_TRY(clx_study_words(&shared, row, folder, resume, words));
 done:
@@ -213,8 +217,9 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
     CLX_TRY(clx_study_run_folder(s->folder, row, "", whole));
     CLX_TRY(clx_study_write_exit(part, exit_code));
     if (clx_study_is_answer(exit_code)) {
-        CLX_CHECK(rename(part, whole) == 0, CLAST_E_DISK, "cannot rename %s: %s", part,
-                  clx_errno_text());
+        CLX_TRY(clx_study_make_whole(part, whole));
+    } else {
+        CLX_TRY(clx_study_note_signal(part, exit_code));
     }
     code = exit_code;
     if (exit_code == 0 && !s->has_checked_kept) {

@@ -289,6 +289,8 @@ class Printable(Case):
         for text in ("run holds the whole run but no printable body", "pieces with necks of 1 um sampled at 4 um", f"clast aggregate --resume {run} --printable --neck 1um --spacing 333nm"):
             self.assertIn(text, failed.err)
         self.assertEqual(json.loads((run / "manifest.json").read_text())["outcome"], "done")
+        self.assert_fails(5, "aggregate", "--resume", run, "--printable", "--neck", "1um", "-q", says=("pieces with necks of 1 um sampled at 4 um",))  # was 3, "bad input"
+        self.assert_fails(2, "aggregate", "--resume", run, "--printable", "--neck", "1mm", says=("thicker than every grain",))
         self.assertEqual(clast(*self.NEEDLE, "-o", plain).code, 0)
         names = {path.name for path in plain.iterdir()}
         self.assertEqual({path.name for path in run.iterdir()}, names)
@@ -613,6 +615,23 @@ class BadInput(Case):
         self.assertEqual(clast(*self.sizes("grain_id,size_mm\n7,0.02\n")).code, 0)
         self.assert_fails(2, *self.sizes("gloss,size_mm\n7,0.02\n"), says=("'gloss' is not understood",))
         self.assertEqual(clast(*self.sizes("gloss,size_mm\n7,0.02\n"), "--size-column", "size_mm").code, 0)
+
+    def test_drawn_sizes_are_drawn_in_each_replicate(self):
+        """The help said "particles to place" of all: a law has other particles in each replicate, a list has n_particle in all."""
+        grow = (*SPHERES[:7], "--replicate", 3, "--json", "--n-particle")
+        law = ("--size-law", "lognormal", "--size-mean", "4um", "--size-shape", "0.5")
+        for n_grain, more in ((61, (20, *law)), (61, (20, *self.sizes("d_um,count\n4,3\n5,1\n")[-2:], "--size-draw")), (3, (2, "--size", "4um"))):
+            self.assertEqual(clast(*grow, *more).json["n_grain"], n_grain, more)
+        told = " ".join(clast("aggregate", "--help-all").out.split())
+        self.assertIn("from a law or with size_draw: how many are drawn, replicate times", told)
+        self.assertIn("how often the list is used, or n_particle sizes are drawn", told)
+
+    def test_lengths_are_told_in_units_that_suit_them(self):
+        """A body of metres was "1.35721e+06 um"."""
+        for size, unit in (("1m", "m"), ("2mm", "mm"), ("30um", "um"), ("200nm", "nm")):
+            out = clast("aggregate", "--core", "sphere", "--core-size", size, "--coat", "sphere", "--size", size).out
+            self.assertRegex(out, rf"d_agg +\d[\d.]* {unit} *\n")
+            self.assertRegex(out, r"radius of gyration +\d[\d.]* [mun]?m *\n")
 
     def test_a_fall_beyond_the_drag_law_is_told(self):
         ask = ("aggregate", "--core", "sphere", "--coat", "sphere", "--core-size")

@@ -40,6 +40,29 @@ class Fit(Case):
         self.assertIn("at the edge of what was tried", done.out)
         self.assertIn("tightest packing tried: add tighter ones to fit_packing", done.out)
 
+    def test_intervals_hold_the_best(self):
+        """The speed is least between two N_A: "1.772, 68 % of the weight between 1.776 .. 1.801" (m/s)."""
+        line = ["aggregate", "--fit", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--size", "40um", "--size", "60um",
+                "--fit-packing", "1deg:1:1", "--fit-replicate-max", "64", "--fit-repeats", "2",
+                "--observed-velocity", "1.632m/s", "--observed-velocity-error", "0.02m/s"]
+        done = clast(*line, "--json")
+        self.assertEqual(done.code, 1, done.err)
+        for name, spread in done.json["spread"].items():
+            self.assertLessEqual(spread["low"], spread["best"], name)
+            self.assertLessEqual(spread["best"], spread["high"], name)
+        speed = done.json["spread"]["settling_velocity"]
+        self.assertEqual(speed["low"], speed["best"])  # none of what was grown is slower
+
+    def test_sizes_are_told_in_units_that_suit_them(self):
+        """In um whatever they are: "size 1.081e+06 um against 1.15e+06 +- 4e+05 um"."""
+        grown = [str(word).replace("100um", "1m") for word in self.scene]
+        sizes = self.folder / "sizes.csv"
+        sizes.write_text("d_m,count\n0.2,6\n0.3,3\n")
+        done = clast(*grown, "--observed-size", "1.15m", "--observed-size-error", "0.4m")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertIn(" m against 1.15 +- 0.4 m ", done.out)
+        self.assertRegex(done.out, r"D_agg +1\.\d+ +\d\.\d+ \.\. [\d.]+ +m\n")
+
     def test_refused(self):
         size = ["--observed-size", "115um"]
         self.assert_fails(2, *self.scene, says=["observed_size"])

@@ -1,4 +1,5 @@
 """CLI: clast report writes one page that stands alone."""
+import fcntl
 import hashlib
 import json
 import os
@@ -52,6 +53,21 @@ class Report(Case):
         page = self.page(os.path.join(grown, "report.html"))
         for part in ["Porosity while the aggregate grows", 'class="view-data"', '"n_grain": 6,', "half-angle"]:
             self.assertIn(part, page)
+
+    def test_runs_side_by_side_grow_to_their_own_ends(self):
+        # the chart ended with the shorter run, as the band of one run's repeats does
+        runs = []
+        for n, envelope in ((4, "surface_hull"), (24, "sphere_hull")):
+            runs.append(os.path.join(self.folder.name, f"grown{n}"))
+            result = clast("aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--size", "30um", "--envelope", envelope,
+                           "--n-particle", n, "--replicate", n, "-q", "--picture=false", "-o", runs[-1])
+            self.assertEqual(result.code, 0, result.err)
+        both = os.path.join(self.folder.name, "both.html")
+        result = clast("report", *runs, "-o", both, "--no-view")
+        self.assertEqual(result.code, 0, result.err)
+        chart = self.page(both).split("first envelope of each run")[1].split("</figure>")[0]
+        ends = [max(float(x) for x in re.findall("[ML] ([0-9.]+)", path)) for path in re.findall('<path style="fill:none[^>]* d="([^"]*L[^"]*L[^"]*)"', chart)]
+        self.assertAlmostEqual((ends[0] - 50.3) / (ends[1] - 50.3), 4 / 24, delta=0.01)
 
     def test_every_row_has_a_label_and_a_unit(self):
         # rows were named "Words" and "N run", and the history said 0.00027 in a column size_m
@@ -344,6 +360,68 @@ class Report(Case):
         self.assertNotIn("Rays tried", heads)
         for head in ("<code>cone</code>", "<code>rays</code>", "Run", "Seed", "Exit code", "Aggregate diameter <small>(\u00b5m)</small>"):
             self.assertIn(head, heads)
+
+    def study_page(self, results, plan="run,mass,seed\n1,300mg,1\n2,300mg,1\n3,1,1\n4,1,1\n"):
+        """What a reader sees of a study with these results."""
+        if os.path.exists(os.path.join(self.run_path, "summary.json")):
+            os.remove(os.path.join(self.run_path, "summary.json"))
+        for name, text in (("study.json", "{}"), ("plan.csv", plan), ("results.csv", results)):
+            self.put(name, text)
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        return re.sub(r"\s+", " ", seen(self.page(os.path.join(self.run_path, "report.html"))))
+
+    def test_a_studys_page_tells_what_became_of_its_runs(self):
+        """Runs that failed were done, a study without one done had no word, one that another shard was at was stopped."""
+        rest = "; the same clast study command goes on with the rest"
+        again = "; the same clast study command tries them again"
+        for codes, notes in (((0, 1), []), ((0, 137), ["1 of 2 runs failed (exit code 137)" + again]),
+                             ((2, 137, 2, ""), ["3 of 4 runs failed (exit codes 2, 137)" + again, "stopped: 0 of 4 runs are done" + rest]),
+                             ((5, 0), ["1 of 2 runs ended without converging (exit code 5)"]),
+                             ((5, 0, ""), ["1 of 3 runs ended without converging (exit code 5)", "stopped: 1 of 3 runs are done" + rest]),
+                             (("", ""), ["stopped: 0 of 2 runs are done" + rest])):
+            with self.subTest(codes):
+                text = self.study_page("run,mass,exit_code\n" + "".join(f"{k + 1},300mg,{code}\n" for k, code in enumerate(codes)))
+                for note in notes:
+                    self.assertIn(note, text)
+                self.assertEqual(len(re.findall(r"\d of \d runs", text)), len(notes))
+        self.assertIn("stopped: 0 of 2 runs are done" + rest, self.study_page("run,mass\n1,300mg\n2,300mg\n"))
+
+        results = "run,mass,exit_code\n1,300mg,0\n2,300mg,\n3,1,137\n4,1,\n"
+        os.mkdir(os.path.join(self.run_path, "runs"))
+        with open(os.path.join(self.run_path, "runs/000004.lock"), "w", encoding="utf-8") as lock:
+            self.assertIn("stopped: 1 of 4 runs", self.study_page(results))  # left by one that was killed
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            text = self.study_page(results)
+        self.assertIn("under way: 1 of 4 runs were done when results.csv was written", text)
+        self.assertIn("1 of 4 runs failed (exit code 137) ", text)
+        for words in ("stopped", "the same clast study"):
+            self.assertNotIn(words, text)
+        self.assertEqual(os.listdir(os.path.join(self.run_path, "runs")), ["000004.lock"])  # asked, not taken
+
+    def test_what_came_of_a_varied_name_has_label_and_unit(self):
+        """result.mass, beside a varied mass, was a bare key without a unit, and 300mg in SI units."""
+        text = self.study_page("run,mass,seed,exit_code,result.mass\n1,300mg,1,0,3.552e-4\n2,200mg,1,0,2e-4\n3,1g,1,0,1e-3\n4,2g,1,0,2e-3\n")
+        self.assertRegex(text, r"Run mass Seed Exit code Mass \(g\) 1 300mg 1 0 0\.3552 ")
+        self.assertRegex(text, r"All rows of results\.csv ?, there in SI units but for what varied\.")
+        self.assertRegex(self.study_page("run,seed,exit_code\n1,1,0\n", "run,seed\n1,1\n"), r"results\.csv ?, there in SI units\.")
+
+    def test_runs_of_one_name_are_told_apart_by_their_paths(self):
+        """clast report STUDY/runs/*/out: eight runs, all called out."""
+        names = ["a/runs/000001/out", "a/runs/000002/out", "b"]
+        folders = [os.path.join(self.folder.name, name) for name in names]
+        for folder in folders:
+            os.makedirs(folder)
+            with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as file:
+                json.dump({"n_grain": 7, "porosity": 0.4}, file)
+        out = os.path.join(self.folder.name, "all.html")
+        for given, shown in ((folders, ["000001/out", "000002/out", "b"]), (folders[:1] * 2, ["out", "out"]),
+                             ([folders[2], folders[0] + "/"], ["b", "out"])):
+            with self.subTest(shown):
+                self.assertEqual(clast("report", *given, "-o", out).code, 0)
+                page = self.page(out)
+                self.assertIn(f"<h1>{len(shown)} runs: {shown[0]} to {shown[-1]}</h1>", page)
+                self.assertEqual(re.findall(r'<a href="#run-\d">([^<]*)', page), shown)
+                self.assertEqual(re.findall(r'id="run-\d">\s*<h2>([^<]*)', page), shown)
 
     def test_a_studys_page_tells_the_versions_of_its_runs(self):
         beds = os.path.join(self.folder.name, "beds.csv")

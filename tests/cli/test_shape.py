@@ -344,12 +344,56 @@ class Units(Case):
         self.assertEqual([grain["kind"] for grain in clast("shape", table, "--json").json["grains"]], ["clump"])
 
     def test_spheres_in_units_that_are_not_read_are_refused(self):
-        """Diameters in phi and feet were lengths of the model."""
+        """Diameters in feet were lengths of the model, or behind "_" no diameters: the hull of the centres was measured."""
         table = self.folder / "clump.csv"
-        for names in ("x,y,z,d (phi)", "x (ft),y (ft),z (ft),r (ft)"):
+        for names in ("x_phi,y_phi,z_phi,d_phi", "x (ft),y (ft),z (ft),r (ft)", "x_mm,y_mm,z_mm,d_ft", "x_ft,y_ft,z_ft,radius_ft"):
             table.write_text(f"{names}\n0,0,0,1\n5,0,0,2\n")
             for command in (("shape", table), ("pack", "--shapes", table, "--curve", "6 mm", "--max-steps", "1", "-q")):
                 self.assert_fails(3, *command, says=("column '", "is in no unit of length that is read here", "convert or rename it"))
+
+    def test_diameters_of_spheres_in_phi(self):
+        """"d (phi)" was refused, and of d_phi the hull of the centres was measured: a 31st of the volume."""
+        rows = ["0,0,0,{}", "1,0,0,{}", "0,1,0,{}", "0,0,1,{}"]
+
+        def volume(names, size):
+            unit, grain = self.shape("\n".join([names, *rows]).format(*[size] * 4) + "\n")
+            self.assertEqual((unit, grain["kind"]), ("m", "clump"), names)
+            return grain["volume"]
+
+        wanted = volume("x_mm,y_mm,z_mm,d_mm", 2)
+        for names in ("x_mm,y_mm,z_mm,d_phi", "x_mm,y_mm,z_mm,diameter_phi", "x_mm,y_mm,z_mm,d (phi)", "x_mm,y_mm,z_mm,d_phi,r_ft", "x_mm,y_mm,z_mm,D [phi]"):
+            self.assertAlmostEqual(volume(names, "-1,9" if "ft" in names else -1) / wanted, 1.0, 12, names)
+        self.assertAlmostEqual(volume("x_mm,y_mm,z_mm,r_phi", 0) / wanted, 1.0, 12)
+        self.assertAlmostEqual(volume("x_in,y_in,z_in,d_in", 2) / wanted, 25.4**3, 8)
+        self.assert_fails(3, "shape", self.shape_file("x,y,z,d_phi\n0,0,0,1\n"), says=("1 of the 4 columns x, y, z, radius say",))
+        self.assertEqual(self.shape("x_mm,y_mm,z_mm,r_g\n0,0,0,1\n1,0,0,1\n0,1,0,1\n0,0,1,1\n")[1]["kind"], "points")  # a radius of gyration
+
+    def test_sizes_and_lengths_in_phi(self):
+        """They were lengths, with the order of the grains reversed, and those from 1 mm on no sizes."""
+        for name in ("D (phi)", "D_phi", "sieve_size [phi]"):
+            (self.folder / "phi.csv").write_text(f"flatness,elongation,{name}\n0.5,0.6,1\n0.6,0.7,-2\n0.6,0.7,0\n")
+            made = clast("shape", self.folder / "phi.csv", "--json")
+            self.assertEqual(([grain["D"] for grain in made.json["grains"]], made.err), ([0.0005, 0.004, 0.001], ""), name)
+        phi, mm = self.shape("L (phi),I_phi,S (phi)\n1,2,3\n"), self.shape("L_mm,I_mm,S_mm\n0.5,0.25,0.125\n")
+        self.assertEqual([phi[0], *(phi[1][key] for key in "LISD")], [mm[0], *(mm[1][key] for key in "LISD")])
+        mixed = self.shape("L_phi,I_um,S_phi\n1,250,3\n")
+        self.assertEqual(mixed[0], "m")
+        for key in "LIS":
+            self.assertAlmostEqual(mixed[1][key] / mm[1][key], 1.0, 12)
+        table = self.shape_file("flatness,elongation,D_phi\n0.5,0.6,1\n0.6,0.7,1\n0.6,0.6,1\n")
+        columns = clast("shape", table, "--statistics", self.folder / "forms", "--resamples", 10, "--json").json["statistics"]["columns"]
+        self.assertEqual({column["name"]: column["mean"]["value"] for column in columns}["size_m"], 0.0005)
+
+    def test_lengths_in_units_that_are_not_read_are_refused(self):
+        """They were lengths in the files' unit, or the column was passed over."""
+        corners = "\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n"
+        for text in ("L (ft),I (ft),S (ft)\n3,2,1\n", "L_ft,I_ft,S_ft\n3,2,1\n", "flatness,elongation,D_ft\n.5,.6,1\n", "flatness,elongation,D (g)\n.5,.6,1\n",
+                     f"x (ft),y (ft),z (ft){corners}", f"x_ft,y_ft,z_ft{corners}", f"x_phi,y_phi,z_phi{corners}"):
+            self.assert_fails(3, "shape", self.shape_file(text), "--unit", "mm", says=("column '", "is in no unit of length that is read here", "convert or rename it"))
+        self.assert_fails(3, "shape", self.shape_file("L_g,I_g,S_g\n3,2,1\n"), says=("has neither the columns flatness and elongation nor L, I and S",))
+        for names in ("D_ft,D_mm", "D (ft),D (mm)"):  # the one that is read counts
+            self.assertAlmostEqual(self.shape(f"flatness,elongation,{names}\n0.5,0.8,1,12\n")[1]["D"], 0.012, 15)
+        self.assertEqual(self.shape(f"x_ft,x_mm,y_mm,z_mm{corners.replace(chr(10), chr(10) + '9,')[:-2]}")[0], "m")
 
     def test_rows_of_several_units_are_in_metres(self):
         """10 mm were 10000 of "the files' units", beside 10 of a table without any; the mean was of both."""

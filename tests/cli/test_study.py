@@ -216,6 +216,11 @@ class Study(Case):
         # the last of the two was taken without a word
         self.assert_fails(2, "study", plan, *out, "--fix", "spheres=3", "--vary", "spheres=1|2", says=["fix: 'spheres=3'", "varies"])
         self.assert_fails(2, "study", plan, *out, "--fix", "seed=3", says=["fix: 'seed=3'", "option seed"])
+        self.assert_fails(2, "study", plan, *out, "--fix", "filled=0.8", "--fix", "filled=0.9", says=["'filled=0.8'", "'filled=0.9'", "one value"])
+        self.assert_fails(2, "study", plan, *out, "--table", SURFACE, f"--table={SURFACE}", says=["--table is given 2 times"])
+        # every run failed
+        for run, says in (("render", "writes the file that its -o names"), ("mesh simplify", "writes the file"), ("completion", "prints no numbers")):
+            self.assert_fails(2, "study", "--run", run, *out, says=[f"run: clast {run}", says])
         # both varied, and the runs took the last of the two
         self.assert_fails(2, "study", "--run", "aggregate", *out, "--vary", "core-size=100um|300um", "--vary", "core_size=200um",
                           says=["'core_size' varies twice", "'core-size'"])
@@ -262,6 +267,60 @@ class Study(Case):
         self.assertIn("2 of 2 runs failed", done.err)
         self.assertIn("absent.stl", (self.folder / "out/runs/000001.part/messages.txt").read_text())
         self.assertEqual(self.rows()[0]["exit_code"], "3")
+
+    def test_a_run_that_does_not_converge_is_a_row(self):
+        """Its result is empty: results.csv and times.csv were not written, and the same call failed for ever."""
+        table = self.folder / "table.csv"
+        table.write_text("stages,max_load_time\nhold until time 5ms,20\nisotropic 10kPa until rest,0.02\n")
+        plan = self.plan("run: pack\nfix: [mass=0.5g, curve=4mm, domain=cell, width=18mm, height=18mm, floor=false, gravity=0, fluid_density=0]\n")
+        study = ["study", plan, "--table", table, "-o", self.folder / "out", "-j", 1]
+        done = clast(*study)
+        self.assertEqual(done.code, 0, done.err)
+        self.assertIn("2 runs: 2 done now, 0 before; 1 did not converge (exit code 5)\n", done.out)
+        self.assertEqual([(row["exit_code"], row["n_grain"]) for row in self.rows()], [("0", "6"), ("5", "")])
+        self.assertEqual([row["wall_s"] == "" for row in self.rows("times.csv")], [False, True])
+        again = clast(*study, "--json")
+        self.assertEqual((again.code, again.json["n_before"], again.json["n_unconverged"]), (0, 2, 1), again.err)
+        said = (self.folder / "out/runs/000002/messages.txt").read_text()  # named 000002.part
+        self.assertTrue(said.endswith(f"what there is until then is in {self.folder}/out/runs/000002/out\n"), said)
+
+    def test_a_run_that_a_signal_ended_says_so_until_it_goes_on(self):
+        """messages.txt was empty; the exit code of the attempt before stayed beside the one that went on."""
+        if not sys.platform.startswith("linux"):
+            self.skipTest("SKIPPED LOUDLY: children are found by /proc")
+        plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g, shaking_time=100s, checkpoint_time=0.1]\n")
+        part = self.folder / "out/runs/000001.part"
+        with self.start(plan, "-j", "1", "-q") as study:
+            while not list(part.glob("out/checkpoint-*")) and study.poll() is None:
+                time.sleep(0.01)
+            for pid in pathlib.Path(f"/proc/{study.pid}/task/{study.pid}/children").read_text().split():
+                os.kill(int(pid), signal.SIGKILL)
+            error = study.communicate()[1]
+        self.assertEqual(study.returncode, 1, error)
+        self.assertEqual(self.rows()[0]["exit_code"], "137")
+        self.assertRegex((part / "messages.txt").read_text(), r"^clast study: the run was ended by signal 9 \(.*memory limit.*\)\n$")
+        stopped = clast("study", plan, "-o", self.folder / "out", "-j", 1, "-q", "--time-limit", "1s")
+        self.assertEqual(stopped.code, 143, stopped.err)
+        self.assertEqual(self.rows()[0].get("exit_code", ""), "")
+
+    def test_the_first_seed_is_that_of_the_configuration(self):
+        """It was 1, without a word; clast fill with the configuration took 42."""
+        config = self.folder / "fill.yaml"
+        config.write_text("strategy: random\nseed: 42\n")
+        study = ["study", "--run", "fill", "--argument", SURFACE, "--config", config, "--vary", "spheres=3", "-q"]
+
+        def seeds(name, *words):
+            done = clast(*study, *words, "-o", self.folder / name)
+            self.assertEqual(done.code, 0, done.err)
+            with open(self.folder / name / "plan.csv", newline="", encoding="utf-8") as file:
+                return [row["seed"] for row in csv.DictReader(file)]
+
+        self.assertEqual(seeds("one", "--seeds", 2), ["42", "43"])
+        self.assertEqual(seeds("two", "--seed", 1), ["1"])
+        self.assertEqual(seeds("three", self.plan("seed: 7\n")), ["7"])
+        self.assert_fails(2, *study, "-o", self.folder / "two", says=["holds another study (seed differs)"])
+        config.write_text("strategy: random\n")
+        self.assertEqual(seeds("four"), ["1"])
 
     def test_an_input_that_changed_between_shards_is_named(self):
         sizes = self.folder / "sizes.csv"

@@ -177,6 +177,29 @@ class Cloud(Case):
         self.both(3, self.write("units.csv", "x_mm,y_mm,z_mm\n" + points), "--columns", "x_mm,y_mm,z_mm",
                   "--domain", "box:0,0,0,1mm,1mm,1mm")
 
+    def test_lines_end_in_lf_cr_lf_or_cr(self):
+        """Ranks looked for LF alone: rows behind a bare CR were read once by each rank, or written beyond the block."""
+        lines = ["x,y,z"] + rows(cloud(2000, 16)).splitlines()
+        draw = random.Random(17)
+        ends = {"names.csv": ["\r"] + ["\n"] * len(lines), "old mac.csv": ["\r"] * len(lines), "rows.csv": ["\n"] * 40 + ["\r"] * len(lines),
+                "mixed.csv": [draw.choice(("\n", "\r\n", "\r")) for _ in lines]}
+        summaries = set()
+        for n, (name, by_line) in zip((2, 3, 3, 4), ends.items()):
+            path = self.folder / name
+            path.write_bytes("".join(line + end for line, end in zip(lines, by_line)).encode())
+            summaries.add(self.both(n, path, *BOX))
+        self.assertEqual(len(summaries), 1)
+        lines[1900] = "0.1,zwei,0.3"
+        path.write_bytes("".join(line + end for line, end in zip(lines, by_line)).encode())
+        code, _, err = ranks(3, "decompose", path, *BOX)
+        self.assertEqual(code, 3, err)
+        self.assertIn("mixed.csv:1901: 'zwei' in column 'y' is no number", err)
+
+    def test_texts_in_a_column_that_nobody_asks_for(self):
+        """Refused by ranks alone, where the first rows hold numbers: "'p3000' in column 'id' is no number"."""
+        points = ["%s%d,%r,%r,%r\n" % ("p" if k >= 3000 else "", k, *p) for k, p in enumerate(cloud(4000, 18))]
+        self.both(3, self.write("named.csv", "id,x,y,z\n" + "".join(points)), *BOX)
+
     @unittest.skipIf(os.environ.get("CLAST_HAVE_HDF5") == "0", "built without HDF5")
     def test_rows_of_hdf5_are_shared_out(self):
         try:

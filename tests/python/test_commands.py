@@ -177,7 +177,9 @@ class Commands(unittest.TestCase):
         again = clast.study(run="fill", argument=MENGER, vary=["spheres=5|9", "strategy=random|largest"], output=self.folder / "two")
         self.assertEqual((again.n_before, again.n_done), (4, 0))
         for keys, line in ((dict(run="fil"), "no command that a study can run; did you mean fill"), (dict(vary="sphere=5"), "did you mean spheres"),
-                           (dict(fix="spheres"), "^fix: takes key=value"), (dict(run="mesh hull", seeds=2), "draws nothing at random")):
+                           (dict(fix="spheres"), "^fix: takes key=value"), (dict(run="mesh check", seeds=2), "draws nothing at random"),
+                           (dict(run="mesh hull"), "no numbers for a study"), (dict(run="completion"), "no numbers for a study"),
+                           (dict(fix=["filled=0.8", "filled=0.9"]), "^fix: 'filled' is given twice")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
 
@@ -215,6 +217,26 @@ class Commands(unittest.TestCase):
         first = clast.study(**keys)
         self.assertGreaterEqual(first.n_before, 1)
         self.assertEqual((first.n_before + first.n_done, first.n_failed), (3, 0))
+
+    def test_a_run_that_does_not_converge_is_a_row(self):
+        """results.csv was not written, and the study ended with an error for ever."""
+        fix = ["mass=0.5g", "curve=4mm", "domain=cell", "width=18mm", "height=18mm", "floor=false", "gravity=0", "fluid_density=0"]
+        table = self.folder / "runs.csv"
+        table.write_text("stages,max_load_time\nhold until time 5ms,20\nisotropic 10kPa until rest,0.02\n")
+        with self.assertWarnsRegex(UserWarning, "^1 of 2 runs did not converge"):
+            found = clast.study(run="pack", fix=fix, table=table, output=self.folder / "out", jobs=1)
+        self.assertEqual((found.n_done, found.n_failed, found.n_unconverged), (2, 0, 1))
+        self.assertEqual(list(found.results["exit_code"]), [0, 5])
+        self.assertTrue(np.isnan(found.results["n_grain"][1]))
+        self.assertEqual(clast.open(self.folder / "out").summary, {"n_run": 2, "n_done": 2, "n_failed": 0})
+
+    def test_a_study_begins_with_the_seed_of_its_configuration(self):
+        """It was 1, without a word."""
+        config = self.folder / "fill.yaml"
+        config.write_text("strategy: random\nseed: 42\n")
+        keys = dict(run="fill", argument=MENGER, config=config, vary="spheres=3", seeds=2)
+        self.assertEqual(list(clast.study(**keys, output=self.folder / "one").plan["seed"]), [42, 43])
+        self.assertEqual(list(clast.study(**keys, seed=1, output=self.folder / "two").plan["seed"]), [1, 2])
 
     def test_a_run_that_fails_is_told(self):
         with self.assertWarnsRegex(UserWarning, "1 of 2 runs failed; the first says why in .*000002"):

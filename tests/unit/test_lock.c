@@ -13,8 +13,10 @@ static void who_has_it_is_named_and_nobody_else_gets_it(void **state)
     clx_lock lock = {0};
     bool is_busy = true;
     (void)state;
+    assert_false(clx_lock_is_held(PATH));
     CHECK_OK(clx_lock_take(PATH, 0.0, &lock, &is_busy));
     assert_false(is_busy);
+    assert_true(clx_lock_is_held(PATH));
     const pid_t child = fork();
     if (child == 0) {
         clx_lock other = {0};
@@ -44,6 +46,7 @@ static void a_process_that_dies_lets_go(void **state)
     int end = 0;
     assert_int_equal(waitpid(child, &end, 0), child);
     assert_int_equal(end, 0);
+    assert_false(clx_lock_is_held(PATH));
     assert_int_equal(access("test_lock.h5.lock", F_OK), 0); /* the file is left, the lock is not */
     CHECK_OK(clx_lock_take(PATH, 0.0, &lock, &is_busy));
     clx_lock_release(&lock);

@@ -126,7 +126,10 @@ static void tables_of_every_kind_are_understood(void **state)
          0.5, 0.8, 6.324555320336759},
         {"flatness,elongation,L,I,S\n0.50,0.80,10,8,4\n", 1, 0, 0.5, 0.8, 6.324555320336759},
         {"L_mm,I_cm,S (um)\n10,0.8,4000\n", 1, 0, 0.5, 0.8, 6.324555320336759e-3}, /* in metres */
+        {"L (phi),I_phi,S (phi)\n0,1,2\n", 1, 0, 0.5, 0.5, 0.3952847075210474},    /* in mm */
+        {"L_phi,I_um,S_phi\n0,500,2\n", 1, 0, 0.5, 0.5, 0.3952847075210474e-3},
         {"elongation,flatness,diameter\n0.8,0.5,3\n", 1, 0, 0.5, 0.8, 3.0},
+        {"elongation,flatness,D_ft,D_phi\n0.8,0.5,3,-2\n", 1, 0, 0.5, 0.8, 4.0},
         {"flatness,elongation\n0.5,0.8\nbroken,0.8\nNA,0.7\n", 1, 2, 0.5, 0.8, 0.0},
         {"flatness,elongation\n1.0000000001,1\n", 1, 0, 1.0, 1.0, 0.0},
     };
@@ -156,6 +159,9 @@ static void tables_without_forms_are_refused(void **state)
                                       "flatness,elongation\n2,3\n",
                                       "flatness,elongation\n",
                                       "L_mm,I_mm,S\n10,8,4\n",
+                                      "L_ft,I_ft,S_ft\n10,8,4\n",
+                                      "L_g,I_g,S_g\n10,8,4\n",
+                                      "flatness,elongation,size (ft)\n0.5,0.8,1\n",
                                       "flatness,elongation,L,I,S\n0.8,0.5,10,8,4\n"};
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
         clast_table t = {0};
@@ -165,6 +171,50 @@ static void tables_without_forms_are_refused(void **state)
         assert_null(s.flatness);
         clast_table_free(&t);
     }
+}
+
+/* The label and the column of sizes in phi said phi, or no unit. */
+static void sizes_in_phi_are_in_millimetres(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {{"D_phi", "sieve size (mm)"},
+                                           {"size_phi", "size (mm)"},
+                                           {"Diameter (phi)", "diameter (mm)"}};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
+        char text[64];
+        clast_table t = {0};
+        clast_table factors = {0};
+        clast_form_set s = {0};
+        (void)snprintf(text, sizeof text, "FL,EL,%s\n0.5,0.8,1\n", names[k][0]);
+        read_text(text, &t);
+        CHECK_OK(clast_form_set_of(&t, NULL, &s));
+        assert_string_equal(s.size_label, names[k][1]);
+        CHECK_OK(clast_form_set_factors(&s, &factors));
+        CHECK_ABS(clast_table_numbers(&factors, "size_mm")[0], 0.5, 0.0);
+        clast_table_free(&factors);
+        clast_form_set_free(&s);
+        clast_table_free(&t);
+    }
+}
+
+/* A unit longer than any, as a caller may set it, is none. */
+static void a_unit_of_any_length_is_none(void **state)
+{
+    (void)state;
+    clast_table t = {0};
+    clast_form_set s = {0};
+    double *value = NULL;
+    CHECK_OK(clast_table_init(&t, "t", 1));
+    for (int k = 0; k < 3; ++k) {
+        static const char *const names[] = {"L", "I", "S"};
+        CHECK_OK(clast_table_add_number(
+            &t, names[k], "pixels of the camera of the second microscope, binned", &value));
+        value[0] = 3.0 - k;
+    }
+    CHECK_OK(clast_form_set_of(&t, NULL, &s));
+    assert_string_equal(s.size_label, "sieve size");
+    clast_form_set_free(&s);
+    clast_table_free(&t);
 }
 
 static void complaint_counts_by_reason(void **state)
@@ -581,6 +631,8 @@ int main(void)
         cmocka_unit_test(features_have_104_names),
         cmocka_unit_test(tables_of_every_kind_are_understood),
         cmocka_unit_test(tables_without_forms_are_refused),
+        cmocka_unit_test(sizes_in_phi_are_in_millimetres),
+        cmocka_unit_test(a_unit_of_any_length_is_none),
         cmocka_unit_test(complaint_counts_by_reason),
         cmocka_unit_test(equal_grains_have_no_mixture),
         cmocka_unit_test(equal_grains_have_no_deviation),

@@ -244,6 +244,7 @@ typedef struct {
     int64_t queue[16];
     int n_queue, n_started, n_resumed;
     bool stopped;
+    bool is_mute;   ///< a run that does not end with 0 prints no result
     int stop_after; ///< the monitor asks to stop after as many runs were started
     const clast_study_report *report;
 } pretender;
@@ -255,10 +256,12 @@ static clast_status pretend_start(void *context, const clast_study_item *item)
     (void)snprintf(path, sizeof path, "%s/result.json", item->folder);
     FILE *file = fopen(path, "w");
     const int y = (int)item->row * 10;
-    (void)fprintf(file,
-                  "{\"x\": {\"y\": %d}, \"wall_s\": 3, \"list\": [5, 6], \"word\": \"a\", "
-                  "\"only\": [{\"z\": %d, \"x\": {\"y\": %d}, \"wall_s\": 2}], \"one\": [7]}\n",
-                  y, y + 1, y);
+    if (!p->is_mute || p->code[item->row] == 0) {
+        (void)fprintf(file,
+                      "{\"x\": {\"y\": %d}, \"wall_s\": 3, \"list\": [5, 6], \"word\": \"a\", "
+                      "\"only\": [{\"z\": %d, \"x\": {\"y\": %d}, \"wall_s\": 2}], \"one\": [7]}\n",
+                      y, y + 1, y);
+    }
     (void)fclose(file);
     for (int i = 0; i < item->n_argument; ++i) {
         p->n_resumed += strcmp(item->argument[i], "--resume") == 0;
@@ -343,6 +346,48 @@ static void failed_runs_are_noted_and_tried_again(void **state)
     clast_fields_free(clast_study_fields, &config);
 }
 
+static char *text_of(const char *folder, const char *name)
+{
+    static char text[4][4096];
+    static int k = 0;
+    char path[600];
+    char *at = text[k++ % 4];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    at[fread(at, 1, sizeof text[0] - 1, file)] = '\0';
+    (void)fclose(file);
+    return at;
+}
+
+/* A bed that did not converge prints no result: no table was written, for good. */
+static void a_run_without_a_result_has_its_exit_code_alone(void **state)
+{
+    (void)state;
+    char folder[512];
+    pretender p = {.code = {5, 0, 137, 1}, .is_mute = true};
+    clast_study_report report;
+    clast_study_config config = fresh();
+    const clast_study_worker worker = worker_of(&p);
+    folder_for(folder, "mute");
+    set(&config, "run", "fill");
+    set(&config, "vary", "a=1|2|3|4");
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_NO);
+    assert_int_equal(report.n_done, 3);
+    assert_int_equal(report.n_unconverged, 1);
+    CHECK_ABS(result(folder, "results.csv", "exit_code", 0), 5.0, 0.0);
+    CHECK_ABS(result(folder, "results.csv", "exit_code", 3), 1.0, 0.0);
+    assert_true(isnan(result(folder, "results.csv", "x.y", 0)));
+    CHECK_ABS(result(folder, "results.csv", "x.y", 1), 10.0, 0.0);
+    assert_true(isnan(result(folder, "times.csv", "wall_s", 0)));
+    const char *said = text_of(folder, "runs/000003.part/messages.txt");
+    assert_non_null(strstr(said, "the run was ended by signal 9 ("));
+    p.code[2] = 0;
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
+    assert_int_equal(report.n_unconverged, 1);
+    clast_fields_free(clast_study_fields, &config);
+}
+
 static bool has_column(const char *folder, const char *file, const char *column)
 {
     char path[600];
@@ -376,20 +421,6 @@ static void numbers_of_a_list_of_one_are_columns(void **state)
     CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
     CHECK_ABS(result(folder, "results.csv", "only.0.z", 1), 11.0, 0.0);
     clast_fields_free(clast_study_fields, &config);
-}
-
-static char *text_of(const char *folder, const char *name)
-{
-    static char text[4][4096];
-    static int k = 0;
-    char path[600];
-    char *at = text[k++ % 4];
-    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    at[fread(at, 1, sizeof text[0] - 1, file)] = '\0';
-    (void)fclose(file);
-    return at;
 }
 
 static void check_says(const char *part)
@@ -613,6 +644,7 @@ int main(void)
         cmocka_unit_test(malformed_designs_are_refused),
         cmocka_unit_test(plan_survives_refused_memory),
         cmocka_unit_test(failed_runs_are_noted_and_tried_again),
+        cmocka_unit_test(a_run_without_a_result_has_its_exit_code_alone),
         cmocka_unit_test(numbers_of_a_list_of_one_are_columns),
         cmocka_unit_test(a_study_keeps_to_its_input),
         cmocka_unit_test(an_input_may_be_mended_before_a_run_is_done),
