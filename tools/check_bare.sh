@@ -51,7 +51,9 @@ tools/dist.sh > "$work/log"
 tar -xzf "$release" -C "$root"
 folder=/$(basename "$release" .tar.gz)
 within "apt-get install -y -qq --no-install-recommends openmpi-bin libopenmpi3" > "$work/log" 2>&1 || fail "no MPI runtime could be installed"
-within "cd $folder && make release" > "$work/log" 2>&1 || fail "the source release does not build"
+printf '#!/bin/sh\nexec cc "$@" -O0\n' > "$root/usr/local/bin/hasty-cc" # the demo has compiled the same for speed
+chmod +x "$root/usr/local/bin/hasty-cc"
+within "cd $folder && CC=/usr/local/bin/hasty-cc make release" > "$work/log" 2>&1 || fail "the source release does not build"
 for part in 'ranks: MPI is there without its headers' 'tests and benches: cmocka is not installed' 'the sectional solver: SUNDIALS is not installed'; do
     grep -q "^left out: $part" "$work/log" || fail "the release's build does not say that it leaves out $part"
 done

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests, those of memory under sanitizers, exported symbols,
 # and then side by side: tests of numbers, Python and ranks, WebAssembly, 32 bits, packages, documents, short fuzzing.
-# FUZZ_SECONDS (default 10) and SKIP ("tidy mpich docs wasm i386 packages fuzz site") shorten it by hand; `tools/test.sh JOB` runs one of the side by side;
+# FUZZ_SECONDS (default 5) and SKIP ("tidy mpich docs wasm i386 packages fuzz site") shorten it by hand; `tools/test.sh JOB` runs one of the side by side;
 # ALSO=bare, as in CI, adds the new machine to them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,7 +22,7 @@ job() { # what needs the release build
         [ "$(uname -m)" = x86_64 ] || { echo "SKIPPED: packages are made on x86-64"; return; }
         tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
         ;;
-    fuzz) FUZZ_JOBS=1 tools/fuzz.sh "${FUZZ_SECONDS:-10}" ;;
+    fuzz) FUZZ_JOBS=1 tools/fuzz.sh "${FUZZ_SECONDS:-5}" ;;
     bare) tools/check_bare.sh ;;
     site) tools/check_web.sh; tools/docs.sh; python3 tools/check_site.py --sample; python3 tools/check_view.py ;;
     *) echo "test: $1 is none of numbers, python, mpi, mpich, docs, wasm, i386, packages, fuzz, site, bare" >&2; return 2 ;;
