@@ -151,6 +151,7 @@ static json_t *commands_json(void)
         cli_json_text(one, "doc", command->summary);
         cli_json_bool(one, "writes_folder", command->writes_folder);
         cli_json_bool(one, "writes_no_file", command->writes_no_file);
+        cli_json_bool(one, "runs_in_studies", cli_runs_in_studies(command));
         (void)json_object_set_new(one, "fields", fields_json(command->fields));
         (void)json_array_append_new(all, one);
     }

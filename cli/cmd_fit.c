@@ -73,11 +73,15 @@ static bool has_forms(const config *c, const clast_table *beds)
     return has;
 }
 
-/// Named columns of any table are its candidates, though two or three numbers could be a form.
+/// Named columns of any table are its candidates, though two or three numbers could be a form. Of
+/// columns that are a form's by their names the fit says what is wrong with them.
 static int32_t choose(const config *c, const clast_table *beds)
 {
     if (c->features != AUTO || c->grains[0] != '\0') {
         return c->features != AUTO ? c->features : MIXTURE;
+    }
+    if (c->fit.columns[0] == '\0') {
+        return clast_form_set_named(beds) ? FORM : COLUMNS;
     }
     if (!has_forms(c, beds)) {
         return COLUMNS;

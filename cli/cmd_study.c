@@ -98,7 +98,7 @@ static clast_status check(const clast_study_config *config, const cli_command **
                         "--help",
                         config->run);
     }
-    if ((*command)->needs_file || (*command)->writes_no_data) {
+    if (!cli_runs_in_studies(*command)) {
         return cli_fail(CLAST_E_CONFIG,
                         "run: clast %s %s; a study tabulates the numbers of its runs", config->run,
                         (*command)->needs_file ? "writes the file that its -o names"

@@ -42,6 +42,11 @@ int cli_flush(int code)
     return code;
 }
 
+bool cli_runs_in_studies(const cli_command *command)
+{
+    return !command->needs_file && !command->writes_no_data && strcmp(command->name, "study") != 0;
+}
+
 /// The line that says why: the command's own, else the library's, else the status in words.
 static const char *reason(clast_status status)
 {

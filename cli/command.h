@@ -30,12 +30,15 @@ typedef struct cli_command {
     bool writes_folder;        ///< -o names a run folder
     bool shares_ranks;         ///< several ranks may run it together
     bool writes_no_file;       ///< all it has goes to stdout: -o is refused
-    bool needs_file;           ///< -o names the file that it writes: no study can run it
+    bool needs_file;           ///< -o names the file that it writes
     bool writes_no_data;       ///< what it prints is no data: --json is refused
     /// Changes the defaults before anything is read, or NULL.
     void (*prepare)(void *config);
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
+
+/// Whether a study can run it: each run prints numbers, as JSON.
+bool cli_runs_in_studies(const cli_command *command);
 
 /// Finds the command that argv names and runs it on every rank: returns the exit code.
 int cli_main(int argc, char **argv, const clast_comm *comm);

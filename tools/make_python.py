@@ -19,7 +19,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "TABLES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "STUDIED", "TABLES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 '''
@@ -105,6 +105,8 @@ class Bindings:
             yield f"    {name!r}: {tuple(k['name'] for k in fields)!r},"
         yield "}\n\n# Commands that write a run's folder."
         yield f"FOLDERS: tuple[str, ...] = {tuple(c['name'] for c in self.d['commands'] if c['writes_folder'])!r}"
+        yield "\n# Commands that a study can run."
+        yield f"STUDIED: tuple[str, ...] = {tuple(c['name'] for c in self.d['commands'] if c['runs_in_studies'])!r}"
 
 
 def short(doc):

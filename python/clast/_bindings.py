@@ -5,7 +5,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "TABLES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "STUDIED", "TABLES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 
@@ -3791,6 +3791,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_form_law_cut': (clast_form_law_moments, [POINTER(clast_form_law)], 'Moments of the law as it is drawn from, cut to its range.'),
     'clast_row_fault_text': (c_char_p, [c_int], '"missing", "not a number", .'),
     'clast_form_columns_named': (c_bool, [c_char_p], 'Whether the names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form\'s by their words, each that of its place: "flatness_mean,elongation_mean", "mean L,mean I,mean S" or "L_mm,I_mm,S_mm", not "sand,mu" or "length,width,time_s"; a letter counts at the beginning of a name, and as a capital at its end.'),
+    'clast_form_set_named': (c_bool, [POINTER(clast_table)], 'Whether the columns of a table are named as those of forms, whatever is in them.'),
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
     'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
@@ -4794,3 +4795,6 @@ TABLES: dict[str, tuple[str, ...]] = {
 
 # Commands that write a run's folder.
 FOLDERS: tuple[str, ...] = ('aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'evolve', 'study')
+
+# Commands that a study can run.
+STUDIED: tuple[str, ...] = ('mesh check', 'shape', 'grading', 'fill', 'aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'evolve', 'report', 'bench', 'describe')

@@ -256,7 +256,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     choice("features", features, c.KEYS["fit"]["features"][5] or "")
     with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
         what = features if features != "auto" else "mixture" if grains is not None else \
-            "form" if _has_forms(beds, config.struct.columns) and _names_form(config.struct.columns) else "columns"
+            "form" if _takes_forms(beds, config.struct.columns) else "columns"
         refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), what != "form")
         if (what == "mixture") != (grains is not None):
             raise refuse("features: 'mixture' and grains belong together: the features are means and deviations over the grains")
@@ -324,13 +324,13 @@ def _fit(data: Owner, made: Owner) -> Fit:
                features=table_of(data, data.struct.beds), left_out=table_of(data, data.struct.left_out), _data=data, _fit=made)
 
 
-def _has_forms(beds: Owner, columns: bytes) -> bool:
+def _takes_forms(beds: Owner, columns: bytes) -> bool:
+    """Whether the columns are a form's by their names; else they are candidates."""
+    if not columns:
+        return bool(call("clast_form_set_named")(ctypes.byref(beds.struct)))
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
-    return bool(call("clast_form_set_of")(ctypes.byref(beds.struct), columns, ctypes.byref(owner.struct)) == 0)
-
-
-def _names_form(columns: bytes) -> bool:
-    """Whether named columns are a form's; else they are candidates."""
+    if call("clast_form_set_of")(ctypes.byref(beds.struct), columns, ctypes.byref(owner.struct)) != 0:
+        return False
     if call("clast_form_columns_named")(columns):
         return True
     warn(f"columns {columns.decode()} are candidates; features='form' takes them as a form")

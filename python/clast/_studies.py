@@ -73,7 +73,7 @@ class _Workers:
         self._busy: dict[int, subprocess.Popen[bytes]] = {}
         self.failed: BaseException | None = None
         self._held = (self.START(self._start), self.WAIT(self._wait), self.STOP(self._stop))
-        self.struct = c.clast_study_worker(has_folder=command in _FOLDERS, has_seed="seed" in c.KEYS[command],
+        self.struct = c.clast_study_worker(has_folder=command in c.FOLDERS, has_seed="seed" in c.KEYS[command],
                                            has_resume="resume" in c.KEYS[command])
         for name, function in zip(("start", "wait", "stop"), self._held):
             setattr(self.struct, name, ctypes.cast(function, ctypes.c_void_p))
@@ -107,19 +107,12 @@ class _Workers:
             process.send_signal(signal.SIGTERM)
 
 
-_FOLDERS = frozenset(c.FOLDERS)
-
-# no study can run them, as in clast study: they write the file that -o names, or print no numbers
-_FILES = frozenset(("mesh convert", "mesh repair", "mesh hull", "mesh simplify", "mesh form", "mesh synthesize",
-                    "render", "export", "completion", "man"))
-
 
 def _check_keys(command: str, keys: dict[str, Any]) -> None:
     """Refuses keys that the command does not have before the first run."""
-    if command == "study" or command not in c.KEYS:
-        raise refuse(f"run: '{command}' is no command that a study can run{nearest(command, c.KEYS)}")
-    if command in _FILES:
-        raise refuse(f"run: clast {command} has no numbers for a study to tabulate")
+    if command not in c.STUDIED:
+        raise refuse(f"run: clast {command} has no numbers for a study to tabulate" if command in c.KEYS
+                     else f"run: '{command}' is no command that a study can run{nearest(command, c.STUDIED)}")
     fixed: set[str] = set()
     for name in ("vary", "fix"):
         for entry in [] if keys.get(name) is None else map(str, items(name, keys[name])):

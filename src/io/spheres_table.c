@@ -3,8 +3,8 @@
 
 #include "base/column_unit.h"
 #include "base/status.h"
-#include "shape/form_set.h"
 #include <clast/field.h>
+#include <clast/form.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +63,7 @@ const clast_column *clx_column_find(const clast_table *table, const char *name)
 bool clx_points_are_named(const clast_table *table)
 {
     return clx_column_find(table, "x") != NULL && clx_column_find(table, "y") != NULL &&
-           clx_column_find(table, "z") != NULL && !clx_form_set_is_named(table);
+           clx_column_find(table, "z") != NULL && !clast_form_set_named(table);
 }
 
 /// A column under the k-th name; the first of a kind counts, and a radius before a diameter.
@@ -109,7 +109,7 @@ bool clx_spheres_are_named(const clast_table *table)
     columns c = {{NULL}, false};
     find_names(table, &c);
     return c.column[0] != NULL && c.column[1] != NULL && c.column[2] != NULL &&
-           c.column[RADIUS] != NULL && !clx_form_set_is_named(table);
+           c.column[RADIUS] != NULL && !clast_form_set_named(table);
 }
 
 /// What a table of unnamed columns is asked for, in the words of who asks.

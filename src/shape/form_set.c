@@ -130,7 +130,7 @@ static bool known_roles(const clast_table *table, roles *r)
     return r->by_length || (r->at[FLATNESS] >= 0 && r->at[ELONGATION] >= 0);
 }
 
-bool clx_form_set_is_named(const clast_table *table)
+bool clast_form_set_named(const clast_table *table)
 {
     roles r;
     return known_roles(table, &r);

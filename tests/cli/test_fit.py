@@ -162,6 +162,13 @@ class Fit(Case):
             fit = clast("fit", self.write(text), "--columns", names, "--n-permutation", 0, "--json")
             self.assertEqual((fit.code, fit.err, fit.json["kind"]), (0, "", "single_form"), names)
 
+    def test_a_form_in_a_unit_that_is_not_read_is_told(self):
+        """L (ft), I (ft), S (ft) were three candidates, without a word."""
+        rows = "".join(f"{0.3 + 0.01 * math.sin(k)!r},{3 + k % 3},{2 + k % 2 * 0.5},1\n" for k in range(12))
+        self.assert_fails(3, "fit", self.write("porosity,L (ft),I (ft),S (ft)\n" + rows), says=("'L (ft)' is in no unit of length",))
+        fit = clast("fit", self.write("porosity,L (ft),I (ft),S (ft)\n" + rows), "--features", "columns", "--n-permutation", 0, "--n-term", 1, "--json")
+        self.assertEqual((fit.code, fit.json["kind"]), (0, "columns"), fit.err)
+
     def test_columns_of_words_are_told(self):
         # units of two dimensions, and a bare length among them: words
         fit = clast("fit", self.study(["1mm", "2s", "3mm", "4mm"]), "--target", "porosity_bulk", "--columns", "wall_ratio", "--n-fold", 5)
