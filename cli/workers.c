@@ -19,6 +19,9 @@ extern char **environ;
 
 clast_status cli_workers_init(cli_workers *workers, int64_t n_run)
 {
+#ifdef __EMSCRIPTEN__
+    return cli_fail(CLAST_E_LIMIT, "a study starts processes, which WebAssembly has none of");
+#endif
     const ssize_t n = readlink("/proc/self/exe", workers->program, sizeof workers->program - 1);
     if (n <= 0) {
         return cli_fail(CLAST_E_IO, "cannot find this program's file by /proc/self/exe");

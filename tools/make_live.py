@@ -43,7 +43,7 @@ def page(build):
     program = packed((build / "npm/clast.wasm").read_bytes())
     worker = (build / "clast-core.js").read_text() + "\n" + bare((web / "wasm/command.js").read_text() + (web / "live/worker.js").read_text())
     viewer = packed((web / "dist/view.js").read_bytes())
-    grains = [f'<script type="text/plain" data-grain="{name}">{base64.b64encode((ROOT / "data/standin63" / name).read_bytes()).decode()}</script>' for name in GRAINS]
+    grains = [f'<script type="text/plain" data-grain="{name}">{packed((ROOT / "data/standin63" / name).read_bytes())}</script>' for name in GRAINS]
     version = json.loads((build / "npm/package.json").read_text())["version"]
     style = (web / "page.css").read_text() + (web / "live/live.css").read_text()
     body = (web / "live/page.html").read_text().replace("{version}", html.escape(version))

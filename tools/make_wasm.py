@@ -41,8 +41,8 @@ export interface Result {{
   files: Record<string, Uint8Array>;
 }}
 
-/** The object of --json, in SI; files and the command line that repeats it in a terminal. */
-export type Json = Record<string, any> & {{ files: Record<string, Uint8Array>; command: string }};
+/** The object of --json, in SI; files, the command line that repeats it in a terminal, and the lines that it warns by. */
+export type Json = Record<string, any> & {{ files: Record<string, Uint8Array>; command: string; messages: string[] }};
 
 export class ClastError extends Error {{
   words: string[];

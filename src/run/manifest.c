@@ -6,10 +6,13 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/lock.h"
+#include "base/path.h"
+#include "io/config_files.h"
 #include "io/json.h"
 #include "io/sha256.h"
 #include "run/run.h"
 #include <clast/field.h>
+#include <clast/grading.h>
 #include <clast/machine.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -314,20 +317,29 @@ static void put_time(clx_file *file, const char *key, time_t when)
     put_text(file, key, text);
 }
 
-static void put_times(clx_file *file, const clast_manifest *m, bool is_over)
+static void put_use(clx_file *file)
 {
+#ifdef __EMSCRIPTEN__ // whose getrusage makes its numbers up; its memory never shrinks
+    put_number(file, "peak_memory_bytes", 65536.0 * (double)__builtin_wasm_memory_size(0));
+#else
     struct rusage used;
-    put_time(file, "started", m->started);
-    if (is_over) {
-        put_time(file, "ended", time(NULL));
-    }
-    put_number(file, "wall_s", clx_clock() - m->begun);
     if (getrusage(RUSAGE_SELF, &used) == 0) {
         put_number(file, "cpu_s",
                    (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                        1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
         put_number(file, "peak_memory_bytes", 1024.0 * (double)used.ru_maxrss);
     }
+#endif
+}
+
+static void put_times(clx_file *file, const clast_manifest *m, bool is_over)
+{
+    put_time(file, "started", m->started);
+    if (is_over) {
+        put_time(file, "ended", time(NULL));
+    }
+    put_number(file, "wall_s", clx_clock() - m->begun);
+    put_use(file);
 }
 
 static void put_inputs(clx_file *file, const clast_manifest *m)
@@ -407,4 +419,43 @@ clast_status clast_manifest_write(const clast_manifest *manifest, const char *ou
 done:
     clx_file_abandon(&file);
     return status;
+}
+
+clast_status clx_run_note_inputs(clast_run_folder *run, const clx_run_inputs *inputs)
+{
+    clast_status status = CLAST_OK;
+    clast_manifest *manifest = clast_run_folder_manifest(run);
+    const char *role = NULL;
+    const char *path = NULL;
+    CLX_TRY(clast_manifest_config(manifest, inputs->fields, inputs->config));
+    clast_manifest_seed(manifest, inputs->seed);
+    for (int32_t i = 0; (path = inputs->file(inputs->config, i, &role)) != NULL; ++i) {
+        CLX_TRY(clast_run_folder_input(run, role, path));
+    }
+done:
+    return status;
+}
+
+clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monitor,
+                               const char *sizes, bool by_mass, const clast_grading_list *list)
+{
+    char words[1536];
+    char text[sizeof words + CLX_PATH_LIMIT];
+    if (list->column[0] == '\0' && list->ignored[0] == '\0') {
+        return CLAST_OK;
+    }
+    (void)snprintf(text, sizeof text, "%s: %s", sizes,
+                   clast_grading_list_text(list, by_mass, sizeof words, words));
+    if (monitor != NULL && monitor->note != NULL) {
+        monitor->note(monitor->context, text);
+    }
+    return run != NULL ? clast_manifest_note(clast_run_folder_manifest(run), "sizes", words)
+                       : CLAST_OK;
+}
+
+clast_status clx_run_tell_curve(clast_run_folder *run, const clast_monitor *monitor,
+                                const char *curve, const clast_grading *grading)
+{
+    const clast_grading_list list = clast_grading_list_of(grading);
+    return clx_run_tell_list(run, monitor, curve, strncmp(curve, "masses:", 7) == 0, &list);
 }

@@ -17,9 +17,15 @@ PLAIN = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
 # What a run measures of itself; and the manifest, which names machine and moment.
 OWN = ("wall_s", "contact_s", "envelope_s", "ns_per_grain_step", "measure_s", "porosity_s", "grain_steps_per_s")
 OWN_FILES = ("manifest.json",)
+CHARTS = (".svg", ".png", ".pdf")  # their text is in the built-in strokes of cairo
 GROWN = ["--core", "grain00.ply", "--core-size", "270um", "--coat", "grain01.ply", "--coat", "grain02.ply", "--size", "60um", "--unit", "um",
          "--replicate", "24", "--cone", "40deg", "--rays", "4", "--orientations", "3", "--seed", "7", "--json"]
 POURED = ["--curve", "4mm", "--mass", "2g", "--width", "20mm", "--height", "30mm", "--shaking-time", "0.01s", "--max-steps", "30000", "--seed", "3", "--json"]
+CHARTED = {
+    "decompose": (["decompose", "points_s2_n500.csv", "--domain", "box:0,0,1,1", "--pairs", "--json"], "--charts", "", ["-o", "cells"]),
+    "agglomerate": (["agglomerate", "points_s2_n500.csv", "--domain", "box:0,0,1,1", "--constant", "1e-3", "--json"], "--charts", "", ["-o", "grown"]),
+    "grading": (["grading", "U1", "--mass", "10kg", "--sample", "100", "--json"], "--chart", "curve.", []),
+}
 
 JOBS = {
     "aggregate, true surfaces": (["aggregate", *GROWN], GRAIN),
@@ -34,6 +40,8 @@ JOBS = {
     "shapes": (["shape", *GRAIN, "--unit", "um", "--json"], GRAIN),
     "sphere composite": (["fill", "grain01.ply", "--spheres", "60", "--json"], GRAIN),
     "surface": (["mesh", "check", "grain02.ply", "--json"], GRAIN),
+    **{f"charts of {name}, {form}": ([*words, option, form_of + form, *more], POINTS)
+       for form in ("svg", "png", "pdf") for name, (words, option, form_of, more) in CHARTED.items()},
     "refused: a missing file": (["decompose", "none.csv", "--domain", "box:0,0,1,1"], {}),
     "refused: a word": (["aggregate", "--core", "sphere", "--cores", "2"], {}),
     "refused: a length without a unit": (["aggregate", "--core", "sphere", "--core-size", "270", "--coat", "sphere", "--size", "30um"], {}),
@@ -62,7 +70,7 @@ def numbers_of(text):
 
 
 def plain(result):
-    files = {name: digest for name, digest in result["files"].items() if pathlib.Path(name).name not in OWN_FILES}
+    files = {name: "drawn" if name.endswith(CHARTS) else digest for name, digest in result["files"].items() if pathlib.Path(name).name not in OWN_FILES}
     return {"status": result["status"], "stdout": numbers_of(result["stdout"]), "stderr": result["stderr"], "files": files}
 
 

@@ -235,6 +235,67 @@ class Grow(page.Live):
         self.set(more="")
         self.grow()
 
+    def test_the_runs_own_figures(self):
+        """Of three aggregates the mean stood beside the first, and neither was called so; a porosity below 0 was 0.0000."""
+        self.grow(more="--repeats 3")
+        self.assertIn("12 of 12 placed, the first of 3 aggregates", self.text("grow-when"))
+        self.assertRegex(self.text("grow-numbers"), "^mean of 3 aggregates95 % interval of the mean")
+        self.assertRegex(self.text("grow-numbers"), r"density[\d.]+ kg/m\u00b3[\d.]+ kg/m\u00b3 to [\d.]+ kg/m\u00b3")
+        self.assertRegex(self.text("grow-said"), "^3 aggregates, intervals of the mean at level 0.95")
+        self.set(more="")
+        self.grow()
+        self.browser.value("(() => { rooms.grow.history.porosity_surface_hull[12] = -0.0421; rooms.grow.show(12); })()")
+        self.assertIn("-0.0421porosity in its surface hull", self.text("grow-figures"))
+
+    def test_counts_of_a_table_are_grains(self):
+        """Its lines were: 40,000 grains began without a word."""
+        self.drop("bins.csv", b"size_um,count\n30,20000\n20,20000\n")
+        self.set(replicate="1")
+        self.run_room(20)
+        self.assertRegex(self.text("grow-error"), "^about 40,000 grains are more")
+        self.set(sizes="", more="--replicate 100000")
+        self.run_room(20)
+        self.assertRegex(self.text("grow-error"), "^about 100,000 grains are more")
+
+    def test_a_refusal_stands_alone(self):
+        """Figures, charts and the view of the run before stood beside it."""
+        seen = "getComputedStyle(document.querySelector('#grow-figures')).visibility + getComputedStyle(document.querySelector('#grow-view')).visibility"
+        self.grow()
+        self.assertEqual(self.browser.value(seen), "visiblevisible")
+        self.set(core_size="270")
+        self.run_room()
+        self.assertRegex(self.text("grow-error"), "^clast aggregate: ")
+        self.assertEqual(self.browser.value(seen), "hiddenhidden")
+        self.grow(core_size="270um")
+        self.assertEqual(self.browser.value(seen), "visiblevisible")
+
+    def test_more_options_reach_every_run(self):
+        """A blank in a value, a run without a core and one without fall speeds could not be had."""
+        for values in ({"more": "--core-density '2650 kg/m^3'"}, {"more": "--no-fall-speed"}, {"core": "-", "more": "--mode cluster"}):
+            with self.subTest(values):
+                self.grow(**values)
+                with page.Folder() as folder:
+                    self.command(folder)
+                    self.assertEqual(hashlib.sha256((folder / "aggregate/history.csv").read_bytes()).hexdigest(), self.text("grow-hash"))
+                    self.unzipped(folder)
+                    self.assertIn(self.text("grow-hash"), (folder / "command.txt").read_text())
+
+    def test_a_link_over_a_form_is_undone(self):
+        word = self.browser.value("packed({values: {...rooms.grow.values(), replicate: '7'}, files: {}})")
+        self.browser.value("rooms.grow.$('replicate').value = '99'")
+        self.browser.value(f"location.hash = 'grow={word}', new Promise((go) => setTimeout(go, 200))")
+        self.assertEqual(self.browser.value("rooms.grow.value('replicate')"), "7")
+        self.click("#grow-undo")
+        self.assertEqual(self.browser.value("rooms.grow.value('replicate')"), "99")
+
+    def test_long_work_is_not_lost_without_a_question(self):
+        leave = "(() => { const event = new Event('beforeunload', {cancelable: true}); window.dispatchEvent(event); return event.defaultPrevented; })()"
+        self.grow()
+        self.assertFalse(self.browser.value(leave))
+        self.browser.value("rooms.grow.spent = 60")
+        self.assertTrue(self.browser.value(leave))
+        self.browser.value("rooms.grow.spent = 0")
+
     def test_a_scene_that_is_too_large_says_so(self):
         self.set(replicate="1000000")
         self.run_room()

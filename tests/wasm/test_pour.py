@@ -121,6 +121,19 @@ class Pour(page.Live):
         self.run_room()
         self.assertEqual(self.text("pour-hash"), digest)
 
+    def test_what_the_command_warns_of_is_shown(self):
+        self.set(**{**SMALL, "size": "10mm", "mass": "0.2g"}, max_steps="600")
+        self.run_room()
+        self.assertEqual(self.text("pour-error"), "")
+        self.assertRegex(self.text("pour-said"), "warning +6.94 times the mass that was asked for")
+        self.assertEqual(self.text("pour-state"), "stopped, with a warning of the command below")
+
+    def test_a_published_curve_that_is_too_large_says_so(self):
+        """How many grains it has was not known, and 224,000 began."""
+        self.set(curve="U7", mass="100kg", width="500mm", height="2m")
+        self.run_room()
+        self.assertRegex(self.text("pour-error"), r"^about 220,000 grains .* in a terminal: clast pack ")
+
     def test_a_scene_that_is_too_large_says_so(self):
         self.set(size="1mm", mass="1kg")
         self.run_room()

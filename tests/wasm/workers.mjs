@@ -35,5 +35,7 @@ const named = async (runner) => {
 };
 const files = [await named(clast), await named(workers)];
 const no = await workers.json(['decompose', 'p.csv', '--test-only', '--domain=box:0,0,3481,59'], { files: { 'p.csv': `x,y\n${[...Array(60).keys()].map((k) => `${k * k},${k}`).join('\n')}\n` } });
+const few = await clast.decompose('x,y\n0.1,0.1\n0.4,0.3\n0.2,0.3\n0.7,0.6\n0.9,0.2\n0.3,0.8\n', { domain: 'box:0,0,5000,5000' });
+const warned = [few.messages, JSON.parse(new TextDecoder().decode(few.files['cells/manifest.json']))];
 const refused = await workers.pack({ curve: '4' }).then(() => 'done', (fault) => fault.name);
-process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, waiting, refused, files, no }));
+process.stdout.write(JSON.stringify({ one, many, same: alone.every((hash, k) => hash === beside[k].state_hash), heard, aborted, waiting, refused, files, no, warned }));

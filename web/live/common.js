@@ -16,8 +16,8 @@ function base64Of(bytes) {
 }
 
 /// What an element of the page holds compressed.
-async function bundled(id) {
-  const bytes = bytesOf($(id).textContent.trim());
+async function bundled(element) {
+  const bytes = bytesOf(element.textContent.trim());
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
 }
 
@@ -73,12 +73,25 @@ class Engine {
   }
 }
 
+const textOf = (bytes) => new TextDecoder().decode(bytes);
+
 /// The command's own line of a run that failed, or null.
 function refusalOf({ result, fault }) {
   if (fault) return fault;
   if (result.status <= 1 && result.stdout) return null;
   return result.stderr.trim().split('\n').pop() || `clast ended with code ${result.status}`;
 }
+
+/// What a run found: its summary, its files, all that the command said.
+function foundOf({ stdout, stderr, files }, folder) {
+  return { json: JSON.parse(textOf(files[`${folder}/summary.json`])), files, said: `${stderr}${stdout}`.trim() };
+}
+
+/// For the line of the state, where a run has warned.
+function warned({ said }) { return /\bwarning\b/.test(said) ? ', with a warning of the command below' : ''; }
+
+/// The run's files, what it read, and its command.
+function withCommand(files, words, hash) { return { ...files, 'command.txt': `${plainCommandOf(words)}\n# ${hash}\n` }; }
 
 function columnsOf(text) {
   const lines = text.split('\n').filter((line) => line && !line.startsWith('#'));
@@ -136,7 +149,16 @@ function withUnit(v, unit, digits = 4) {
 
 function commandOf(words) {
   const quote = (w) => (/^[\w@%+=:,./-]+$/.test(w) ? w : `'${w.replaceAll("'", "'\\''")}'`);
-  return ['clast', ...words.filter((w) => w !== '--json')].map(quote).join(' ');
+  return ['clast', ...words].map(quote).join(' ');
+}
+
+/// The command as it gives the same bytes on any processor.
+function plainCommandOf(words) { return `GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 ${commandOf(words)}`; }
+
+/// Words of a text as a shell cuts it, with quotes and backslashes.
+function shellWords(text) {
+  return (text.match(/([^\s'"\\]|\\.|'[^']*'|"(\\.|[^"\\])*"|['"\\])+/g) ?? []).map((word) => word
+    .replace(/'([^']*)'|"((?:\\.|[^"\\])*)"|\\(.)/g, (_, single, double, one) => single ?? double?.replace(/\\([\\"$`])/g, '$1') ?? one));
 }
 
 async function digestOf(bytes) {
@@ -217,6 +239,13 @@ function packed(object) {
 
 function unpacked(word) {
   return JSON.parse(new TextDecoder().decode(bytesOf(word.replaceAll('-', '+').replaceAll('_', '/'))));
+}
+
+/// The address holds a room's word, and has it again when the room is shown again.
+function shareWord(room, word) {
+  room.word = word;
+  history.replaceState(null, '', `#${room.name}=${word}`);
+  copy(location.href, 'copied', (text) => room.say(text));
 }
 
 async function copy(text, done, say) {

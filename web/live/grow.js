@@ -14,7 +14,7 @@ class GrowRoom extends Room {
     const own = [...this.files.keys()];
     const shapes = [...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]} (${name})`]), ['sphere', 'sphere'],
       ...own.filter((name) => !this.isTable(name)).map((name) => [name, name])];
-    this.setOptions('core', shapes);
+    this.setOptions('core', [...shapes, ['-', 'none (--mode cluster)']]);
     this.setOptions('sizes', [['', 'one size, by the slider'], ...own.filter((name) => this.isTable(name)).map((name) => [name, name])]);
     const kept = new Map([...this.$('coats').querySelectorAll('input')].map((box) => [box.id, box.checked]));
     this.$('coats').replaceChildren(...shapes.map(([value, text]) => {
@@ -38,9 +38,12 @@ class GrowRoom extends Room {
   }
 
   wordsNow() {
-    const words = ['aggregate', '--core', this.value('core')];
+    const words = ['aggregate'];
     const add = (option, value) => { if (value !== '') words.push(option, value); };
-    add('--core-size', this.value('core_size'));
+    if (this.value('core') !== '-') {
+      add('--core', this.value('core'));
+      add('--core-size', this.value('core_size'));
+    }
     this.coats().forEach((name) => add('--coat', name));
     if (this.value('sizes') === '') add('--size', this.value('size'));
     else { add('--sizes', this.value('sizes')); add('--size-unit', this.value('size_unit')); }
@@ -54,27 +57,26 @@ class GrowRoom extends Room {
     return [...words, '--fall-speed', '--no-picture', ...this.more(), '-o', 'aggregate'];
   }
 
-  /// Grains that the form asks for, as far as it can be told without reading as clast does.
+  /// Grains that the words ask for, as far as it can be told without reading as clast does: counts of a table, or its lines.
   estimate() {
-    const name = this.value('sizes');
-    const lines = name === '' ? 1 : new TextDecoder().decode(this.files.get(name) ?? new Uint8Array()).split('\n').filter(Boolean).length;
-    return lines * (Number(this.value('replicate')) || 1);
+    const [names, ...rows] = textOf(this.files.get(this.value('sizes')) ?? new Uint8Array()).split(/[\r\n]+/).filter((line) => /^[^#]/.test(line))
+      .map((line) => line.split(/[;,\t]/).map((cell) => cell.trim().replaceAll('"', '')));
+    const at = names?.findIndex((name) => /^(n|counts?|numbers?)\b/i.test(name)) ?? -1;
+    const n = at < 0 ? rows.length : rows.reduce((sum, row) => sum + (Number(row[at]) || 0), 0);
+    return (Number(this.givenIn(this.words, 'n-particle').pop()) || n || 1) * (Number(this.givenIn(this.words, 'replicate').pop()) || 1);
   }
 
   async compute() {
     const every = Math.max(1, Math.ceil(this.estimate() / MOST_WATCHED));
     const { turn } = this;
-    this.words = this.wordsNow();
-    this.inputs = this.filesOf(this.words);
     this.history = null;
-    this.$('result').hidden = true;
-    const ended = await this.engine.run([...this.words, '--checkpoint-every', String(every), '--json'], this.inputs, (name, bytes) => this.hear(name, bytes));
+    const ended = await this.engine.run([...this.words, '--checkpoint-every', String(every)], this.inputs, (name, bytes) => this.hear(name, bytes));
     const refusal = refusalOf(ended);
     this.latest = null;
     if (refusal) return refusal;
     const hash = await digestOf(ended.result.files['aggregate/history.csv']);
     if (turn !== this.turn) return null; // cancelled meanwhile
-    this.result = { json: JSON.parse(ended.result.stdout), files: ended.result.files };
+    this.result = foundOf(ended.result, 'aggregate');
     this.watch(this.result.files['aggregate/state.h5']);
     this.showEnd();
     this.showCommand('aggregate/history.csv', hash);
@@ -123,26 +125,34 @@ class GrowRoom extends Room {
     this.$('figures').replaceChildren(
       figure(String(h.n_grain[n]), h.n_grain[n] === 1 ? 'grain: the core' : 'grains, with the core'),
       figure(withUnit(h.d_agg_m[k], 'm'), 'equivalent diameter'),
-      figure(Math.max(0, h[envelopes[0]][k]).toFixed(4), `porosity in its ${envelopes[0].slice(9).replace('_', ' ')}`),
+      figure(h[envelopes[0]][k].toFixed(4), `porosity in its ${envelopes[0].slice(9).replace('_', ' ')}`),
       figure(`${h['density_kg/m^3'][k].toFixed(0)} kg/m\u00b3`, 'density'),
-      figure(withUnit(speed[k], 'm/s'), 'fall speed in air'));
+      ...(speed ? [figure(withUnit(speed[k], 'm/s'), 'fall speed in air')] : []));
     this.$('moment').setAttribute('aria-valuetext', `${h.n[n]} of ${h.n[h.n.length - 1]} particles placed`);
-    this.$('when').textContent = `${h.n[n]} of ${h.n[h.n.length - 1]} placed`;
+    const all = this.result?.json.n_repeat ?? 1;
+    this.$('when').textContent = `${h.n[n]} of ${h.n[h.n.length - 1]} placed${all > 1 ? `, the first of ${all} aggregates` : ''}`;
     const x = { title: 'particles placed (-)', values: h.n, from: 0 };
     drawChart(this.$('porosity'), { title: 'Porosity', x, y: { title: 'porosity (-)', from: 0 }, mark: h.n[n],
       lines: envelopes.map((name) => ({ name: name.slice(9).replace('_', ' '), values: h[name].map((v) => v) })) });
     drawChart(this.$('density'), { title: 'Density', x, y: { title: 'density (kg/m\u00b3)' }, mark: h.n[n], lines: [{ name: 'density', values: h['density_kg/m^3'] }] });
+    this.$('speed').replaceChildren();
+    if (!speed) return;
     const [factor, unit] = speed.some((v) => v >= 1) ? [1, 'm/s'] : [1e3, 'mm/s'];
     drawChart(this.$('speed'), { title: 'Fall speed in air', x, y: { title: `fall speed (${unit})` }, mark: h.n[n], lines: [{ name: 'fall speed', values: Array.from(speed, (v) => factor * v) }] });
   }
 
   showEnd() {
     const r = this.result.json;
-    fillTable(this.$('envelopes'), ['envelope', 'volume (mm\u00b3)', 'porosity'],
-      Object.keys(r.envelope).map((name) => [name.replace('_', ' '), short(r.envelope[name] * 1e9), r.porosity[name].toFixed(5)]));
-    fillTable(this.$('numbers'), ['of the whole aggregate', ''], [['grains', short(r.n_grain)], ['mass', withUnit(r.mass * 1e3, 'g')], ['equivalent diameter', withUnit(r.d_agg, 'm', 5)],
-      ['density', `${short(r.density)} kg/m\u00b3`], ['fall speed in air', withUnit(r.settling_velocity, 'm/s', 5)], ['radius of gyration', withUnit(r.radius_of_gyration, 'm', 5)],
-      ['deepest overlap', withUnit(r.max_overlap, 'm')], ['without a place', short(r.n_lost)]]);
+    const { interval } = r;
+    const ofMean = interval ? [`${100 * interval.confidence} % interval of the mean`] : [];
+    const row = (name, write, value, limits) => [name, write(value), ...ofMean.map(() => (limits ? `${write(limits.low)} to ${write(limits.high)}` : ''))];
+    const length = (v) => withUnit(v, 'm', 5);
+    fillTable(this.$('envelopes'), ['envelope', 'volume (mm\u00b3)', 'porosity', ...ofMean],
+      Object.keys(r.envelope).map((name) => [name.replace('_', ' '), short(r.envelope[name] * 1e9), ...row('', (v) => v.toFixed(5), r.porosity[name], interval?.porosity[name]).slice(1)]));
+    fillTable(this.$('numbers'), [interval ? `mean of ${r.n_repeat} aggregates` : 'of the whole aggregate', '', ...ofMean], [
+      ['grains', 'n_grain', short], ['mass', 'mass', (v) => withUnit(v * 1e3, 'g')], ['equivalent diameter', 'd_agg', length],
+      ['density', 'density', (v) => `${short(v)} kg/m\u00b3`], ['fall speed in air', 'settling_velocity', (v) => withUnit(v, 'm/s', 5)], ['radius of gyration', 'radius_of_gyration', length],
+      ['deepest overlap', 'max_overlap', length], ['without a place', 'n_lost', short]].map(([name, key, write]) => row(name, write, r[key], interval?.[key])));
   }
 
   listen() {

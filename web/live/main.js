@@ -32,6 +32,7 @@ function openAddress(fragment) {
   const room = rooms[match[1]];
   try {
     room.open(unpacked(match[2]));
+    room.word = match[2];
   } catch (fault) {
     room.fail(`the address of this page is damaged: ${fault.message}`);
   }
@@ -42,7 +43,7 @@ function listenPage() {
   const names = Object.keys(rooms);
   for (const name of names) {
     const button = $(`to-${name}`);
-    button.addEventListener('click', () => { showRoom(name); history.replaceState(null, '', `#${name}`); });
+    button.addEventListener('click', () => { showRoom(name); history.replaceState(null, '', `#${name}${rooms[name].word ? `=${rooms[name].word}` : ''}`); });
     button.addEventListener('keydown', (event) => {
       const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
       if (!step) return;
@@ -62,28 +63,30 @@ function listenPage() {
   document.addEventListener('keydown', (event) => { // Enter that is held would go from Run to Cancel
     if (event.repeat && event.key === 'Enter' && event.target.matches('button')) event.preventDefault();
   });
+  window.addEventListener('beforeunload', (event) => { if (rooms.grow.holds() || rooms.pour.holds()) event.preventDefault(); });
   window.addEventListener('hashchange', () => openAddress(location.hash));
 }
 
 /// The viewer of reports, which draws in 3-D.
 async function loadViewer() {
   const script = document.createElement('script');
-  script.src = URL.createObjectURL(new Blob([await bundled('clast-view')], { type: 'text/javascript' }));
+  script.src = URL.createObjectURL(new Blob([await bundled($('clast-view'))], { type: 'text/javascript' }));
   await new Promise((done, fail) => { script.onload = done; script.onerror = () => fail(new Error('the 3-D view did not load')); document.head.append(script); });
   URL.revokeObjectURL(script.src);
 }
 
 async function begin() {
   if (typeof WebAssembly !== 'object' || !WebAssembly.validate(SIMD) || typeof BigInt !== 'function' || typeof DecompressionStream !== 'function') return; // old.js says so
+  window.clastRuns = true;
+  for (const one of document.querySelectorAll('script[data-grain]')) GRAINS.set(one.dataset.grain, await bundled(one));
   listenPage();
   draw();
   showRoom('grow');
   const isGiven = openAddress(location.hash);
   const failAll = (text) => Object.values(rooms).forEach((room) => { room.say(''); room.fail(text); });
-  window.clastRuns = true;
   try {
     const viewer = loadViewer();
-    program = { worker: new TextDecoder().decode(await bundled('clast-worker')), code: await WebAssembly.compile(await bundled('clast-wasm')) };
+    program = { worker: new TextDecoder().decode(await bundled($('clast-worker'))), code: await WebAssembly.compile(await bundled($('clast-wasm'))) };
     await viewer;
     startEngine();
     if (!isGiven) rooms.grow.go();

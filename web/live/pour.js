@@ -71,10 +71,15 @@ class PourRoom extends Room {
     return [...words, ...this.more(), '-o', 'bed'];
   }
 
-  /// About how many grains the form asks for; NaN where its words do not tell.
+  /// About how many grains the form asks for; of a curve that has no one size clast is asked. NaN: not known.
   estimate() {
-    const size = ['one', 'uniform', 'lognormal'].includes(this.value('curve')) ? siOf(this.value('size')) : NaN;
-    return siOf(this.value('mass')) / (siOf(this.value('density')) * (Math.PI / 6) * size ** 3);
+    const [mass, density] = [this.value('mass'), this.value('density')];
+    if (this.$('size_row').hidden) {
+      return this.engine.run(['grading', this.curve(), '--mass', mass, '--density', density, '--json'], this.inputs)
+        .then(({ result }) => (result?.status === 0 ? JSON.parse(result.stdout).n_expected : NaN));
+    }
+    const size = siOf(this.value('size'));
+    return siOf(mass) / (siOf(density) * (Math.PI / 6) * size ** 3);
   }
 
   /// More options without --max-steps, which each slice has of its own.
@@ -86,19 +91,14 @@ class PourRoom extends Room {
   /// Reads how many steps are wanted, in their field or among more options, where the last counts, as in a terminal; 0: no limit.
   /// A refusal is the command's own.
   async readLimit() {
-    const words = super.more();
-    const given = words.flatMap((word, k) => (MAX_STEPS.test(word) ? [word.includes('=') ? word.slice(word.indexOf('=') + 1) : words[k + 1] ?? ''] : []));
-    const text = [this.value('max_steps') || '0', ...given].pop();
+    const text = [this.value('max_steps') || '0', ...this.givenIn(super.more(), 'max-steps')].pop();
     this.limit = Number(text) || Infinity;
     if (/^\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && Number.isInteger(Number(text)) && Number(text) <= 9e15) return null;
-    const ended = await this.engine.run([...this.words, `--max-steps=${text}`, '--json'], this.inputs);
+    const ended = await this.engine.run([...this.words, `--max-steps=${text}`], this.inputs);
     return refusalOf(ended) ?? `--max-steps ${text}: a whole number of steps is wanted`;
   }
 
   async compute() {
-    this.words = this.wordsNow();
-    this.inputs = this.filesOf(this.words);
-    this.result = null;
     this.frames = [];
     this.every = 1;
     this.seen = 0;
@@ -112,6 +112,7 @@ class PourRoom extends Room {
     if (this.running || !this.result) return;
     this.fail('');
     this.running = true;
+    this.begun = performance.now() - 1e3 * this.spent;
     this.setReady();
     this.say('computing');
     const refusal = await this.told((async () => await this.readLimit() ?? this.pour(['pack', '--resume', 'bed']))());
@@ -120,8 +121,10 @@ class PourRoom extends Room {
 
   ended(refusal) {
     this.running = false;
+    this.spent = this.seconds();
     this.setReady();
-    this.say(refusal ? '' : this.result?.json.phase !== 'done' ? 'stopped' : this.result.json.still_moving ? 'the bed is level, its grains still move' : 'the bed is at rest');
+    const { json } = this.result ?? {};
+    this.say(refusal ? '' : (json?.phase !== 'done' ? 'stopped' : json.still_moving ? 'the bed is level, its grains still move' : 'the bed is at rest') + (json ? warned(this.result) : ''));
     if (refusal) this.refuse(refusal);
   }
 
@@ -134,10 +137,13 @@ class PourRoom extends Room {
       const to = Math.min(done + this.slice, this.limit);
       const begun = performance.now();
       const given = { ...this.inputs, ...this.result?.files };
-      const ended = await this.engine.run([...words, '--max-steps', String(to), '--json'], given);
+      const ended = await this.engine.run([...words, '--max-steps', String(to)], given);
       const refusal = refusalOf(ended);
       if (refusal) return refusal;
-      this.result = { json: JSON.parse(ended.result.stdout), files: { ...this.result?.files, ...ended.result.files } };
+      const { stderr } = ended.result;
+      if (!this.result) this.heard = stderr; // what is told at the beginning alone
+      else if (!this.heard.includes(stderr)) this.heard += stderr;
+      this.result = foundOf({ ...ended.result, stderr: this.heard, files: { ...this.result?.files, ...ended.result.files } }, 'bed');
       const seconds = (performance.now() - begun) / 1000;
       const { json } = this.result;
       this.rate = (json.n_step - done) / seconds;
@@ -145,15 +151,15 @@ class PourRoom extends Room {
       if (json.phase === 'done' || json.n_step >= this.limit || this.stopped) { this.showEnd(); return null; }
       await this.pause();
       if (this.stopped) { this.showEnd(); return null; }
-      this.slice = this.nextSlice(json);
+      this.slice = this.nextSlice(this.result);
       words = ['pack', '--resume', 'bed'];
     }
   }
 
   /// Steps that take SLICE, by what a step of a grain took; at most four times as many as before.
-  nextSlice(json) {
+  nextSlice({ json, said }) {
     if (this.value('pace') !== 'fast') return SLOW_STEPS;
-    const step = json.ns_per_grain_step * 1e-9 * Math.max(json.n_grain, 1);
+    const step = Number(/(\S+) ns a grain-step/.exec(said)?.[1]) * 1e-9 * Math.max(json.n_grain, 1);
     return Math.round(Math.min(4 * this.slice, Math.max(SLOW_STEPS, step > 0 ? SLICE / step : 0)));
   }
 
@@ -180,7 +186,7 @@ class PourRoom extends Room {
     this.engine.cancel();
     if (this.result) this.showEnd();
     this.ended(null);
-    this.say(this.result ? 'stopped' : 'cancelled');
+    if (!this.result) this.say('cancelled');
   }
 
   setReady() {

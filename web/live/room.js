@@ -1,8 +1,8 @@
 // What Grow and Pour are made of: a form of options that becomes a command line, files beside it, undo, link, zip, the 3-D view.
 const UNDO = 60; // states of the form that are kept
+const LONG = 30; // s of work that are not lost without a question
 
-/// Bundled surfaces by name.
-const GRAINS = new Map([...document.querySelectorAll('script[data-grain]')].map((s) => [s.dataset.grain, bytesOf(s.textContent.trim())]));
+const GRAINS = new Map(); // bundled surfaces by name
 
 class Room {
   constructor(name) {
@@ -78,6 +78,7 @@ class Room {
 
   turnSliders() {
     for (const slider of this.$('form').querySelectorAll('input[type=range]')) {
+      slider.setAttribute('aria-label', `${slider.previousSibling.textContent.trim()}, slider`);
       const text = $(slider.dataset.of).value;
       const number = Number.parseFloat(text);
       if (Number.isFinite(number)) slider.value = slider.dataset.log ? Math.log10(number) : number;
@@ -125,12 +126,19 @@ class Room {
     return Object.fromEntries([...GRAINS, ...this.files].filter(([name]) => named(name)));
   }
 
-  more() { return this.value('more').split(/\s+/).filter(Boolean); }
+  more() { return shellWords(this.value('more')); }
+
+  /// Values that more options give to --NAME, where the last counts.
+  givenIn(words, name) {
+    const is = (word) => word.split('=')[0].replaceAll('_', '-') === `--${name}`;
+    return words.flatMap((word, k) => (is(word) ? [word.includes('=') ? word.slice(word.indexOf('=') + 1) : words[k + 1] ?? ''] : []));
+  }
 
   // The 3-D view.
 
   /// Draws a state; in a room that is not shown, once it is.
   draw(state) {
+    this.$('seen').style.visibility = '';
     this.waiting = $(`room-${this.name}`).hidden ? state : null;
     if (this.waiting) return;
     const data = viewData(state, this.fixed);
@@ -165,13 +173,26 @@ class Room {
     const { turn } = this;
     this.result = null;
     this.$('result').hidden = true;
+    this.$('seen').style.visibility = 'hidden'; // until it is this run's
     this.$('moment').disabled = true;
     this.setReady();
     this.say('computing');
-    const begun = performance.now();
-    const refusal = this.tooLarge() ?? await this.told(this.compute());
-    if (turn === this.turn) this.ended(refusal, (performance.now() - begun) / 1000);
+    this.begun = performance.now();
+    const refusal = await this.told(this.begin());
+    if (turn === this.turn) this.ended(refusal, this.seconds());
   }
+
+  async begin() {
+    this.words = this.wordsNow();
+    this.inputs = this.filesOf(this.words);
+    const n = this.estimate();
+    return this.tooLarge(typeof n === 'number' ? n : await n) ?? this.compute();
+  }
+
+  seconds() { return (performance.now() - this.begun) / 1000; }
+
+  /// Whether half a minute's work or more would be lost with the page.
+  holds() { return this.running ? this.seconds() > LONG : Boolean(this.result) && this.spent > LONG; }
 
   /// What a run comes to; of one whose answer this page cannot show (to `--help`, say) the command for a terminal.
   async told(run) {
@@ -184,16 +205,16 @@ class Room {
 
   ended(refusal, seconds) {
     this.running = false;
+    this.spent = seconds;
     this.setReady();
-    this.say(refusal ? '' : `done after ${seconds.toFixed(2)} s`);
+    this.say(refusal ? '' : `done after ${seconds.toFixed(2)} s${warned(this.result)}`);
     if (refusal) this.refuse(refusal);
   }
 
   /// Why a page does not begin with the scene, or null.
-  tooLarge() {
-    const n = this.estimate();
+  tooLarge(n) {
     if (!(n > this.most)) return null;
-    return `about ${Number(n.toPrecision(2)).toLocaleString('en')} grains are more than the ${this.most.toLocaleString('en')} of this page (one thread, 2 GB); in a terminal: ${commandOf(this.wordsNow())}`;
+    return `about ${Number(n.toPrecision(2)).toLocaleString('en')} grains are more than the ${this.most.toLocaleString('en')} of this page (one thread, 2 GB); in a terminal: ${commandOf(this.words)}`;
   }
 
   /// The command's own line; of a scene that a page cannot hold, also how large it is and where it runs.
@@ -216,24 +237,28 @@ class Room {
     this.$('command').textContent = commandOf(this.words);
     this.$('hashname').textContent = hashName;
     this.$('hash').textContent = hash;
+    this.$('said').textContent = this.result.said;
     this.$('result').hidden = false;
   }
 
-  /// The run's folder and the inputs as they were when it began.
-  outFiles() { return { ...this.inputs, ...this.result.files }; }
+  /// The run's folder, the inputs as they were when it began, and the command.
+  outFiles() { return withCommand({ ...this.inputs, ...this.result.files }, this.words, `${this.$('hashname').textContent}: ${this.$('hash').textContent}`); }
 
   share() {
     const { values, files } = this.snapshot();
     const kept = { values, files: Object.fromEntries([...files].map(([name, bytes]) => [name, base64Of(bytes)])) };
     const word = packed(kept);
     if (word.length > MOST_SHARED) { this.say('these files are too large for an address; take the zip'); return; }
-    history.replaceState(null, '', `#${this.name}=${word}`);
-    copy(location.href, 'copied', (text) => this.say(text));
+    shareWord(this, word);
   }
 
   open(kept) {
+    this.note();
     const files = new Map(Object.entries(kept.files ?? {}).map(([name, text]) => [plainName(name, 'file'), bytesOf(text)]));
+    const before = this.last;
     this.restore({ values: kept.values ?? {}, files });
+    this.last = before;
+    this.note();
   }
 
   listen() {
@@ -248,8 +273,8 @@ class Room {
     for (const input of form.querySelectorAll('input[type=file]')) input.addEventListener('change', () => { this.take([...input.files]); input.value = ''; });
     this.$('cancel').addEventListener('click', () => this.cancel());
     this.$('undo').addEventListener('click', () => this.undo());
-    this.$('copy').addEventListener('click', () => copy(commandOf(this.words), 'copied', (text) => this.say(text)));
-    this.$('zip').addEventListener('click', () => save(zipOf(this.outFiles()), `${this.name}.zip`));
+    this.$('copy').addEventListener('click', () => copy(plainCommandOf(this.words), 'copied', (text) => this.say(text)));
+    this.$('zip').addEventListener('click', () => { this.spent = 0; save(zipOf(this.outFiles()), `${this.name}.zip`); });
     this.$('share').addEventListener('click', () => this.share());
     this.listFiles();
     this.turnSliders();

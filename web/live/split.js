@@ -22,16 +22,16 @@ function setReady() {
 // Points.
 
 /// Of a table, for the picture: its columns x, y, z or else the first ones, their names for --columns where clast does not look for them
-/// by itself, and the unit in them. clast reads the text itself.
+/// by itself (X, x_um; one that ends in a word that is no unit is left to the reader), and the unit in them. clast reads the table itself.
 function glance(text) {
-  const lines = text.split(/\r?\n/).filter((line) => line.trim() && !/^\s*#/.test(line));
+  const lines = text.replace(/^\ufeff/, '').split(/\r?\n/).filter((line) => line.trim() && !/^\s*#/.test(line));
   const by = [';', '\t', ','].find((c) => lines[0]?.includes(c)) ?? /\s+/;
   const cut = (line) => line.trim().split(by);
   let names = cut(lines[0] ?? '').map((name) => name.trim().replace(/^"(.*)"$/, '$1'));
   const isBare = names.every((name) => name !== '' && Number.isFinite(Number(name)));
   if (isBare) names = names.map((_, k) => `column_${k + 1}`);
   else lines.shift();
-  const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split(/[_ (]/)[0] === axis)).filter((k) => k >= 0);
+  const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split(/[_ ([]/)[0] === axis)).filter((k) => k >= 0);
   const isKnown = wanted.length > 1 || (isBare && names.length < 4);
   let from = wanted.length > 1 ? wanted : names.slice(0, 3).map((_, k) => k);
   let columns = from.map(() => new Float64Array(lines.length));
@@ -43,13 +43,13 @@ function glance(text) {
   const isWide = (k) => columns[k].some((v) => v !== columns[k][0]);
   if (isKnown && columns.length === 3 && isWide(0) && isWide(1) && !isWide(2)) [from, columns] = [from.slice(0, 2), columns.slice(0, 2)]; // flat
   const chosen = from.map((k) => names[k]);
-  const units = chosen.map((name) => /[_ (](\w+)\)?$/.exec(name)?.[1]);
+  const units = chosen.map((name) => /[_ ([]+(.*?)[)\]]?$/.exec(name)?.[1]);
   const unit = isKnown && FROM_UNIT.has(units[0]) && units.every((u) => u === units[0]) ? units[0] : '';
-  const isFound = !isKnown || chosen.join() === ['x', 'y', 'z'].filter((axis, k) => k < chosen.length || names.includes(axis)).join();
+  const isFound = !isKnown || (!isBare && units.some((u) => u && !FROM_UNIT.has(u))) || chosen.join() === ['x', 'y', 'z'].filter((axis, k) => k < chosen.length || names.includes(axis)).join();
   return { columns, names: isFound ? '' : chosen.join(), unit };
 }
 
-/// A box around the points, its corners rounded outwards to two digits of its size.
+/// A box around the points, its corners rounded outwards to two digits of its size: what the picture shows until the domain is given, which no points tell.
 function boxAround(columns) {
   const low = [];
   const high = [];
@@ -81,9 +81,9 @@ function setPoints(name, text, domain) {
   const n = d > 0 ? state.columns[0].length : 0;
   const { low, high } = boxAround(state.columns);
   const isBox = n > 0 && low.every((v, k) => v < high[k]);
-  const box = domain ?? (isBox ? `box:${[...low, ...high].map((v) => v + state.unit)}` : '');
-  if (box) $('domain').value = box;
-  $('given').textContent = text === null ? 'no points yet' : n > 0 ? `${name}: ${n} point${n === 1 ? '' : 's'} in ${d} dimensions${box ? '' : ', its domain is to be given'}` : `${name}: not drawn here; clast reads it, its domain is to be given`;
+  if (text !== null) $('domain').value = domain ?? '';
+  $('domain').placeholder = isBox ? `points: box:${[...low, ...high].map((v) => v + state.unit)}` : '';
+  $('given').textContent = text === null ? 'no points yet' : `${name}: ${n > 0 ? `${n} point${n === 1 ? '' : 's'} in ${d} dimensions` : 'not drawn here; clast reads it'}${domain ? '' : ', its domain is to be given'}`;
   const pairs = d > 2 ? [[0, 1], [0, 2], [1, 2]] : [[0, 1]];
   $('axes').replaceChildren(...pairs.map(([a, b]) => new Option(`${'xyz'[a]}, ${'xyz'[b]}`, `${a},${b}`)));
   setReady();
@@ -119,8 +119,11 @@ function paintedText() {
   return `x,y\n${state.strokes.flat().join('\n')}\n`;
 }
 
+/// Sets the painted points, in the domain that they have.
+function setPainted() { setPoints(PAINTED, paintedText(), state.name === PAINTED ? $('domain').value : FLAT); }
+
 function usePainted() {
-  if (state.strokes.length > 0) setPoints(PAINTED, paintedText(), FLAT);
+  if (state.strokes.length > 0) setPainted();
   else noPoints();
   note();
 }
@@ -155,7 +158,7 @@ function undo() {
   if (!before) return;
   state.strokes = [...before.strokes];
   if (before.text === null) noPoints();
-  else if (before.text !== state.text || before.name !== state.name) setPoints(before.name, before.text);
+  else if (before.text !== state.text || before.name !== state.name) setPoints(before.name, before.text, before.fields[0]);
   FIELDS.forEach((key, k) => { $(key).value = before.fields[k]; });
   state.last = before;
   setUndo($('undo'), state.past.length > 0, $('run'));
@@ -283,7 +286,7 @@ function draw() {
   c.strokeStyle = style.getPropertyValue('--soft');
   c.lineWidth = 1.5;
   c.strokeRect(s.x(x0), s.y(y1), s.x(x1) - s.x(x0), s.y(y0) - s.y(y1));
-  const keys = state.painting ? ': arrow keys move the brush, Space paints' : state.result ? ': arrow keys go through the cells' : '';
+  const keys = state.painting ? ': arrow keys move the brush, Space paints' : state.result?.cells.count ? ': arrow keys go through the cells' : '';
   let told = 'no points yet';
   if (state.columns.length > 0) {
     const n = state.columns[0].length;
@@ -295,7 +298,7 @@ function draw() {
       for (let i = 0; i < n; i += 1) c.fillRect(x[i] - 1.6, y[i] - 1.6, 3.2, 3.2);
       c.globalAlpha = 1;
     }
-    told = `${n} points${state.result ? ` in ${state.result.json.n_cell} cells` : ''}`;
+    told = `${n} points${state.result?.json.n_cell ? ` in ${state.result.json.n_cell} cells` : ''}`;
   }
   canvas.setAttribute('aria-label', told + keys);
   under.clearRect(0, 0, SIZE, SIZE);
@@ -351,17 +354,19 @@ function pickAt(event) {
 }
 
 function spray(event) {
-  if ($('domain').value !== FLAT) setPoints(PAINTED, paintedText(), FLAT);
-  const [x, y] = pointAt(event).map((v) => v / (bare() ?? 1));
+  if (state.name !== PAINTED) setPainted();
+  const unit = bare() ?? 1;
+  const [x, y] = pointAt(event).map((v) => v / unit);
   const box = $('picture').getBoundingClientRect();
   state.brush = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
   const stroke = state.strokes[state.strokes.length - 1];
+  const ends = domainBox();
   for (let k = 0; k < 6; k += 1) {
     const p = [x + 0.03 * normal(Math.random), y + 0.03 * normal(Math.random)];
-    if (p.every((c) => c > 0 && c < 1)) stroke.push(p.map((c) => c.toFixed(4)).join(','));
+    if (p.every((c, k_) => c > ends[k_][0] / unit && c < ends[k_][1] / unit)) stroke.push(p.map((c) => c.toFixed(4)).join(','));
   }
   $('undo').disabled = false;
-  setPoints(PAINTED, paintedText(), FLAT);
+  setPainted();
 }
 
 /// Arrow keys move the brush, Space paints where it is.
@@ -380,13 +385,13 @@ function paintByKey(key, step) {
 // Running.
 
 function wordsNow() {
-  const words = ['decompose', state.name, `--domain=${$('domain').value.trim()}`];
+  const words = ['decompose', state.name];
   if (state.names && !$('more').value.includes('--columns')) words.push(`--columns=${state.names}`);
-  for (const key of ['variant', 'mesh', 'beta_dt']) {
+  for (const key of ['domain', 'variant', 'mesh', 'beta_dt']) {
     const value = $(key).value.trim();
     if (value) words.push(`--${key.replace('_', '-')}=${value}`);
   }
-  return [...words, ...$('more').value.trim().split(/\s+/).filter(Boolean), '-o', 'cells', '--json'];
+  return [...words, ...shellWords($('more').value), '-o', 'cells'];
 }
 
 const splitter = new Engine(() => { say('ready'); setReady(); }, (text) => { say(''); setReady(); fail(text); });
@@ -438,9 +443,9 @@ async function finish(ended, turn) {
     fail(refusal);
     return;
   }
-  say(`done in ${seconds.toFixed(2)} s`);
-  const text = (name) => new TextDecoder().decode(result.files[name]);
-  state.result = { json: JSON.parse(result.stdout), hash, files: result.files, cells: columnsOf(text('cells/cells.csv')) };
+  const found = foundOf(result, 'cells');
+  say(`done in ${seconds.toFixed(2)} s${warned(found)}`);
+  state.result = { ...found, hash, cells: found.json.n_cell === null ? {} : columnsOf(textOf(result.files['cells/cells.csv'])) };
   state.picked = -1;
   setPainting(state.painting);
   $('colour').querySelector('[value=label]').disabled = !state.result.cells.label;
@@ -454,15 +459,16 @@ function show() {
   const key = r.events === null ? 'pair_integral' : 'events';
   const unit = r.events === null ? ` ${r.pair_integral_unit}` : '';
   $('figures').replaceChildren(
-    figure(short(r.n), `points in ${r.dimension} dimensions`), figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'),
-    figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
-    figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
-      r.resolved ? '95 % interval' : r.keeps_apart ? 'the points keep apart: lower bound of large cells alone, 97.5 %' : 'the points do not show all of their structure: lower bound alone, 97.5 %'));
+    figure(short(r.n), `points in ${r.dimension} dimensions`), figure(r.reject === null ? 'not tested' : r.evenness, 'tests of uniformity'),
+    ...(r.n_cell === null ? [] : [figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'), figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
+      figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
+      r.resolved ? '95 % interval' : r.keeps_apart ? 'the points keep apart: lower bound of large cells alone, 97.5 %' : 'the points do not show all of their structure: lower bound alone, 97.5 %')]));
   fillTable($('tests'), ['test', 'statistic', 'p', ''], (r.tests ?? []).map((t) => [t.name, short(t.statistic), t.p === 0 ? '< 1e-300' : short(t.p), t.reject ? 'rejects' : '']));
   $('stop').textContent = r.stop ?? '';
   $('passes_card').hidden = !(r.passes?.length > 0);
   fillTable($('passes'), ['bins', 'threshold', 'score', 'expected'], (r.passes ?? []).map((p) => [p.bins.join(' x '), short(p.lambda), short(p.score), short(p.ideal_score)]));
   $('command').textContent = commandOf(state.words);
+  $('said').textContent = state.result.said;
   $('hash').textContent = state.result.hash;
   $('result').hidden = false;
 }
@@ -475,11 +481,17 @@ function shared() {
 
 function openSplit(kept) {
   const text = String(kept.text);
+  note();
   setPoints(plainName(String(kept.name), 'points'), text, String(kept.domain));
   for (const key of FIELDS) $(key).value = String(kept[key] ?? '');
   state.strokes = state.name === PAINTED ? [text.trim().split('\n').slice(1)] : [];
-  state.last = snapshot();
+  note();
   draw();
+}
+
+/// A table as text, where that is its bytes in UTF-8: others go to clast as they are, undrawn.
+function textIfUtf8(bytes) {
+  try { return new TextDecoder('utf-8', { fatal: true, ignoreBOM: true }).decode(bytes); } catch { return bytes; }
 }
 
 async function take(file) {
@@ -491,7 +503,7 @@ async function take(file) {
   try {
     const bytes = await bytesOfFile(file, 'decompose');
     if (arrival !== state.arrival) return; // other points came while it was read
-    setPoints(plainName(file.name, 'points'), isText ? new TextDecoder().decode(bytes) : bytes);
+    setPoints(plainName(file.name, 'points'), isText ? textIfUtf8(bytes) : bytes);
     note();
   } catch (fault) {
     fail(fault.message);
@@ -525,7 +537,7 @@ function listenSplit() {
   picture.addEventListener('keydown', (event) => {
     const step = { ArrowRight: [1, 0], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowUp: [0, -1] }[event.key];
     const isPaint = state.painting && (step || event.key === ' ');
-    if (!isPaint && !(step && state.result)) return;
+    if (!isPaint && !(step && state.result?.cells.count)) return;
     event.preventDefault();
     if (isPaint) paintByKey(event.key, step);
     else pick(state.picked + step[0] + step[1]);
@@ -534,13 +546,12 @@ function listenSplit() {
   for (const key of FIELDS) $(key).addEventListener('change', note);
   state.last = snapshot();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-  $('copy').addEventListener('click', () => copy(commandOf(state.words), 'copied', say));
-  $('zip').addEventListener('click', () => save(zipOf({ [state.name]: state.text, ...state.result.files }), 'cells.zip'));
+  $('copy').addEventListener('click', () => copy(plainCommandOf(state.words), 'copied', say));
+  $('zip').addEventListener('click', () => save(zipOf(splitRoom.outFiles()), 'cells.zip'));
   $('share').addEventListener('click', () => {
     const word = typeof state.text === 'string' && state.text.length < MOST_SHARED ? shared() : '';
     if (!word || word.length > MOST_SHARED) { say('these points do not fit into an address; take the zip'); return; }
-    history.replaceState(null, '', `#split=${word}`);
-    copy(location.href, 'copied', say);
+    shareWord(splitRoom, word);
   });
 }
 
@@ -556,4 +567,5 @@ const splitRoom = {
     if (files[1]) fail(`one table at a time: ${files[1].name} is left out`);
   },
   shown: draw,
+  outFiles: () => withCommand({ [state.name]: state.text, ...state.result.files }, state.words, `SHA-256 of cells/cells.csv: ${state.result.hash}`),
 };

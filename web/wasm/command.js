@@ -147,6 +147,7 @@ class Clast {
     const out = new Bytes();
     const err = new Bytes();
     const module = await createClast({
+      thisProgram: 'clast',
       instantiateWasm: (imports, done) => {
         WebAssembly.instantiate(this.program, imports).then((instance) => done(instance));
         return {};
@@ -172,12 +173,13 @@ class Clast {
     return { status, stdout: out.text(), stderr: err.text(), files: Object.fromEntries(found) };
   }
 
-  /// The same for a command with --json: its object, also of a check that answered no (1); a ClastError for any other exit code but 0.
+  /// The same for a command with --json: its object, also of a check that answered no (1), with `messages`, the lines that the command warns by; a ClastError
+  /// for any other exit code but 0.
   async json(words, how) {
     const whole = [...words, '--json'];
     const result = await this.run(whole, how);
     if (result.status > 1) throw new ClastError(whole, result);
-    return { ...JSON.parse(result.stdout), files: result.files, command: commandLine(whole) };
+    return { ...JSON.parse(result.stdout), files: result.files, command: commandLine(whole), messages: result.stderr.split('\n').filter(Boolean) };
   }
 
   /// Grows virtual aggregates (clast aggregate).
