@@ -1,6 +1,6 @@
 #pragma once
 // clast agglomerate --box-model: a size spectrum without positions.
-#include "command.h"
+#include "configs.h"
 
 /// The part of a configuration that cli_box_fields fills.
 typedef struct cli_box {
@@ -9,9 +9,8 @@ typedef struct cli_box {
     bool box_model;
 } cli_box;
 
-/// Appends the options of a cli_box that lies `offset` bytes into a configuration struct to a field
-/// table of n rows; returns the new number of rows.
-int cli_box_fields(clast_field *fields, int n, size_t offset);
+/// Appends the options of a cli_box that lies `offset` bytes into a configuration struct.
+void cli_box_fields(cli_joined *joined, size_t offset);
 
 /// Whether the options go with one another and with the number of arguments: those of a box with
 /// --box-model alone, those of clouds without, those of a kernel with that kernel. `fields` is the

@@ -8,34 +8,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-int cli_box_fields(clast_field *fields, int n, size_t offset)
+void cli_box_fields(cli_joined *joined, size_t offset)
 {
-    fields[n++] =
-        (clast_field){"box_model",
-                      offset + offsetof(cli_box, box_model),
-                      CLAST_FIELD_BOOL,
-                      0,
-                      0,
-                      1,
-                      "-",
-                      "a well-mixed box without POINTS: --concentration and a law of sizes",
-                      NULL,
-                      "box without positions",
-                      false};
+    cli_joined_append(
+        joined,
+        (clast_field){"box_model", offsetof(cli_box, box_model), CLAST_FIELD_BOOL, 0, 0, 1, "-",
+                      "a well-mixed box without POINTS: --concentration and a law of sizes", NULL,
+                      "box without positions", false},
+        offset);
     for (const clast_field *f = clast_spectrum_fields; f->name != NULL; ++f) {
-        fields[n] = *f;
-        fields[n].group = NULL;
-        fields[n++].offset += offset + offsetof(cli_box, spectrum);
+        clast_field field = *f;
+        field.group = NULL;
+        cli_joined_append(joined, field, offset + offsetof(cli_box, spectrum));
     }
-    fields[n++] = (clast_field){.name = "initial_file",
-                                .offset = offset + offsetof(cli_box, initial_file),
-                                .type = CLAST_FIELD_TEXT,
-                                .unit = "-",
-                                .text = "",
-                                .help = "table of --initial table: columns size (monomers) and "
+    cli_joined_append(joined,
+                      (clast_field){.name = "initial_file",
+                                    .offset = offsetof(cli_box, initial_file),
+                                    .type = CLAST_FIELD_TEXT,
+                                    .unit = "-",
+                                    .text = "",
+                                    .help =
+                                        "table of --initial table: columns size (monomers) and "
                                         "number (1/m^3; shares, where --concentration is given), "
-                                        "or a box's spectrum.csv, whose last time is taken"};
-    return n;
+                                        "or a box's spectrum.csv, whose last time is taken"},
+                      offset);
 }
 
 /// 1: of a box alone, -1: of clouds alone, 0: of both.

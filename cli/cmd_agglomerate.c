@@ -44,7 +44,7 @@ static const clast_field own[] = {
     {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "format of charts", "svg|png|pdf", .group = "output"},
     CLI_FORCE(config),
-};
+    {0}};
 #undef COLUMN
 
 enum { MAX_FIELD = 160, MAX_DETAIL = 9000 };
@@ -101,18 +101,14 @@ static void join_details(void)
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = cli_point_fields(fields, 0, offsetof(config, points));
-    for (size_t k = 0; k < sizeof own / sizeof own[0]; ++k) {
-        fields[n++] = own[k];
-    }
-    for (const clast_field *f = clast_agglomerate_fields; f->name != NULL && n + 1 < MAX_FIELD;
-         ++f) {
-        fields[n++] = *f;
-    }
-    n = cli_box_fields(fields, n, offsetof(config, box));
-    for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
+    cli_joined joined = {fields, MAX_FIELD, 0};
+    cli_point_fields(&joined, offsetof(config, points));
+    cli_joined_append_all(&joined, own, 0);
+    cli_joined_append_all(&joined, clast_agglomerate_fields, 0);
+    cli_box_fields(&joined, offsetof(config, box));
+    for (const clast_field *f = clast_decompose_fields; f->name != NULL; ++f) {
         if (!is_left_out(f->name)) {
-            fields[n++] = *f;
+            cli_joined_append(&joined, *f, 0);
         }
     }
     join_details();
@@ -140,52 +136,6 @@ static void free_loaded(loaded *l)
     clast_table_free(&l->first);
 }
 
-/// What stands after the last "_" or in brackets of a column's name: "T_C", "T (degC)".
-static void suffix_of(const char *name, char suffix[32])
-{
-    const char *open = strpbrk(name, "([");
-    const char *bar = strrchr(name, '_');
-    const char *at = open != NULL ? open + 1 : bar != NULL ? bar + 1 : "";
-    (void)snprintf(suffix, 32, "%.*s", (int)strcspn(at, ")]"), at);
-}
-
-static bool is_one_of(const char *word, const char *const list[])
-{
-    for (; *list != NULL && strcmp(word, *list) != 0; ++list) {
-    }
-    return *list != NULL;
-}
-
-/// Kelvin from what the column's name says; a name without a unit is in kelvin.
-static clast_status to_kelvin(const char *name, double *temperature, int64_t n)
-{
-    static const char *const celsius[] = {"C", "degC", "celsius", "Celsius", "\u00b0C", NULL};
-    static const char *const unknown[] = {"F", "degF", "Fahrenheit", "\u00b0F", "R", "mK", NULL};
-    char suffix[32];
-    suffix_of(name, suffix);
-    if (is_one_of(suffix, unknown)) {
-        return cli_fail(CLAST_E_CONFIG,
-                        "--temperature-column '%s' is in %s by its name; K and C (degC) are read",
-                        name, suffix);
-    }
-    for (int64_t i = 0; i < n && is_one_of(suffix, celsius); ++i) {
-        temperature[i] += 273.15;
-    }
-    return CLAST_OK;
-}
-
-/// A column's numbers in SI by the unit in its name.
-static clast_status to_si(const clast_table *table, const char *name, const char *si_unit,
-                          double *value)
-{
-    double factor = 1.0;
-    CLI_GUARD(clast_cloud_column_factor(table, name, si_unit, &factor));
-    for (int64_t i = 0; i < table->n_row && factor != 1.0; ++i) {
-        value[i] *= factor;
-    }
-    return CLAST_OK;
-}
-
 /// What the fluid is at the particles of snapshot k.
 static clast_status take_flow(const cli_common *common, const config *c, const clast_table *table,
                               int32_t k, loaded *l)
@@ -208,11 +158,7 @@ static clast_status take_flow(const cli_common *common, const config *c, const c
                             common->n_argument);
         }
         memcpy(l->flow[i] + k * n, column, (size_t)n * sizeof *column);
-        if (name[i] == c->temperature_column) {
-            CLI_GUARD(to_kelvin(name[i], l->flow[i] + k * n, n));
-        } else {
-            CLI_GUARD(to_si(table, name[i], si_unit[i], l->flow[i] + k * n));
-        }
+        CLI_GUARD(clast_cloud_column_si(table, name[i], si_unit[i], l->flow[i] + k * n));
     }
     return CLAST_OK;
 }
@@ -231,6 +177,24 @@ done:
     return status;
 }
 
+/// Says that weights and monomers of the first snapshot, which no option names, are not read.
+static void warn_of_columns(const cli_common *common, const config *c, const clast_table *first)
+{
+    static const char monomers[] = "monomers";
+    const double *const n = clast_table_numbers(first, monomers);
+    int64_t i = 0;
+    cli_warn_of_weight(common, first, &c->points.columns);
+    while (n != NULL && i < first->n_row && n[i] == 1.0) {
+        ++i;
+    }
+    if (n != NULL && i < first->n_row && c->monomers_column[0] == '\0') {
+        (void)fprintf(stderr,
+                      "clast %s: warning: %s: column '%s' is not looked at: each particle is one "
+                      "monomer (--monomers-column %s)\n",
+                      common->command, cli_name(first->name), monomers, monomers);
+    }
+}
+
 static clast_status load(const cli_common *common, const config *c, loaded *l)
 {
     l->cloud = calloc((size_t)common->n_argument, sizeof *l->cloud);
@@ -241,6 +205,7 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
     for (int32_t k = 0; k < common->n_argument; ++k) {
         CLI_GUARD(load_snapshot(common, c, k, l));
     }
+    warn_of_columns(common, c, &l->first);
     const struct {
         const char *name;
         const double **column;
@@ -253,7 +218,8 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
         *wanted[k].column = column;
         if (wanted[k].column == &l->input.fixed_volume && column != NULL) {
             const char *const volume[3] = {"m", "m^2", "m^3"};
-            CLI_GUARD(to_si(&l->first, wanted[k].name, volume[l->cloud[0].dimension - 1], column));
+            CLI_GUARD(clast_cloud_column_si(&l->first, wanted[k].name,
+                                            volume[l->cloud[0].dimension - 1], column));
         }
     }
     l->input.speed_rms = l->flow[0];
@@ -469,7 +435,7 @@ static clast_status run(const cli_common *common, void *values)
     cli_range_warn(common, &result.range);
     cli_dense_warn(common, result.volume_fraction);
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
-    (void)json_object_set_new(out, "seed", json_integer((json_int_t)c->agglomerate.decompose.seed));
+    cli_json_seed(out, "seed", c->agglomerate.decompose.seed);
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &result, out, folder));
     }

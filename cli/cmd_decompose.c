@@ -10,7 +10,6 @@
 
 #include <clast/decompose.h>
 #include <clast/table.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,12 +25,12 @@ typedef struct {
 
 static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
-enum { N_OWN = 5, MAX_FIELD = 60 };
+enum { MAX_FIELD = 60 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
-static const clast_field own[N_OWN] = {
+static const clast_field own[] = {
     {"test_only", .offset = offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
      "run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points "
      "(not tested)",
@@ -46,17 +45,15 @@ static const clast_field own[N_OWN] = {
      "with --sizes: a regular mesh of so many cells an axis "
      "beside; 0: none",
      NULL},
-    CLI_FORCE(config)};
+    CLI_FORCE(config),
+    {0}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = cli_point_fields(fields, 0, offsetof(config, points));
-    for (int k = 0; k < N_OWN; ++k) {
-        fields[n++] = own[k];
-    }
-    for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
-        fields[n++] = *f;
-    }
+    cli_joined joined = {fields, MAX_FIELD, 0};
+    cli_point_fields(&joined, offsetof(config, points));
+    cli_joined_append_all(&joined, own, 0);
+    cli_joined_append_all(&joined, clast_decompose_fields, 0);
 }
 
 static clast_status keep_results(const cli_common *common, const config *c,
@@ -90,6 +87,7 @@ static clast_status read_cloud(const cli_common *common, const config *c, clast_
     }
     CLI_TRY(cli_points_read(path, &c->points, &table));
     CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
+    cli_warn_of_weight(common, &table, &c->points.columns);
 done:
     clast_table_free(&table);
     return status;
@@ -222,19 +220,6 @@ done:
     return status;
 }
 
-/// The tests alone: their one cell says nothing of events, least of all in a cloud just rejected.
-static void forget_events(clast_decomposition *r)
-{
-    for (int32_t c = 0; c < r->cells.n; ++c) {
-        r->cells.events[c] = (double)NAN;
-    }
-    r->events = r->events_low = r->events_high = (double)NAN;
-    r->points_needed = r->cells_bias = r->bias_estimate = r->smoothing_bias = (double)NAN;
-    r->events_cross = (double)NAN;
-    r->n_capped = 0;
-    r->resolved = r->keeps_apart = false;
-}
-
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
@@ -268,9 +253,6 @@ static clast_status run(const cli_common *common, void *values)
                            .pairs_radius = c->decompose.pairs_radius,
                            .has_drawn = result.has_drawn || c->n_size > 0,
                            .tests_alone = c->decompose.variant == CLAST_VARIANT_TEST};
-    if (j.tests_alone) {
-        forget_events(&result);
-    }
     CLI_TRY(report(common, c, &j, &f, folder));
 done:
     clast_run_folder_destroy(folder);

@@ -141,7 +141,7 @@ static clast_status run(const cli_common *common, void *context)
         (void)snprintf(name, sizeof name, "%s", config->name);
     }
     clast_status status = CLAST_OK;
-    CLI_TRY(cli_mesh_welded(common, &mesh));
+    CLI_TRY(cli_mesh_welded(common, &mesh, NULL));
     status = clast_fill(&mesh, config, &monitor, &spheres, &report);
     CLI_TRY(
         cli_mesh_refused(common->argument[0], &mesh, "cap its holes with --allow-open", status));

@@ -1,5 +1,6 @@
 // clast fit: linear porosity models of a table of beds.
 #include "command.h"
+#include "configs.h"
 #include "idle.h"
 #include "json.h"
 #include "predict_words.h"
@@ -22,12 +23,12 @@ typedef struct {
     bool force;
 } config;
 
-enum { N_OWN = 4, MAX_FIELD = 32 };
+enum { MAX_FIELD = 32 };
 enum { AUTO, FORM, MIXTURE, COLUMNS };
 
 static clast_field fields[MAX_FIELD];
 
-static const clast_field own[N_OWN] = {
+static const clast_field own[] = {
     {"features", .offset = offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: "
      "the table's own; auto: "
@@ -38,17 +39,14 @@ static const clast_field own[N_OWN] = {
      .common = true},
     {"name", .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", "name of the model",
      "fitted", .common = true},
-    CLI_FORCE(config)};
+    CLI_FORCE(config),
+    {0}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = 0;
-    for (const clast_field *f = clast_porosity_fit_fields; f->name != NULL && n < MAX_FIELD; ++f) {
-        fields[n++] = *f;
-    }
-    for (int k = 0; k < N_OWN && n + 1 < MAX_FIELD; ++k) {
-        fields[n++] = own[k];
-    }
+    cli_joined joined = {fields, MAX_FIELD, 0};
+    cli_joined_append_all(&joined, clast_porosity_fit_fields, 0);
+    cli_joined_append_all(&joined, own, 0);
 }
 
 typedef struct {

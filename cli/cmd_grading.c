@@ -35,7 +35,7 @@ static const clast_field grading_fields[] = {
      "draw mass and number passing, wanted and achieved, into this .svg, .pdf or .png", ""},
     {FIELD(compare), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "file of grain sizes to set beside the curve instead (column with its unit, diameter_m)", ""},
-    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of the draws", NULL},
+    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8446744073709552e19, "-", "seed of the draws", NULL},
     {FIELD(mass), CLAST_FIELD_F64, 0.0, 0.0, 1e12, "kg", "mass to count grains for; 0: shares only",
      NULL},
     {FIELD(density), CLAST_FIELD_F64, 2650.0, 1e-3, 1e6, "kg/m^3", "of the grains", NULL},

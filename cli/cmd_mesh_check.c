@@ -106,7 +106,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
     }
     cli_check_words(common->argument[0], result);
     if (cure[0] != '\0') {
-        (void)printf("  to close it: %s\n", cure);
+        (void)printf("  to %s: %s\n", result->closed ? "turn it outward" : "close it", cure);
     }
     return CLAST_OK;
 }
@@ -121,7 +121,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_mesh_repair_report weld = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(cli_idle_check(fields, c, clast_mesh_repair_idle(&welding, rules)));
-    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(cli_mesh_input(common, &mesh, NULL));
     CLI_TRY(check(c, &mesh, &result, &weld));
     CLI_TRY(tell(common, c, &mesh, &result, &weld));
     status = clast_mesh_check_passed(&result) ? CLAST_OK : CLAST_E_NO;

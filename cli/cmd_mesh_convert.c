@@ -15,7 +15,8 @@ typedef struct {
 
 #define FIELD(type, member) #member, .offset = offsetof(convert_config, member), type
 static const clast_field fields[] = {
-    {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-", "length unit of the input's coordinates", ""},
+    {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-",
+     "length unit of the input's coordinates; that of its header when clast wrote one", ""},
     {FIELD(CLAST_FIELD_TEXT, out_unit), 0, 0, 0, "-",
      "unit of the output's coordinates; that of the input when not given", ""},
     {FIELD(CLAST_FIELD_F64, scale), 1.0, 1e-100, 1e100, "-", "factor on all lengths", NULL},
@@ -34,12 +35,26 @@ typedef struct {
     double factor;
 } job;
 
+/// Refuses --unit where the file says another.
+static clast_status check_unit(const job *j, const char *own, const char *unit)
+{
+    double said = 0.0;
+    double given = 0.0;
+    CLI_GUARD(clast_unit_factor(unit, "m", &given));
+    if (own == NULL || (clast_unit_factor(own, "m", &said) == CLAST_OK && said == given)) {
+        return CLAST_OK;
+    }
+    return cli_fail(CLAST_E_CONFIG, "%s says that it is in %s, not in %s: leave out --unit",
+                    j->input, own, unit);
+}
+
 /// Output coordinates per input coordinate.
 static clast_status find_factor(const convert_config *config, job *j)
 {
     double in = 1.0;
     double out = 1.0;
-    const char *unit = config->unit[0] != '\0' ? config->unit : NULL;
+    const char *own = j->report.unit[0] != '\0' ? j->report.unit : NULL;
+    const char *unit = config->unit[0] != '\0' ? config->unit : own;
     j->out_unit = config->out_unit[0] != '\0' ? config->out_unit : unit;
     j->factor = config->scale;
     if (unit == NULL && j->out_unit != NULL) {
@@ -58,6 +73,7 @@ static clast_status find_factor(const convert_config *config, job *j)
         j->out_unit = "mm";
     }
     if (unit != NULL) {
+        CLI_GUARD(check_unit(j, own, unit));
         CLI_GUARD(clast_unit_factor(unit, "m", &in));
         CLI_GUARD(clast_unit_factor(j->out_unit, "m", &out));
         j->factor *= strcmp(unit, j->out_unit) == 0 ? 1.0 : in / out;
@@ -205,8 +221,8 @@ static clast_status run(const cli_common *common, void *context)
     job j = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(check_job(common, config, &j));
-    CLI_TRY(find_factor(config, &j));
     CLI_TRY(clast_mesh_read(j.input, &j.mesh, &j.report));
+    CLI_TRY(find_factor(config, &j));
     CLI_TRY(check_surface(&j));
     if (j.factor != 1.0) {
         clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);

@@ -144,6 +144,13 @@ static clast_status check_surface(const cli_common *common, const clast_mesh *me
     CLI_GUARD(clast_mesh_require_solid(mesh, common->argument[0], "take its hull with --hull N"));
     CLI_GUARD(clast_mesh_check(mesh, &found));
     cli_note_doubles(common, &found, ", so L, I and S are off");
+    if (found.n_body > 1 && !cli_counts_twice(&found) && !common->quiet) {
+        (void)fprintf(
+            stderr,
+            "clast mesh form: note: %s: %d bodies that do not hang together, taken as one "
+            "grain; clast mesh repair --keep largest keeps one\n",
+            cli_name(common->argument[0]), found.n_body);
+    }
     clast_mesh_check_free(&found);
     return CLAST_OK;
 }
@@ -154,16 +161,18 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_mesh mesh = {0};
     clast_mesh out = {0};
     form_report report = {0};
+    clast_mesh_read_report read = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(check_config(config));
-    CLI_TRY(cli_mesh_welded(common, &mesh));
+    CLI_TRY(cli_mesh_welded(common, &mesh, &read));
     if (config->hull == 0) {
         CLI_TRY(check_surface(common, &mesh));
     }
     CLI_TRY(reform(config, &mesh, &out, &report));
     CLI_TRY(measure_written(&out, &report));
-    CLI_TRY(clast_mesh_write(&out, common->output, NULL));
+    CLI_TRY(config->unit_form ? clast_mesh_write(&out, common->output, NULL) // no size, no unit
+                              : cli_mesh_save(common, &out, &read));
     if (common->json) {
         CLI_TRY(cli_print_json(report_json(common, &report)));
     } else {

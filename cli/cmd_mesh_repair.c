@@ -86,6 +86,28 @@ static void warn_format(const cli_common *common, const clast_mesh_repair_report
     }
 }
 
+/// Checks the surface as the file holds it: STL keeps 24 bits of a coordinate.
+static clast_status check_written(const cli_common *common, const clast_mesh *repaired,
+                                  clast_mesh_check_result *check)
+{
+    clast_mesh rounded = {0};
+    clast_mesh read = {0};
+    clast_status status = CLAST_OK;
+    if (clast_mesh_format_of_path(common->output) != CLAST_MESH_STL) {
+        return clast_mesh_check(repaired, check);
+    }
+    CLI_TRY(clast_mesh_copy(repaired, &rounded));
+    for (int32_t i = 0; i < 3 * rounded.n_vert; ++i) {
+        rounded.vert[i / 3][i % 3] = (double)(float)rounded.vert[i / 3][i % 3];
+    }
+    CLI_TRY(clast_mesh_weld(&rounded, 0.0, &read, NULL));
+    CLI_TRY(clast_mesh_check(&read, check));
+done:
+    clast_mesh_free(&rounded);
+    clast_mesh_free(&read);
+    return status;
+}
+
 static clast_status tell(const cli_common *common, const clast_mesh_repair_config *config,
                          const clast_mesh_repair_report *report,
                          const clast_mesh_check_result *check)
@@ -111,14 +133,15 @@ static clast_status run(const cli_common *common, void *config)
     clast_mesh mesh = {0};
     clast_mesh repaired = {0};
     clast_mesh_repair_report report = {0};
+    clast_mesh_read_report read = {0};
     clast_mesh_check_result check = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(cli_idle_check(clast_mesh_repair_fields, c, clast_mesh_repair_idle(c, rules)));
     CLI_TRY(cli_mesh_output(common));
-    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(cli_mesh_input(common, &mesh, &read));
     CLI_TRY(clast_mesh_repair(&mesh, config, &repaired, &report));
-    CLI_TRY(clast_mesh_write(&repaired, common->output, NULL));
-    CLI_TRY(clast_mesh_check(&repaired, &check));
+    CLI_TRY(cli_mesh_save(common, &repaired, &read));
+    CLI_TRY(check_written(common, &repaired, &check));
     warn_format(common, &report);
     CLI_TRY(tell(common, c, &report, &check));
     status = clast_mesh_check_passed(&check) ? CLAST_OK : CLAST_E_NO;
@@ -141,8 +164,8 @@ const cli_command cli_mesh_repair = {
         "edges at\nT-junctions, turns windings alike and outward, fills holes, parts "
         "surfaces that touch, drops parts in a\nsolid that are wound outward as it is (they would "
         "count twice); reports each change and the change of\nvolume, then checks the result. "
-        "Vertices never move.\nExit code: 0 when the result is a solid, 1 when "
-        "not (it is written all the same), 3 when unreadable.",
+        "Vertices never move.\nExit code: 0 when the result, as its file "
+        "keeps it, is a solid, 1 when not (it is\nwritten all the same), 3 when unreadable.",
     .fields = clast_mesh_repair_fields,
     .config_size = sizeof(clast_mesh_repair_config),
     .n_min = 1,

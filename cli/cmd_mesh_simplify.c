@@ -86,18 +86,11 @@ static clast_status check_simplified(const cli_common *common, const clast_mesh 
                       cli_name(common->output), found->n_inside_out,
                       cli_plural(found->n_inside_out), (long long)found->n_intersection,
                       cli_plural(found->n_intersection));
-    } else if (found->n_intersection > 0) {
-        (void)fprintf(stderr,
-                      "clast mesh simplify: note: %s now cuts itself at %lld pair%s of triangles; "
-                      "ask for more --faces\n",
-                      cli_name(common->output), (long long)found->n_intersection,
-                      cli_plural(found->n_intersection));
-    } else if (found->n_doubled > 0) {
-        (void)fprintf(stderr,
-                      "clast mesh simplify: note: of %s %d part%s now count%s twice in its volume; "
-                      "ask for more --faces\n",
-                      cli_name(common->output), found->n_doubled, cli_plural(found->n_doubled),
-                      found->n_doubled == 1 ? "s" : "");
+    } else {
+        char words[200];
+        clast_mesh_check_doubles(found, sizeof words, words);
+        (void)fprintf(stderr, "clast mesh simplify: note: %s: now %s; ask for more --faces\n",
+                      cli_name(common->output), words);
     }
     return CLAST_OK;
 }
@@ -108,18 +101,19 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     clast_mesh mesh = {0};
     clast_mesh out = {0};
     clast_mesh_simplify_report report = {0};
+    clast_mesh_read_report read = {0};
     clast_mesh_check_result found = {0};
     bool is_lost = false;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
-    CLI_TRY(cli_mesh_welded(common, &mesh));
+    CLI_TRY(cli_mesh_welded(common, &mesh, &read));
     status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
     CLI_TRY(cli_mesh_refused(common->argument[0], &mesh, NULL, status));
     if (clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
         CLI_TRY(clast_mesh_round_float(&out));
         report.volume_after = clast_mesh_volume(&out);
     }
-    CLI_TRY(clast_mesh_write(&out, common->output, NULL));
+    CLI_TRY(cli_mesh_save(common, &out, &read));
     CLI_TRY(check_simplified(common, &mesh, &out, &found, &is_lost));
     if (common->json) {
         CLI_TRY(cli_print_json(simplify_json(common, &report, &found)));
@@ -202,15 +196,19 @@ static clast_status run_hull(const cli_common *common, void *config)
 {
     clast_mesh mesh = {0};
     clast_mesh hull = {0};
+    clast_mesh_read_report read = {0};
     double volume = 0.0;
     const char *why = "";
     (void)config;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
-    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(cli_mesh_input(common, &mesh, &read));
     CLI_TRY(clast_mesh_hull(&mesh, &hull));
+    CLI_CHECK(clast_mesh_volume(&hull) > 0.0, CLAST_E_GEOMETRY,
+              "%s: the lengths are too small for a volume of the hull; is the unit right?",
+              common->argument[0]);
     CLI_TRY(solid_volume(&mesh, &volume, &why));
-    CLI_TRY(clast_mesh_write(&hull, common->output, NULL));
+    CLI_TRY(cli_mesh_save(common, &hull, &read));
     if (common->json) {
         CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, volume)));
     } else {

@@ -1,5 +1,6 @@
 // clast mesh synthesize: grains of a wanted form, size and roughness that nobody scanned.
 #include "command.h"
+#include "configs.h"
 #include "idle.h"
 #include "json.h"
 #include "mesh_words.h"
@@ -24,28 +25,18 @@ enum { MAX_FIELD = 32, COUNT_MAX = 1000000 };
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
-static const clast_field own = {"count",
-                                .offset = offsetof(synthesize_config, count),
-                                CLAST_FIELD_I32,
-                                1,
-                                1,
-                                COUNT_MAX,
-                                "-",
-                                "grains; more than one go into the folder -o, with grains.csv",
-                                NULL,
-                                .group = "number",
-                                .common = true};
-static const clast_field own_force = CLI_FORCE(synthesize_config);
+static const clast_field own[] = {{"count", .offset = offsetof(synthesize_config, count),
+                                   CLAST_FIELD_I32, 1, 1, COUNT_MAX, "-",
+                                   "grains; more than one go into the folder -o, with grains.csv",
+                                   NULL, .group = "number", .common = true},
+                                  CLI_FORCE(synthesize_config),
+                                  {0}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = 0;
-    fields[n++] = own;
-    fields[n++] = own_force;
-    for (const clast_field *f = clast_synthesize_fields; f->name != NULL && n + 1 < MAX_FIELD;
-         ++f) {
-        fields[n++] = *f;
-    }
+    cli_joined joined = {fields, MAX_FIELD, 0};
+    cli_joined_append_all(&joined, own, 0);
+    cli_joined_append_all(&joined, clast_synthesize_fields, 0);
 }
 
 enum { N_COLUMN = 7 };

@@ -4,7 +4,7 @@
 #include "json.h"
 #include "lengths.h"
 #include "packing.h"
-#include "porosity_measure.h"
+#include "porosity_findings.h"
 #include "results.h"
 
 #include <clast/assembly.h>
@@ -29,10 +29,27 @@ typedef struct {
     bool force;
 } porosity_config;
 
-/// What was typed, in the run's unit.
+/// A run that is measured, {0}: none yet.
 typedef struct {
-    double floor, layer, trim, gap, diameter, fields;
-} lengths;
+    clast_assembly assembly;
+    clast_bed bed, own;              ///< what is measured: the run's own, or given
+    clast_mesh surface, own_surface; ///< of each, or empty
+    clast_table contacts;            ///< forces, without columns where the run does not know them
+    clast_table velocities;          ///< likewise
+    clast_packing_report report;     ///< of another program's file
+    bool has_own;                    ///< else `own` is nothing
+    clast_bed_findings found;
+} measured_run;
+
+static void free_run(measured_run *s)
+{
+    clast_bed_findings_free(&s->found);
+    clast_assembly_free(&s->assembly);
+    clast_mesh_free(&s->surface);
+    clast_mesh_free(&s->own_surface);
+    clast_table_free(&s->contacts);
+    clast_table_free(&s->velocities);
+}
 
 #define FIELD(type, member) #member, .offset = offsetof(porosity_config, member), type
 static const clast_field fields[] = {
@@ -97,7 +114,7 @@ static bool ends_with(const char *text, const char *end)
 
 /// The grains, and the run's own bed and contact forces where it has them.
 static clast_status read_input(const cli_common *common, const char *input,
-                               const porosity_config *config, cli_porosity_bed *s)
+                               const porosity_config *config, measured_run *s)
 {
     char path[CLAST_RUN_PATH];
     double diameter = 0.0;
@@ -160,17 +177,18 @@ static clast_status open_results(const cli_common *common, const porosity_config
     return cli_results_open(run, fields, config, NULL, inputs);
 }
 
-static clast_status read_lengths(const porosity_config *config, const char *unit, lengths *out)
+/// Lengths as typed, in the run's unit.
+static clast_status read_lengths(const porosity_config *config, const char *unit,
+                                 clast_bed_options *out)
 {
+    double diameter; // has been read: its unit is looked at
     const struct {
         const char *name, *text;
         double *value;
-    } wanted[] = {{"floor", config->floor, &out->floor},
-                  {"layer", config->layer, &out->layer},
-                  {"trim", config->trim, &out->trim},
-                  {"gap", config->gap, &out->gap},
-                  {"diameter", config->diameter, &out->diameter},
-                  {"fields", config->fields, &out->fields}};
+    } wanted[] = {
+        {"floor", config->floor, &out->floor},       {"layer", config->layer, &out->porosity.layer},
+        {"trim", config->trim, &out->porosity.trim}, {"gap", config->gap, &out->gap},
+        {"diameter", config->diameter, &diameter},   {"fields", config->fields, &out->fields}};
     for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; ++k) {
         CLI_GUARD(cli_read_length(wanted[k].name, wanted[k].text, unit, wanted[k].value));
     }
@@ -179,56 +197,33 @@ static clast_status read_lengths(const porosity_config *config, const char *unit
 
 /// Reads a run and measures it.
 static clast_status measure_run(const cli_common *common, const char *input,
-                                const porosity_config *config, cli_porosity_bed *s,
-                                cli_porosity_findings *found)
+                                const porosity_config *config, measured_run *s)
 {
-    lengths typed = {0};
+    clast_bed_options options = {.porosity = {.method = (clast_porosity_method)config->method,
+                                              .cut = config->cut,
+                                              .at_slice = config->at_slice},
+                                 .core = config->core,
+                                 .local = config->local,
+                                 .rings = config->rings,
+                                 .pores = config->pores,
+                                 .chains = config->chains};
     CLI_GUARD(read_input(common, input, config, s));
-    CLI_GUARD(read_lengths(config, s->assembly.unit, &typed));
-    if (typed.gap > 0.0 && s->contacts.n_column > 0) {
-        return cli_fail(CLAST_E_USAGE, "%s is a run, which knows its contacts: leave out --gap",
-                        input);
-    }
+    CLI_GUARD(read_lengths(config, s->assembly.unit, &options));
     if (config->bed[0] != '\0') {
         CLI_GUARD(cli_check_bed_lengths(config->bed, s->assembly.unit));
         CLI_GUARD(clast_bed_load(config->bed, &s->bed, &s->surface));
-        const bool has_floor =
-            s->bed.kind == CLAST_BED_MESH || s->bed.kind == CLAST_BED_PERIODIC_3D;
-        if (has_floor && typed.floor != 0.0) {
-            return cli_fail(CLAST_E_USAGE, "--bed %s has a bottom of its own: leave out --floor",
-                            config->bed);
-        }
-        s->bed.floor = has_floor ? s->bed.floor : typed.floor;
     } else if (!s->has_own) {
         return cli_fail(CLAST_E_USAGE,
                         "%s does not say what holds the grains; give --bed, such "
                         "as cylinder:52mm",
                         input);
-    } else if (typed.floor != 0.0) {
-        return cli_fail(CLAST_E_USAGE,
-                        "%s knows its bed and its floor: leave out --floor, or give --bed too",
-                        input);
     }
-    cli_porosity_wanted wanted = {.options = clast_porosity_options_default(),
-                                  .is_given = config->bed[0] != '\0',
-                                  .gap = typed.gap,
-                                  .core = config->core,
-                                  .local = config->local,
-                                  .rings = config->rings,
-                                  .pores = config->pores,
-                                  .fields = typed.fields,
-                                  .chains = config->chains};
-    clast_porosity_options *options = &wanted.options;
-    options->method = (clast_porosity_method)config->method;
-    options->cut = config->cut;
-    options->trim = typed.trim;
-    options->at_slice = config->at_slice;
-    if (typed.layer > 0.0) {
-        options->layer = typed.layer;
-    } else if (strcmp(s->assembly.unit, "m") != 0) {
-        options->layer = 0.1 * cli_porosity_mean_diameter(&s->assembly);
-    }
-    return cli_porosity_measure(s, &wanted, found);
+    const clast_bed_known known = {.bed = &s->bed,
+                                   .is_own = config->bed[0] == '\0',
+                                   .own = s->has_own ? &s->own : NULL,
+                                   .contacts = &s->contacts,
+                                   .velocities = &s->velocities};
+    return clast_bed_measure(&s->assembly, &known, &options, &s->found);
 }
 
 /// The findings of run i join those of the runs before.
@@ -236,23 +231,21 @@ static clast_status gather_one(const cli_common *common, int32_t i, const porosi
                                cli_bed_runs *runs, clast_bed *first)
 {
     const char *input = common->argument[i];
-    cli_porosity_bed s = {0};
-    cli_porosity_findings found = {0};
+    measured_run s = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(common, input, config, &s, &found));
-    *first = i == 0 ? s.bed : *first;
-    CLI_CHECK(s.bed.kind == first->kind, CLAST_E_USAGE,
+    CLI_TRY(measure_run(common, input, config, &s));
+    *first = i == 0 ? s.found.bed : *first;
+    CLI_CHECK(s.found.bed.kind == first->kind, CLAST_E_USAGE,
               "%s and %s lie in containers of two kinds: they are no realisations of one bed",
               common->argument[0], input);
-    CLI_CHECK(s.bed.is_part == first->is_part, CLAST_E_USAGE,
+    CLI_CHECK(s.found.bed.is_part == first->is_part, CLAST_E_USAGE,
               "--bed holds the grains of %s and is a part of the packing of %s: no realisations of "
               "one bed; give a greater or a smaller one",
               common->argument[first->is_part ? i : 0], common->argument[first->is_part ? 0 : i]);
-    CLI_TRY(cli_bed_runs_add(runs, input, s.assembly.unit, cli_porosity_json(&s.assembly, &found),
-                             &found.profile, &found.radial));
+    CLI_TRY(cli_bed_runs_add(runs, input, s.assembly.unit, cli_porosity_json(&s.assembly, &s.found),
+                             &s.found.profile, &s.found.radial));
 done:
-    cli_porosity_free(&found);
-    cli_porosity_bed_free(&s);
+    free_run(&s);
     return status;
 }
 
@@ -317,14 +310,13 @@ done:
 }
 
 static clast_status write_one(const cli_common *common, const porosity_config *config,
-                              const cli_porosity_bed *s, cli_porosity_findings *found,
-                              clast_run_folder *run)
+                              measured_run *s, clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
     CLI_TRY(open_results(common, config, run));
-    CLI_TRY(cli_porosity_files(run, &s->assembly, found));
-    json_t *object = cli_porosity_json(&s->assembly, found);
-    cli_packing_json(object, &found->report);
+    CLI_TRY(cli_porosity_files(run, &s->assembly, &s->found));
+    json_t *object = cli_porosity_json(&s->assembly, &s->found);
+    cli_packing_json(object, &s->report);
     CLI_TRY(write_summary(run, object));
 done:
     return clast_run_folder_end(run, status);
@@ -333,17 +325,15 @@ done:
 static clast_status run_one(const cli_common *common, const porosity_config *config,
                             clast_run_folder *run)
 {
-    cli_porosity_bed s = {0};
-    cli_porosity_findings found = {0};
+    measured_run s = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(common, common->argument[0], config, &s, &found));
+    CLI_TRY(measure_run(common, common->argument[0], config, &s));
     if (run != NULL) {
-        CLI_TRY(write_one(common, config, &s, &found, run));
+        CLI_TRY(write_one(common, config, &s, run));
     }
-    CLI_TRY(cli_porosity_print(common, &s.assembly, &s.bed, &found));
+    CLI_TRY(cli_porosity_print(common, &s.assembly, &s.found, &s.report));
 done:
-    cli_porosity_free(&found);
-    cli_porosity_bed_free(&s);
+    free_run(&s);
     return status;
 }
 

@@ -42,8 +42,8 @@ static const clast_field fields[] = {
      "every row is a bed of that single form: one prediction a row", NULL},
     {"resamples", .offset = offsetof(config, resamples), CLAST_FIELD_I32, 500, 0, 1e6, "-",
      "bootstrap resamples of the grains for the sampling error", NULL},
-    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "random numbers",
-     NULL},
+    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8446744073709552e19, "-",
+     "random numbers", NULL},
     CLI_FORCE(config),
     {0}};
 

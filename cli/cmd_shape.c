@@ -84,7 +84,7 @@ static const clast_field fields[] = {
            .common = true),
     {"resamples", .offset = offsetof(config, resamples), CLAST_FIELD_I32, 2000, 0, 1e6, "-",
      "statistics: bootstrap resamples for the intervals", NULL},
-    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-",
+    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8446744073709552e19, "-",
      "statistics: random numbers of the resamples", NULL},
     CLI_FORCE(config),
     {0}};
@@ -373,7 +373,9 @@ const cli_command cli_shape = {
                   "inverse_NAME):" CLAST_FORM_FACTOR_LIST(
                       FACTOR) "\n  Zingg class: S/I and I/L above or below 2/3: sphere, disc, rod, "
                               "blade  [Zingg1935]\n\n"
-                              "Shape of the surface:"
+                              "Shape of the surface (the outer one: closed pores are filled; "
+                              "volume, "
+                              "moments and L I S by ellipsoid\nare of the solid):"
                               "\n  sphericity = (36 pi V^2)^(1/3)/A  [Wadell1932]"
                               "\n  convexity = V/V(convex hull); hull_volume_added = V(convex "
                               "hull)/V - 1"

@@ -82,6 +82,29 @@ static clast_status check_keys(const cli_command *command, const clast_study_con
     return check_fixed_once(command, &config->set);
 }
 
+/// Refuses a configuration before the first run rather than in every run.
+static clast_status check_config(const cli_command *command, const char *path)
+{
+    clast_status status = CLAST_OK;
+    cli_configs configs = {0};
+    char *values = NULL;
+    if (path[0] == '\0' || command->fields == NULL) {
+        return CLAST_OK;
+    }
+    CLI_CHECK(cli_configs_init(command, &configs), CLAST_E_MEMORY, "out of memory");
+    values = calloc(1, configs.size);
+    CLI_CHECK(values != NULL, CLAST_E_MEMORY, "out of memory");
+    CLI_TRY(clast_fields_default(configs.fields, values));
+    CLI_TRY(clast_fields_read(path, configs.fields, values));
+done:
+    if (values != NULL) {
+        clast_fields_free(configs.fields, values);
+    }
+    free(values);
+    cli_configs_free(&configs);
+    return status;
+}
+
 static bool has_field(const cli_command *command, const char *name)
 {
     return command->fields != NULL && clast_fields_find(command->fields, name) != NULL;
@@ -105,6 +128,7 @@ static clast_status check(const clast_study_config *config, const cli_command **
                                                : "prints no numbers");
     }
     clast_status status = CLAST_OK;
+    CLI_TRY(check_config(*command, config->config));
     CLI_TRY(clast_study_plan(config, &plan));
     CLI_TRY(check_keys(*command, config, &plan));
     CLI_CHECK(!(config->seeds > 1 && !has_field(*command, "seed")), CLAST_E_CONFIG,
@@ -154,48 +178,6 @@ static clast_status print(const cli_common *common, const clast_study_config *co
     return CLAST_OK;
 }
 
-/// Marks the seed as not given: no seed is as large.
-static const uint64_t no_seed = UINT64_MAX;
-
-static void prepare(void *config)
-{
-    ((clast_study_config *)config)->seed = no_seed;
-}
-
-/// The seed that the command would take: the configuration's, or its default.
-static clast_status read_seed(const cli_command *command, const char *path, uint64_t *seed)
-{
-    clast_status status = CLAST_OK;
-    cli_configs configs = {0};
-    char *values = NULL;
-    CLI_CHECK(cli_configs_init(command, &configs), CLAST_E_MEMORY, "out of memory");
-    values = calloc(1, configs.size);
-    CLI_CHECK(values != NULL, CLAST_E_MEMORY, "out of memory");
-    CLI_TRY(clast_fields_default(configs.fields, values));
-    CLI_TRY(clast_fields_read(path, configs.fields, values));
-    memcpy(seed, values + clast_fields_find(configs.fields, "seed")->offset, sizeof *seed);
-done:
-    if (values != NULL) {
-        clast_fields_free(configs.fields, values);
-    }
-    free(values);
-    cli_configs_free(&configs);
-    return status;
-}
-
-/// The first seed, where none is given.
-static clast_status find_seed(clast_study_config *config)
-{
-    const cli_command *command = find_command(config->run);
-    if (config->seed != no_seed) {
-        return CLAST_OK;
-    }
-    config->seed = (uint64_t)clast_fields_find(clast_study_fields, "seed")->value;
-    return command == NULL || config->config[0] == '\0' || !has_field(command, "seed")
-               ? CLAST_OK
-               : read_seed(command, config->config, &config->seed);
-}
-
 /// The parser takes the last value of an option; of two tables the first would be left out.
 static clast_status check_one_table(const cli_common *common)
 {
@@ -215,7 +197,6 @@ static clast_status begin(const cli_common *common, clast_study_config *config,
     clast_status agreed = CLAST_OK;
     int64_t n_run = 0;
     CLI_TRY(check_one_table(common));
-    CLI_TRY(find_seed(config));
     CLI_TRY(check(config, command, &n_run));
     CLI_CHECK(common->output != NULL, CLAST_E_USAGE,
               "-o FOLDER is missing: a study needs a place for its runs");
@@ -292,6 +273,5 @@ const cli_command cli_study = {
     .config_size = sizeof(clast_study_config),
     .writes_folder = true,
     .shares_ranks = true,
-    .prepare = prepare,
     .run = run,
 };

@@ -2,6 +2,7 @@
 #include "configs.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,24 @@ void cli_configs_key(const cli_command *command, char key[CLI_NAME_SIZE])
         ++n;
     }
     key[n] = '\0';
+}
+
+void cli_joined_append(cli_joined *joined, clast_field field, size_t offset)
+{
+    if (joined->n + 1 >= joined->size) {
+        (void)fprintf(stderr, "clast: a table of %d rows has no row for %s\n", joined->size,
+                      field.name);
+        abort();
+    }
+    field.offset += offset;
+    joined->field[joined->n++] = field;
+}
+
+void cli_joined_append_all(cli_joined *joined, const clast_field *fields, size_t offset)
+{
+    for (const clast_field *f = fields; f->name != NULL; ++f) {
+        cli_joined_append(joined, *f, offset);
+    }
 }
 
 static size_t count_fields(const clast_field *fields)

@@ -11,6 +11,19 @@ typedef struct cli_configs {
     char key[CLI_NAME_SIZE];
 } cli_configs;
 
+/// A command's table made of parts before main(); the array is static, so that it ends with {0}.
+typedef struct cli_joined {
+    clast_field *field; ///< [size]
+    int size, n;
+} cli_joined;
+
+/// Appends a field of a struct that lies `offset` bytes into the command's. A table that is full
+/// ends the program: without the field its key would be unknown.
+void cli_joined_append(cli_joined *joined, clast_field field, size_t offset);
+
+/// The same of all fields of a table.
+void cli_joined_append_all(cli_joined *joined, const clast_field *fields, size_t offset);
+
 /// False when memory is short. A command without options reads no configuration.
 bool cli_configs_init(const cli_command *command, cli_configs *configs);
 void cli_configs_free(cli_configs *configs);

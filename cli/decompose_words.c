@@ -108,8 +108,10 @@ static void json_settings(json_t *out, const cli_decompose_job *j, const char *t
     const clast_decomposition *r = j->result;
     cli_domain_json(out, text, j->domain);
     cli_json_number(out, "beta_dt", r->beta_dt > 0.0 ? r->beta_dt : (double)NAN);
-    (void)json_object_set_new(out, "seed",
-                              j->has_drawn ? json_integer((json_int_t)r->seed) : json_null());
+    (void)json_object_set_new(out, "seed", json_null());
+    if (j->has_drawn) {
+        cli_json_seed(out, "seed", r->seed);
+    }
 }
 
 json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found *f)

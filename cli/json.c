@@ -1,42 +1,31 @@
 // JSON on stdout.
 #include "json.h"
 
-#include "command.h"
-
+#include <clast/clast.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
+#include <stdlib.h>
+
+static const size_t LAYOUT = JSON_INDENT(2) | JSON_REAL_PRECISION(17);
 
 clast_status cli_print_json(json_t *object)
 {
     if (object == NULL) {
         return CLAST_E_MEMORY;
     }
-    const int failed = json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    const int failed = json_dumpf(object, stdout, LAYOUT);
     (void)putchar('\n');
     json_decref(object);
     return failed != 0 ? CLAST_E_DISK : CLAST_OK;
 }
 
-clast_status cli_write_summary(const json_t *object, const char *folder)
+clast_status cli_write_summary(const json_t *object, const clast_run_folder *run)
 {
-    char path[4096], part[4096 + 8];
-    const int n = snprintf(path, sizeof path, "%s/summary.json", folder);
-    if (object == NULL) {
-        return CLAST_E_MEMORY;
-    }
-    (void)snprintf(part, sizeof part, "%s.part", path);
-    FILE *const file = n > 0 && n < (int)sizeof path ? fopen(part, "w") : NULL;
-    if (file != NULL) {
-        const bool is_written =
-            json_dumpf(object, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
-            fputc('\n', file) != EOF && fflush(file) == 0 && fsync(fileno(file)) == 0;
-        if (fclose(file) == 0 && is_written && rename(part, path) == 0) {
-            return CLAST_OK;
-        }
-    }
-    (void)remove(part);
-    return cli_fail(CLAST_E_DISK, "cannot write %s", path);
+    char *text = object != NULL ? json_dumps(object, LAYOUT) : NULL;
+    const clast_status status = text != NULL ? clast_run_folder_summary(run, text) : CLAST_E_MEMORY;
+    free(text); // jansson's
+    return status;
 }
 
 void cli_json_number(json_t *object, const char *key, double value)
@@ -47,6 +36,13 @@ void cli_json_number(json_t *object, const char *key, double value)
 void cli_json_count(json_t *object, const char *key, int64_t value)
 {
     (void)json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+void cli_json_seed(json_t *object, const char *key, uint64_t seed)
+{
+    (void)json_object_set_new(object, key,
+                              seed <= INT64_MAX ? json_integer((json_int_t)seed)
+                                                : json_sprintf("%" PRIu64, seed));
 }
 
 void cli_json_bool(json_t *object, const char *key, bool value)

@@ -143,10 +143,11 @@ static void note_weld(const cli_common *common, const clast_mesh_repair_report *
     }
 }
 
-clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
+clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh,
+                             clast_mesh_read_report *report)
 {
     clast_mesh_repair_report weld = {0};
-    CLI_GUARD(cli_mesh_input(common, mesh));
+    CLI_GUARD(cli_mesh_input(common, mesh, report));
     CLI_GUARD(clast_mesh_weld_auto(mesh, &weld));
     note_weld(common, &weld);
     return CLAST_OK;
@@ -154,41 +155,28 @@ clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
 
 bool cli_counts_twice(const clast_mesh_check_result *found)
 {
-    return found->n_intersection > 0 || !found->intersection_complete || found->n_doubled > 0 ||
-           found->n_repeated > 0;
+    char words[200];
+    clast_mesh_check_doubles(found, sizeof words, words);
+    return words[0] != '\0';
 }
 
 void cli_note_doubles(const cli_common *common, const clast_mesh_check_result *found,
                       const char *effect)
 {
-    if (!cli_counts_twice(found) || common->quiet) {
+    char words[200];
+    clast_mesh_check_doubles(found, sizeof words, words);
+    if (words[0] == '\0' || common->quiet) {
         return;
     }
-    (void)fprintf(stderr, "clast %s: note: %s", common->command, cli_name(common->argument[0]));
-    if (found->n_intersection > 0) {
-        (void)fprintf(stderr,
-                      " cuts itself at %s%lld pair%s of triangles; its volume counts overlaps "
-                      "twice%s (clast mesh check)\n",
-                      found->intersection_complete ? "" : "at least ",
-                      (long long)found->n_intersection, cli_plural(found->n_intersection), effect);
-    } else if (!found->intersection_complete) {
-        (void)fprintf(stderr,
-                      ": whether it cuts itself was not looked for, so densely do its triangles "
-                      "overlap; its volume may count overlaps twice%s\n",
-                      effect);
-    } else if (found->n_doubled == 0) {
-        (void)fprintf(stderr,
-                      ": %d of its triangles repeat%s another, wound alike; its volume counts "
-                      "twice what they bound%s; clast mesh repair drops %s\n",
-                      found->n_repeated, found->n_repeated == 1 ? "s" : "", effect,
-                      found->n_repeated == 1 ? "it" : "them");
-    } else {
-        (void)fprintf(stderr,
-                      ": %d of its %d parts count%s twice in its volume%s; clast mesh repair "
-                      "drops %s\n",
-                      found->n_doubled, found->n_part, found->n_doubled == 1 ? "s" : "", effect,
-                      found->n_doubled == 1 ? "it" : "them");
-    }
+    const bool is_cut = found->n_intersection > 0 || !found->intersection_complete;
+    const int32_t n = found->n_flat > 0      ? found->n_flat
+                      : found->n_doubled > 0 ? found->n_doubled
+                                             : found->n_repeated;
+    (void)fprintf(stderr, "clast %s: note: %s: %s%s; %s\n", common->command,
+                  cli_name(common->argument[0]), words, found->n_flat > 0 ? "" : effect,
+                  found->n_flat == 0 && is_cut ? "see clast mesh check"
+                  : n == 1                     ? "clast mesh repair drops it"
+                                               : "clast mesh repair drops them");
 }
 
 clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,
@@ -201,13 +189,22 @@ clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const ch
     return solid != CLAST_OK ? solid : status;
 }
 
-clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh)
+clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh,
+                            clast_mesh_read_report *report)
 {
-    clast_mesh_read_report report = {0};
-    CLI_GUARD(clast_mesh_read(common->argument[0], mesh, &report));
-    for (int32_t i = 0; i < report.n_warning && !common->quiet; ++i) {
+    clast_mesh_read_report own = {0};
+    clast_mesh_read_report *r = report != NULL ? report : &own;
+    CLI_GUARD(clast_mesh_read(common->argument[0], mesh, r));
+    for (int32_t i = 0; i < r->n_warning && !common->quiet; ++i) {
         (void)fprintf(stderr, "clast %s: %s: %s\n", common->command, cli_name(common->argument[0]),
-                      report.warning[i]);
+                      r->warning[i]);
     }
     return CLAST_OK;
+}
+
+clast_status cli_mesh_save(const cli_common *common, const clast_mesh *mesh,
+                           const clast_mesh_read_report *read)
+{
+    const clast_mesh_write_options options = {.unit = read->unit[0] != '\0' ? read->unit : NULL};
+    return clast_mesh_write(mesh, common->output, &options);
 }

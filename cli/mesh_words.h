@@ -2,6 +2,7 @@
 // What the mesh commands say about a surface, shared by them.
 #include "command.h"
 #include "json.h"
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 
 /// Everything of a check as a JSON object (DESIGN section 7).
@@ -13,14 +14,20 @@ void cli_check_words(const char *file, const clast_mesh_check_result *result);
 /// Refuses a missing or unknown output name before any work is done.
 clast_status cli_mesh_output(const cli_common *common);
 
-/// Reads the first argument; the reader's warnings go to stderr.
-clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh);
+/// Reads the first argument; the reader's warnings go to stderr. `report` may be NULL.
+clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh,
+                            clast_mesh_read_report *report);
 
 /// The same, then the weld that every command applies to a surface; what it joined goes to stderr.
-clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh);
+clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh,
+                             clast_mesh_read_report *report);
 
-/// Whether its volume counts a region twice, or may: parts in a solid, repeated triangles, cuts, or
-/// triangles too dense to look for them.
+/// Writes a surface in the unit of the one that was read, under the name of the output.
+clast_status cli_mesh_save(const cli_common *common, const clast_mesh *mesh,
+                           const clast_mesh_read_report *read);
+
+/// Whether its volume counts a region twice, or may, or a sheet is in it
+/// (clast_mesh_check_doubles).
 bool cli_counts_twice(const clast_mesh_check_result *found);
 
 /// Says so on stderr, and what to run; `effect` (", so shares of it come out low") may be "".

@@ -38,16 +38,12 @@ static const clast_field rows[] = {
      "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
     {"domain_unit", .offset = offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "unit of bare numbers in --domain and of mesh:FILE; none: --unit", ""},
-};
+    {0}};
 #undef TEXT
 
-int cli_point_fields(clast_field *fields, int n, size_t offset)
+void cli_point_fields(cli_joined *joined, size_t offset)
 {
-    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
-        fields[n] = rows[k];
-        fields[n++].offset += offset;
-    }
-    return n;
+    cli_joined_append_all(joined, rows, offset);
 }
 
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
@@ -184,5 +180,17 @@ void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
                       "are both in the same unit? (bare numbers of --domain are metres unless "
                       "--unit says otherwise)\n",
                       common->command, cli_quantity(widest, "m"), cli_quantity(width, "m"));
+    }
+}
+
+void cli_warn_of_weight(const cli_common *common, const clast_table *table,
+                        const clast_cloud_columns *columns)
+{
+    const char *const name = clast_cloud_unread_weight(table, columns);
+    if (name != NULL) {
+        (void)fprintf(stderr,
+                      "clast %s: warning: %s: column '%s' is not looked at: each row is one "
+                      "particle (--weight-column %s)\n",
+                      common->command, cli_name(table->name), cli_name(name), cli_name(name));
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Options that say how a file of points is read and which columns hold what.
-#include "command.h"
+#include "configs.h"
 #include <clast/clast.h>
 #include <jansson.h>
 
@@ -12,9 +12,8 @@ typedef struct cli_points {
     char *domain_unit;
 } cli_points;
 
-/// Appends the options of a cli_points that lies `offset` bytes into a configuration struct to a
-/// field table of n rows; returns the new number of rows.
-int cli_point_fields(clast_field *fields, int n, size_t offset);
+/// Appends the options of a cli_points that lies `offset` bytes into a configuration struct.
+void cli_point_fields(cli_joined *joined, size_t offset);
 
 /// Reads the file as a table.
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table);
@@ -42,3 +41,7 @@ clast_status cli_points_status(clast_status status, const cli_points *points,
 /// ranks.
 void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
                        const clast_cloud *cloud);
+
+/// Says on stderr that a column of weights by its name is not read, as no option names it.
+void cli_warn_of_weight(const cli_common *common, const clast_table *table,
+                        const clast_cloud_columns *columns);

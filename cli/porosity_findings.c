@@ -12,20 +12,6 @@
 
 static const double LEAST_OUTSIDE = 1e-3; ///< share of a given bed that is told
 
-void cli_porosity_free(cli_porosity_findings *f)
-{
-    clast_table_free(&f->profile);
-    clast_table_free(&f->coordination);
-    clast_table_free(&f->fabric);
-    clast_table_free(&f->local);
-    clast_table_free(&f->radial);
-    clast_pores_free(&f->pores);
-    clast_table_free(&f->stress);
-    clast_table_free(&f->stress_profile);
-    clast_table_free(&f->fields);
-    clast_table_free(&f->chains);
-}
-
 /// Mean and standard deviation of the local porosity of grains whose cell no wall cuts.
 static int64_t local_moments(const clast_table *local, double *mean, double *deviation)
 {
@@ -50,7 +36,7 @@ static int64_t local_moments(const clast_table *local, double *mean, double *dev
     return n;
 }
 
-static json_t *profile_json(const cli_porosity_findings *f)
+static json_t *profile_json(const clast_bed_findings *f)
 {
     json_t *rows = json_array();
     const double *low = f->profile.column[0].number; // z_low, z_high, with _m where that is known
@@ -91,7 +77,7 @@ static double mass_of(const clast_table *fields)
     return sum;
 }
 
-static void add_chains(json_t *object, const cli_porosity_findings *f)
+static void add_chains(json_t *object, const clast_bed_findings *f)
 {
     int64_t n_link = 0;
     int64_t n_chain = 0;
@@ -106,10 +92,11 @@ static void add_chains(json_t *object, const cli_porosity_findings *f)
     }
 }
 
-json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_findings *f)
+json_t *cli_porosity_json(const clast_assembly *assembly, const clast_bed_findings *f)
 {
     json_t *object = json_object();
-    cli_json_text(object, "method", f->method == CLAST_POROSITY_EXACT ? "exact" : "spheres");
+    cli_json_text(object, "method",
+                  f->options.porosity.method == CLAST_POROSITY_EXACT ? "exact" : "spheres");
     cli_json_count(object, "n_grain", assembly->n_grain);
     cli_json_number(object, "bulk", f->bulk.porosity);
     cli_json_number(object, "z_low", f->bulk.z_low);
@@ -121,7 +108,7 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
         cli_json_number(object, "wall_ratio", f->walls.ratio);
     }
     if (f->beyond.n >= 0) {
-        cli_json_bool(object, "is_part", f->is_part);
+        cli_json_bool(object, "is_part", f->bed.is_part);
         cli_json_count(object, "n_beyond", f->beyond.n);
         cli_json_number(object, "max_beyond", f->beyond.depth);
         cli_json_number(object, "solid_beyond", f->beyond.solid);
@@ -129,17 +116,17 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
     if (isfinite(f->outside)) {
         cli_json_number(object, "bed_outside", f->outside);
     }
-    if (f->core_depth > 0.0) {
+    if (f->options.core > 0.0) {
         cli_json_number(object, "core_depth", f->core.depth);
         cli_json_number(object, "core", f->core.porosity);
         cli_json_number(object, "core_error", f->core.error);
         cli_json_number(object, "wall_share", f->core.share);
     }
     cli_json_number(object, "coordination", f->mean_coordination);
-    if (f->overlaps.n >= 0) {
-        cli_json_count(object, "n_overlap", f->overlaps.n);
-        cli_json_number(object, "max_overlap", f->overlaps.depth);
-        cli_json_number(object, "max_overlap_share", f->overlaps.share);
+    if (f->n_overlap >= 0) {
+        cli_json_count(object, "n_overlap", f->n_overlap);
+        cli_json_number(object, "max_overlap", f->max_overlap);
+        cli_json_number(object, "max_overlap_share", f->max_overlap_share);
     }
     cli_json_text(object, "unit", assembly->unit);
     if (f->local.n_column > 0) {
@@ -170,7 +157,7 @@ json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_fin
 }
 
 static clast_status write_tables(const clast_run_folder *run, const clast_assembly *assembly,
-                                 cli_porosity_findings *f)
+                                 clast_bed_findings *f)
 {
     char path[CLAST_RUN_PATH];
     const struct {
@@ -194,7 +181,7 @@ static clast_status write_tables(const clast_run_folder *run, const clast_assemb
 }
 
 /// Force chains and fields for ParaView, and the picture of the chains.
-static clast_status write_vtk(const clast_run_folder *run, const cli_porosity_findings *f,
+static clast_status write_vtk(const clast_run_folder *run, const clast_bed_findings *f,
                               const char *unit)
 {
     char path[CLAST_RUN_PATH];
@@ -215,7 +202,7 @@ static clast_status write_vtk(const clast_run_folder *run, const cli_porosity_fi
 
 /// Charts, then the tables that they are drawn from.
 clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembly *assembly,
-                                cli_porosity_findings *f)
+                                clast_bed_findings *f)
 {
     char path[CLAST_RUN_PATH];
     CLI_GUARD(clast_run_folder_file(run, "profile.svg", path));
@@ -237,11 +224,11 @@ clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembl
 }
 
 /// What the side walls do to the bulk porosity.
-static void print_walls(const clast_bed *bed, const char *unit, const cli_porosity_findings *f)
+static void print_walls(const char *unit, const clast_bed_findings *f)
 {
-    if (f->is_part) {
+    if (f->bed.is_part) {
         (void)printf("side walls          none: the bed is a part of a packing\n");
-    } else if (bed->kind == CLAST_BED_MESH) {
+    } else if (f->bed.kind == CLAST_BED_MESH) {
         (void)printf("side walls          a surface: its distance in grain sizes is not known\n");
     } else if (!isfinite(f->walls.ratio)) {
         (void)printf("side walls          none: the bed is periodic\n");
@@ -249,11 +236,11 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
         (void)printf("side walls          %.4g grain sizes (of %s, mean by volume) from the "
                      "axis%s\n",
                      f->walls.ratio, cli_quantity(f->walls.size, unit),
-                     f->core_depth > 0.0    ? ""
+                     f->options.core > 0.0  ? ""
                      : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
                                             : ", which loosen the bed");
     }
-    if (f->beyond.n > 0 && f->is_part) {
+    if (f->beyond.n > 0 && f->bed.is_part) {
         (void)printf("beyond the sides    %d grain%s, by up to %s: a part of a packing; bulk and "
                      "profile count what lies inside, contacts do not%s\n",
                      f->beyond.n, cli_plural(f->beyond.n), cli_quantity(f->beyond.depth, unit),
@@ -270,45 +257,46 @@ static void print_walls(const clast_bed *bed, const char *unit, const cli_porosi
                      "grain is: it counts as pores\n",
                      100.0 * f->outside);
     }
-    if (f->core_depth > 0.0) {
+    if (f->options.core > 0.0) {
         (void)printf(
             "core                %.6f   +- %.2g, farther than %g grain sizes from the side "
             "walls; their share of the bulk porosity is %.4f\n",
-            f->core.porosity, f->core.error, f->core_depth, f->core.share);
+            f->core.porosity, f->core.error, f->options.core, f->core.share);
     }
 }
 
 clast_status cli_porosity_print(const cli_common *common, const clast_assembly *assembly,
-                                const clast_bed *bed, const cli_porosity_findings *f)
+                                const clast_bed_findings *f, const clast_packing_report *report)
 {
     const bool is_model = strcmp(assembly->unit, "model") == 0;
     const char *unit = is_model ? "model units" : assembly->unit;
     if (common->json) {
         json_t *object = cli_porosity_json(assembly, f);
-        cli_packing_json(object, &f->report);
+        cli_packing_json(object, report);
         (void)json_object_set_new(object, "profile", profile_json(f));
         return cli_print_json(object);
     }
     (void)printf("%d grain%s, %s\n", assembly->n_grain, cli_plural(assembly->n_grain),
-                 f->method == CLAST_POROSITY_EXACT ? "true shapes" : "spheres of equal volume");
+                 f->options.porosity.method == CLAST_POROSITY_EXACT ? "true shapes"
+                                                                    : "spheres of equal volume");
     (void)printf("bulk porosity       %.6f   from z = %s to %s\n", f->bulk.porosity,
                  cli_quantity_as(f->bulk.z_low, unit, f->bulk.z_high),
                  cli_quantity(f->bulk.z_high, unit));
-    if (bed->kind == CLAST_BED_PERIODIC_3D) {
+    if (f->bed.kind == CLAST_BED_PERIODIC_3D) {
         (void)printf("bed                 periodic in all three directions: the whole box\n");
     } else {
         (void)printf("top of the bed      %s   where the porosity rises through %g\n",
-                     cli_quantity(f->bulk.top, unit), f->cut);
+                     cli_quantity(f->bulk.top, unit), f->options.porosity.cut);
     }
-    print_walls(bed, unit, f);
-    if (f->overlaps.n > 0) {
+    print_walls(unit, f);
+    if (f->n_overlap > 0) {
         (void)printf(
             "overlaps            %d pair%s of grains, the deepest by %.3g %% of the smaller "
             "one's radius (of equal volume); the solid counts what they share twice\n",
-            f->overlaps.n, f->overlaps.n == 1 ? "" : "s", 100.0 * f->overlaps.share);
-    } else if (f->overlaps.n < 0 && !f->knows_contacts) {
+            f->n_overlap, f->n_overlap == 1 ? "" : "s", 100.0 * f->max_overlap_share);
+    } else if (f->n_overlap < 0 && !f->knows_contacts) {
         (void)printf("overlaps            not searched for across the borders of a sheared box\n");
-    } else if (f->overlaps.n < 0) {
+    } else if (f->n_overlap < 0) {
         (void)printf("overlaps            those of the run's own contacts: max_overlap in its "
                      "summary.json\n");
     } else {

@@ -65,7 +65,7 @@ clast_status cli_results_summary(const clast_run_folder *run, const json_t *summ
     if (kept != NULL) {
         (void)json_object_del(kept, "wall_s"); // equal runs write equal files; the manifest has it
     }
-    const clast_status status = cli_write_summary(kept, clast_run_folder_path(run));
+    const clast_status status = cli_write_summary(kept, run);
     json_decref(kept);
     return status;
 }

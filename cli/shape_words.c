@@ -103,6 +103,8 @@ static json_t *grain_json(const cli_shape_result *shape, const clast_grain_recor
     cli_json_text(object, "kind", clast_grains_kind_name(r->kind));
     cli_json_number(object, "volume", r->has_surface ? r->grain.volume : (double)NAN);
     cli_json_number(object, "area", r->has_surface ? r->grain.area : (double)NAN);
+    cli_json_number(object, "pore_volume", r->has_surface ? r->grain.pore_volume : (double)NAN);
+    cli_json_number(object, "pore_area", r->has_surface ? r->grain.pore_area : (double)NAN);
     put_lengths(object, r, lis);
     cli_json_number(object, "D", r->has_size ? clast_form_sieve_size(lis[1], lis[2]) : (double)NAN);
     put_factors(object, lis);
@@ -231,6 +233,11 @@ static void surface_words(const cli_shape_result *shape, const clast_grain_recor
     const double shadow[3] = {g->projected_mean, g->projected_least, g->projected_greatest};
     line_words("volume", 1, &g->volume, unit(shape, 3), shape->is_hull ? " (convex hull)" : "");
     line_words("area", 1, &g->area, unit(shape, 2), "");
+    if (g->pore_volume > 0.0) {
+        const double pore[2] = {g->pore_volume, g->pore_area};
+        line_words("closed pores", 2, pore, "",
+                   " (volume, area of their walls; not in those above)");
+    }
     line_words("centroid", 3, g->centroid, unit(shape, 1), "");
     line_words("moments of inertia", 3, g->moments, unit(shape, 5), " (density 1)");
     hull_words(shape, r);

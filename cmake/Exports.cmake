@@ -1,5 +1,5 @@
 # What libclast exports: its interface, and under a name of this release what it shares with its view (src/base/status.h):
-# cmake -DOUT=libclast.map -DVERSION=0.1.0 -DHEADERS="a;b" -P Exports.cmake
+# cmake -DOUT=libclast.map -DINTERFACE=0.2 -DVERSION=0.2.0 -DHEADERS="a;b" -P Exports.cmake
 set(shared)
 foreach(header ${HEADERS})
   file(STRINGS ${header} marks REGEX "^CLX_SHARED ")
@@ -7,5 +7,4 @@ foreach(header ${HEADERS})
   list(APPEND shared ${marks})
 endforeach()
 list(JOIN shared "; " shared)
-string(REGEX MATCH "^[0-9]+" major ${VERSION})
-file(WRITE ${OUT} "CLAST_${major} { global: clast_*; local: *; };\nCLAST_PRIVATE_${VERSION} { global: ${shared}; };\n")
+file(WRITE ${OUT} "CLAST_${INTERFACE} { global: clast_*; local: *; };\nCLAST_PRIVATE_${VERSION} { global: ${shared}; };\n")

@@ -30,7 +30,7 @@ if(CLAST_PC_RPATH)
   set(CLAST_PC_RUN_PATH " -Wl,-rpath,\${libdir}")
 endif()
 configure_file(cmake/clastConfig.cmake.in ${PROJECT_BINARY_DIR}/clastConfig.cmake @ONLY)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/clastConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/clastConfigVersion.cmake COMPATIBILITY SameMinorVersion) # CLAST_INTERFACE
 install(FILES ${PROJECT_BINARY_DIR}/clastConfig.cmake ${PROJECT_BINARY_DIR}/clastConfigVersion.cmake
   DESTINATION ${CLAST_CMAKE_DIR})
 # the .pc files find their prefix from where they lie, so that cmake --install --prefix works

@@ -71,14 +71,17 @@ static clast_status make_cells(clast_workspace *workspace, const clast_domain *d
 int main(void)
 {
     clast_population particles = {N, 2, x, monomers, radius, mass, velocity, NULL, owner, NULL};
-    clast_collide_config config = {.alpha = 1.0, .medium.constant = 2e-5, .block = 1024, .seed = 1};
+    clast_collide_config config;
     clast_decompose_config mesh_config = {0};
     clast_workspace_policy policy;
     clast_domain square;
     const clast_decomposition *mesh = NULL;
     clast_workspace *workspace = NULL;
     const double dt = 0.02;
-    clast_status status = clast_kernel_parse("constant", &config.kernel);
+    clast_status status = clast_collide_config_default(&config);
+    config.medium.constant = 2e-5;
+    config.seed = 1;
+    status = status ? status : clast_kernel_parse("constant", &config.kernel);
     status = status ? status : clast_domain_parse("box:0,0,1,1", &square);
     status = status ? status : clast_workspace_create(&workspace);
     status = status ? status : clast_fields_default(clast_workspace_fields, &policy);

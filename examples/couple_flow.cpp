@@ -159,9 +159,8 @@ void run()
     particles p(4000);
     coupling loop;
     clast_collide_config how{};
-    how.alpha = 1.0;
+    check(clast_collide_config_default(&how));
     how.medium.constant = 2e-5;
-    how.block = 1024;
     how.seed = 1;
     check(clast_kernel_parse("constant", &how.kernel));
     const double dt = 0.02;

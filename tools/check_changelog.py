@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a public header that changed since the last release is not named in CHANGELOG's Unreleased *Interface*.
 
-The last release is the commit that brought CHANGELOG the section of the version in the file VERSION.
+The last release is the commit that brought CHANGELOG its newest section of a version; the file VERSION may name the next one.
 """
 import pathlib
 import re
@@ -16,7 +16,7 @@ def git(*arguments):
 
 
 def changed_headers():
-    version = (ROOT / "VERSION").read_text().strip()
+    version = re.search(r"^## (\d[\d.]*) \(", (ROOT / "CHANGELOG.md").read_text(), flags=re.M).group(1)
     release = git("log", "--reverse", "--format=%H", f"-S## {version} (", "--", "CHANGELOG.md").partition("\n")[0]
     if not release:
         return []

@@ -14,12 +14,17 @@ mkdir "$work/user"
 cat > "$work/user/user.c" <<'C'
 #include <clast/clast.h>
 #include <stdio.h>
+#include <string.h>
 int main(void)
 {
     const double axes[3] = {3.0, 2.0, 1.0};
     clast_mesh mesh = {0};
     if (clast_mesh_ellipsoid(axes, 4, &mesh) != CLAST_OK) {
         puts(clast_error_detail());
+        return 1;
+    }
+    if (strcmp(clast_version(), CLAST_VERSION_TEXT) != 0) {
+        puts("headers and library are of two releases");
         return 1;
     }
     printf("%s %.3f\n", clast_version(), clast_mesh_volume(&mesh));
@@ -49,7 +54,15 @@ C
 cat > "$work/user/CMakeLists.txt" <<'C'
 cmake_minimum_required(VERSION 3.20)
 project(user C)
-find_package(clast REQUIRED)
+find_package(clast 0.1 QUIET)
+if(clast_FOUND)
+  message(FATAL_ERROR "clast ${clast_VERSION} is taken for 0.1, whose interface is another")
+endif()
+find_package(clast QUIET COMPONENTS core)
+if(clast_FOUND)
+  message(FATAL_ERROR "COMPONENTS core, which is none, is found")
+endif()
+find_package(clast REQUIRED OPTIONAL_COMPONENTS core)
 add_executable(user user.c)
 target_link_libraries(user PRIVATE clast::clast)
 find_package(clast REQUIRED COMPONENTS static)

@@ -97,7 +97,7 @@ for package in $wanted; do
         say "the notebooks run from the wheel, and print what is stored in them"
         ;;
     deb | deb-dev)
-        names="clast libclast0 libclast-view0 python3-clast"
+        names="clast libclast${version%.*} libclast-view${version%.*} python3-clast"
         [ "$package" = deb ] || names="$names libclast-dev"
         [ "$package" = deb ] || install gcc libc6-dev pkg-config
         laid > "$work/before"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The shared libraries export clast_* and nothing else, but what the core shares with the view of the same release alone (clx_*, under the
-# version name CLAST_PRIVATE_...); every CLAST_API declaration is exported by one library. The core loads no cairo and no libpng. Nothing fuses
+# version name CLAST_PRIVATE_...); every CLAST_API declaration is exported by one library. Sonames and the interface's version name are of VERSION's
+# MAJOR.MINOR, as a minor release may break the interface. The core loads no cairo and no libpng. Nothing fuses
 # a product and a sum: its bytes would be other ones than those of machines that cannot.
 set -eu
 export LC_ALL=C
@@ -9,9 +10,14 @@ build=${1:-build/release}
 symbols() { nm -D "$@" | awk '{print $NF}' | grep -v '^CLAST_' | sort; } # with their versions
 plain() { { sed 's/@.*//' | grep '^clast_' || true; } | sort; }
 declared() { grep -hozP 'CLAST_API[^;({]*?\b(clast_\w+)(?=\s*[\(\[;])' "$@" | tr '\0' '\n' | grep -oP 'clast_\w+$' | sort -u; }
+version=$(cat VERSION)
+for library in "$build"/libclast.so "$build"/libclast_*.so; do
+    [ ! -e "$library" ] || readelf -d "$library" | grep -qF "[$(basename "$library").${version%.*}]" ||
+        { echo "$library: its soname is not $(basename "$library").${version%.*}"; exit 1; }
+done
 core=$(symbols --defined-only "$build/libclast.so")
-shared=$(printf '%s\n' "$core" | grep '^clx_.*@@CLAST_PRIVATE_' || true)
-stray=$(printf '%s\n' "$core" | grep -v '^clast_.*@@CLAST_[0-9]*$' | grep -v '^clx_.*@@CLAST_PRIVATE_[0-9.]*$' || true)
+shared=$(printf '%s\n' "$core" | grep "^clx_.*@@CLAST_PRIVATE_$version\$" || true)
+stray=$(printf '%s\n' "$core" | grep -v "^clast_.*@@CLAST_${version%.*}\$" | grep -v "^clx_.*@@CLAST_PRIVATE_$version\$" || true)
 exported=$(printf '%s\n' "$core" | plain)
 view=
 if [ -e "$build/libclast_view.so" ]; then

@@ -92,8 +92,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     run("cmake", "--build", str(build))
     shutil.rmtree(stage, ignore_errors=True)
     run("cmake", "--install", str(build), "--prefix", str(stage), "--strip")
-    major = VERSION.split(".", maxsplit=1)[0]
-    files = {f"clast/{soname}": stage / "lib" / soname for soname in (f"libclast.so.{major}", f"libclast_view.so.{major}")}
+    interface = VERSION.rpartition(".")[0]
+    files = {f"clast/{soname}": stage / "lib" / soname for soname in (f"libclast.so.{interface}", f"libclast_view.so.{interface}")}
     files[f"clast-{VERSION}.data/scripts/clast"] = stage / "bin/clast"
     files[f"{INFO}/licenses/LICENSE"] = ROOT / "LICENSE"
     return pack(pathlib.Path(wheel_directory), f"linux_{os.uname().machine}", files)

@@ -35,14 +35,10 @@ int main(int argc, char **argv)
 {
     clast_comm comm = {0};
     const clast_status status = clast_mpi_begin(&comm);
-    if (status == CLAST_E_CONFIG) {
-        if (comm.rank == 0) {
-            (void)fprintf(stderr, "clast-mpi: CLAST_PARTITION is rcb, hsfc (with Zoltan) or own\n");
-        }
-        return clast_status_exit_code(status);
-    }
     if (status != CLAST_OK) {
-        (void)fprintf(stderr, "clast-mpi: MPI does not start: %s\n", clast_status_text(status));
+        if (comm.rank == 0) {
+            (void)fprintf(stderr, "clast-mpi: %s\n", clast_error_detail());
+        }
         return clast_status_exit_code(status);
     }
     if (is_alone_by_mistake(&comm)) {

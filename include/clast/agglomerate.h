@@ -92,8 +92,8 @@ typedef struct clast_collide_cells {
 /// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL
 /// @return CLAST_E_CONFIG for a configuration out of the ranges of clast_agglomerate_fields (of
 /// what it uses) or a medium that lacks what the kernel needs, CLAST_E_ARGUMENT for arrays that are
-/// NULL, volumes not > 0, cells that there are not, motion that is not finite; nothing is then
-/// changed. CLAST_E_CONFIG too
+/// NULL, volumes not > 0, cells that there are not, motion that is not finite, CLAST_E_FORMAT for a
+/// weight that is not finite or not > 0; nothing is then changed. CLAST_E_CONFIG too
 /// after the step where over 0.1 % of its collisions (of those of cells->range, if given) lie out
 /// of a range of kernel_range.h, but for CLAST_OUT_OF_RANGE_EXTRAPOLATE. CLAST_E_LIMIT beyond
 /// 50000 kinds in a cell with block = 0; where the particles of a cell have 2^63 monomers together,

@@ -36,26 +36,37 @@ typedef struct clast_cloud_columns {
 CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
                                           double **column);
 
-/// Factor that takes the named column's numbers to SI by the unit that its name tells: in brackets
-/// anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); 1 of a name that is empty or tells
-/// none. A word behind "_" that may be an index is none of another dimension ("x_t").
+/// Takes numbers of the named column to SI by the unit that its name tells: in brackets anywhere
+/// ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); they stay what they are where it is empty or
+/// tells none. A word behind "_" that may be an index is none of another dimension ("x_t").
+/// Temperatures may be in degrees Celsius ("T_C", "T (degC)").
 ///
+/// @param value  [n_row] of them, changed in place
 /// @return CLAST_E_CONFIG for a unit that is none of this dimension, known or not (u_ft/s, "x
 /// (ft)", "d (g)", and phi, which has no factor); else as clast_cloud_column
-CLAST_API clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
-                                                 const char *si_unit, double *factor);
+CLAST_API clast_status clast_cloud_column_si(const clast_table *table, const char *name,
+                                             const char *si_unit, double *value);
 
 /// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s",
-/// radii and diameters also "d (phi)") is converted; see clast_cloud_column_factor. The default
+/// radii and diameters also "d (phi)") is converted; see clast_cloud_column_si. The default
 /// coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table has one such column;
 /// missing trailing ones end the list.
 ///
-/// @return CLAST_E_FORMAT names the missing column, and coordinates or velocities of which some
-/// tell a unit and some none (without `unit`); CLAST_E_CONFIG for radii and diameters at once, and
-/// for a unit beside columns that name another
+/// @return CLAST_E_FORMAT names the missing column, coordinates or velocities of which some tell a
+/// unit and some none (without `unit`), and a column of times ("time", "t (s)", "timestep", "step",
+/// "iteration", "frame", any case; "T" alone is none) that `columns` does
+/// not name and that holds more than one: such rows are several clouds; CLAST_E_CONFIG for radii
+/// and diameters at once, and for a unit beside columns that name another
 CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
                                               const clast_cloud_columns *columns,
                                               clast_cloud *cloud);
+
+/// The name of the first column that holds weights by it ("weight", "stat_weight",
+/// "statistical_weight", "parcel_weight", "n_real", "multiplicity"), some of which are not 1, where
+/// `columns` names no column of weights: each row is one particle then. NULL: none, or a NULL
+/// argument.
+CLAST_API const char *clast_cloud_unread_weight(const clast_table *table,
+                                                const clast_cloud_columns *columns);
 
 /// Points that have the very coordinates of an earlier one; O(n).
 CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated);

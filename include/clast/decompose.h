@@ -118,7 +118,7 @@ typedef enum {
     CLAST_VARIANT_FULL,  ///< tests before and after every pass
     CLAST_VARIANT_FIRST, ///< "1+2": test first, one pass
     CLAST_VARIANT_FAST,  ///< one pass, no test
-    CLAST_VARIANT_TEST   ///< the tests alone: one cell
+    CLAST_VARIANT_TEST   ///< the tests alone: one cell, of which events, pairs and biases are NAN
 } clast_decompose_variant;
 
 typedef enum {
@@ -374,7 +374,8 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param cloud  the points of this rank
 /// @return CLAST_E_ARGUMENT where points of some ranks have weights, or a variable, and of others
-/// none. The status is the same on every rank, and an error names the rank
+/// none. The status is the same on every rank, and an error names the rank; a point's number in it
+/// counts the points of all ranks, those of rank 0 first
 /// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
 CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
                                              const clast_cloud *cloud,

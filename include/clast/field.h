@@ -72,7 +72,8 @@ CLAST_API const char *clast_fields_nearest(const clast_field *fields, const char
 
 /// Parses a text ("675 um", "50deg", "true", "exact") into a field. Lists: replaces by one item, or
 /// appends. A bare length or angle is refused (`270um`, never `270`), but for 0 and for a -1 that
-/// stands for "none" and for CLAST_BARE_SI; any other bare number is SI.
+/// stands for "none" and for CLAST_BARE_SI; any other bare number is SI. Whole numbers are decimal
+/// (010 is 10), hexadecimal after 0x, or 1e6.
 /// @return CLAST_E_CONFIG with the key, the text, the range and the unit in the message
 CLAST_API clast_status clast_field_set(const clast_field *field, void *config, const char *text,
                                        bool append);

@@ -181,7 +181,7 @@ typedef struct clast_form_set {
 /// name, and as a capital at its end. True of NULL and "", which name none.
 CLAST_API bool clast_form_columns_named(const char *columns);
 
-/// Whether the columns of a table are named as those of forms, whatever is in them.
+/// Whether the columns of a table are named as those of forms, whatever is in them; false of NULL.
 CLAST_API bool clast_form_set_named(const clast_table *table);
 
 /// Takes the forms out of a table.

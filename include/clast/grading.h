@@ -237,12 +237,13 @@ CLAST_API const clast_idle *clast_grading_idle(const clast_curve *curve,
 /// A column `count`, `n`, `number` or `n_grains` counts the row's particles, else `weight`,
 /// `frequency` or `fraction`, else `mass` or `retained` (mass_g) weighs them; columns that begin
 /// with `low` and `high` are the ends of a bin, each in its own unit; `density` (kg/m^3 unless its
-/// name ends in another unit, density_g/cm3) is that of the row's particles. In phi units a size is
+/// name tells another unit, density_g/cm3) is that of the row's particles. In phi units a size is
 /// 2^-phi mm.
 ///
 /// @param column  name of the size column; "": the first
-/// @param unit    um, mm, m, phi, ..., as the column's name ends in if it does (d_eq_um); "": that
-/// @return CLAST_E_FORMAT with the line for sizes that are not numbers, not finite or not above 0;
+/// @param unit    um, mm, m, phi, ..., as the column's name tells if it does (d_eq_um); "": that
+/// @return CLAST_E_FORMAT with the line for sizes that are not numbers, not finite or not above 0,
+///         and for a column whose name tells another unit than those of length (size_ft);
 ///         CLAST_E_CONFIG when the unit is not known, or is not the one in the column's name
 CLAST_API clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
                                         clast_sizes *sizes);

@@ -43,15 +43,17 @@ typedef struct clast_axes {
 
 /// Measures of a grain; plain numbers, nothing to free.
 typedef struct clast_grain {
-    double volume, area;
+    double volume;                 ///< of the solid: closed pores are left out
+    double area;                   ///< of the outer surface: walls of closed pores are left out
+    double pore_volume, pore_area; ///< of closed pores, less what floats in them; 0: none
     double centroid[3];
     double inertia[3][3]; ///< about the centroid
     double moments[3];    ///< principal, rising: about the long, the middle and the short axis
     clast_axes axes[CLAST_N_AXES];
     double hull_volume, hull_area;
     double longest, shortest; ///< greatest and least caliper (Feret diameter)
-    double sphericity;        ///< Wadell's: (36 pi V^2)^(1/3) / A           [Wadell1932]
-    double convexity;         ///< V / V of the convex hull
+    double sphericity;        ///< Wadell's: (36 pi V^2)^(1/3) / A, pores filled  [Wadell1932]
+    double convexity;         ///< V / V of the convex hull, pores filled
     double roundness; ///< Wadell's: mean radius of the corners of the outline of the greatest
                       ///< shadow by that of the greatest circle inside; NaN where the outline
                       ///< is too coarse                  [Wadell1932; ZhengHryciw2015]
@@ -71,8 +73,9 @@ typedef struct clast_grain {
 
 /// Measures the solid bounded by a closed outward surface.      [docs/theory/form.md]
 ///
-/// Volume, area, inertia, sphericity, roundness, angularity and the ellipsoid are those of the
-/// surface; calipers, boxes and shadows are those of its convex hull, which are the same. Feret
+/// Volume, inertia and the ellipsoid are those of the solid; area, sphericity, convexity, roundness
+/// and angularity those of its outer surface, closed pores filled; calipers, boxes and shadows are
+/// those of its convex hull, which are the same. Feret
 /// diameters are exact; the box is one that no turn about one of its axes makes smaller.
 ///
 /// @param mesh   closed and outward, any number of parts; several parts count as one grain

@@ -150,6 +150,7 @@ enum { CLAST_MESH_N_WARNING = 8, CLAST_MESH_WARNING_SIZE = 160 };
 /// What a reader found and what it left out. Plain numbers and texts: nothing to free.
 typedef struct clast_mesh_read_report {
     clast_mesh_format format;
+    char unit[16]; ///< of the coordinates, where a file that clast_mesh_write made says it; else ""
     bool is_binary;
     bool is_big_endian;
     int64_t n_byte;        ///< size of the input

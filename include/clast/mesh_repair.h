@@ -54,6 +54,7 @@ typedef struct clast_mesh_check_result {
     int32_t n_misoriented_edge;   ///< edges whose triangles run the same way
     int32_t n_inside_out;         ///< parts
     int32_t n_nested;             ///< closed parts that lie in another closed part
+    int32_t n_flat;               ///< closed parts without volume: the two sides of a sheet
     int32_t n_degenerate;         ///< triangles without area: a repeated or three collinear corners
     int32_t n_duplicate;          ///< superfluous triangles with the same corners as others
     int32_t n_unused_vertex;
@@ -61,7 +62,8 @@ typedef struct clast_mesh_check_result {
     int64_t n_touch;            ///< pairs that only touch, away from what they share
     bool intersection_complete; ///< false: search cut short, the two numbers are lower bounds
     int32_t intersection[2];    ///< the first such pair, or -1
-    int32_t n_body;             ///< solid parts, each with its cavities
+    int32_t n_body;             ///< solid parts, each with its cavities; parted where they hang
+                                ///< together by an edge alone
     double extent;              ///< diagonal of the bounding box
     double volume;              ///< signed tetrahedra about the mean of the vertices
     double volume_divergence;   ///< mean of the integrals of x, y and z over the surface
@@ -89,6 +91,14 @@ CLAST_API clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check
 
 /// Frees what clast_mesh_check found; may be called twice.
 CLAST_API void clast_mesh_check_free(clast_mesh_check_result *result);
+
+/// What counts twice, or may, in the volume of a closed surface, or is no volume but counts in its
+/// area: "it cuts itself at 6 pairs of triangles; its volume counts overlaps twice", "" where
+/// nothing does. The first of sheets, cuts, cuts not looked for, parts and repeated triangles.
+///
+/// @param text  [size], 200 suffice
+CLAST_API void clast_mesh_check_doubles(const clast_mesh_check_result *result, size_t size,
+                                        char *text);
 
 /// Closed, oriented and manifold, and not flat: no blocking fault.
 CLAST_API bool clast_mesh_check_passed(const clast_mesh_check_result *result);

@@ -168,7 +168,7 @@ typedef struct clast_bed_beyond {
 /// and solid is what these cover (so that it counts twice), less what grains cover of each other
 /// without images [m^3]: 0 but for contacts where the grains repeat so, and large where the period
 /// is not theirs. Depth is 0, and the grains are taken as they lie: clast_bed_wrap comes later.
-/// Grains that take more than 1.01 times its room, up to the highest, are CLAST_E_GEOMETRY.
+/// Grains that take more than 1.01 times its volume, up to the highest, are CLAST_E_GEOMETRY.
 ///
 /// @param bulk    not looked at for a periodic bed
 /// @param method  of the bulk; images are of true shapes
@@ -181,8 +181,8 @@ CLAST_API clast_status clast_bed_beyond_measure(const clast_bed *bed,
                                                 clast_porosity_method method,
                                                 clast_bed_beyond *beyond);
 
-/// Share of a bed's room between two heights that lies outside another bed, by 20,000 even points:
-/// what a run's own bed does not hold has no grains, and would count as pores.
+/// Share of a bed's volume between two heights that lies outside another bed, by 20,000 even
+/// points: what a run's own bed does not hold has no grains, and would count as pores.
 ///
 /// @param own    of a periodic one its first image; above and below a surface nothing is compared
 /// @param z      [2] lower and upper height [m]
@@ -398,5 +398,68 @@ CLAST_API clast_status clast_bed_fields(const clast_bed *bed, const clast_assemb
 /// @param table     must be empty; written only on success
 CLAST_API clast_status clast_bed_chains(const clast_bed *bed, const clast_assembly *assembly,
                                         const clast_table *contacts, clast_table *table);
+
+/// A bed that is measured, and what is known of it; all is borrowed, and may be NULL but for bed.
+typedef struct clast_bed_known {
+    const clast_bed *bed;
+    bool is_own;          ///< the bed is the run's: else it is given, and may not hold the grains
+    const clast_bed *own; ///< the run's, to compare a given one with
+    const clast_table *contacts;   ///< of clast_dem_contact_table, in the assembly's order; without
+                                   ///< columns: not known, as the next
+    const clast_table *velocities; ///< of clast_bed_fields
+} clast_bed_known;
+
+/// What is measured beside profile, bulk, side walls, overlaps and fabric; 0: not.
+typedef struct clast_bed_options {
+    clast_porosity_options porosity; ///< layer 0: 1 mm, or where lengths have no unit a tenth of
+                                     ///< the diameter of the grains' mean volume
+    double floor;  ///< height of the bottom of a given bed that has none of its own [m]
+    double gap;    ///< grains this close touch [m]
+    double core;   ///< grain sizes from the side walls
+    bool local;    ///< porosity around each grain
+    int32_t rings; ///< of radial porosity
+    int64_t pores; ///< points
+    double fields; ///< width of their kernel [m]
+    bool chains;   ///< of forces
+} clast_bed_options;
+
+/// Tables without columns, NAN and an n of -1: not asked for, or not known.
+typedef struct clast_bed_findings {
+    clast_bed bed; ///< as it was measured: with its floor; a part of the packing where pores are
+                   ///< asked for and more than a hundredth of the solid lies beyond its sides
+    clast_bed_options options; ///< as they were used: with the layer
+    clast_porosity_bulk bulk;
+    clast_bed_walls walls;
+    clast_bed_beyond beyond; ///< of given beds with side walls
+    double outside;          ///< clast_bed_outside, of the same
+    clast_porosity_core core;
+    int32_t n_overlap; ///< of clast_assembly_overlaps, where contacts are not known and nothing is
+                       ///< sheared; depth [m] and share by the smaller grain's radius likewise
+    double max_overlap, max_overlap_share;
+    double mean_coordination;
+    bool knows_contacts; ///< the run does, with their forces
+    clast_table profile, coordination, fabric, local, radial;
+    clast_table stress, stress_profile; ///< where forces are known; not of a part of a packing
+    clast_table fields, chains;
+    clast_pores pores;
+} clast_bed_findings;
+
+/// Frees the tables; may be called twice.
+CLAST_API void clast_bed_findings_free(clast_bed_findings *findings);
+
+/// Everything that clast porosity measures of one bed.
+///
+/// Moves the grains of a periodic bed into it and with a gap finds their contacts, also where it
+/// fails later.
+///
+/// @param findings  must be empty; written only on success. Its bed borrows the surface
+/// @return CLAST_E_GEOMETRY for a bed that holds more solid than its volume, and for a given one
+///         that is not what holds the grains: more than a hundredth of the solid lies beyond its
+///         sides (pores: then it is a part of the packing) or in its images, or its period is not
+///         the run's; CLAST_E_USAGE for what the bed does not have or does not know, before the
+///         work; CLAST_E_ARGUMENT for options that cannot be; or as each of the measures
+CLAST_API clast_status clast_bed_measure(clast_assembly *assembly, const clast_bed_known *known,
+                                         const clast_bed_options *options,
+                                         clast_bed_findings *findings);
 
 CLAST_END

@@ -66,7 +66,8 @@ CLAST_API clast_status clast_run_inputs_agree(const clast_comm *comm, const clas
 //              command and cut off with nothing but its manifest written
 //     manifest, input: what the run is and what it reads
 //     open     makes the folder; from here on it holds a run that has not ended
-//     path     where the files go, summary.json last
+//     path     where the files go
+//     summary  the last of them
 //     end      done, stopped or failed
 //
 // With force the new run is made in FOLDER.new and changes places with the old one when it has
@@ -104,6 +105,9 @@ CLAST_API const char *clast_run_folder_path(const clast_run_folder *run);
 /// The path of a file in it.
 CLAST_API clast_status clast_run_folder_file(const clast_run_folder *run, const char *name,
                                              char path[CLAST_RUN_PATH]);
+
+/// Writes its summary.json, whole or not at all: a text of JSON and a newline. CLAST_E_DISK.
+CLAST_API clast_status clast_run_folder_summary(const clast_run_folder *run, const char *text);
 
 /// Ends the run with the status of its work, which is returned (CLAST_OK: or why the folder could
 /// not be closed). A run that was not opened leaves nothing.

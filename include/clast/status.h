@@ -17,6 +17,12 @@
 #define CLAST_END
 #endif
 
+/// The release of these headers. Until 1.0 each minor one may change the interface, so a program
+/// and its library agree in both numbers; clast_version() tells the library's.
+#define CLAST_VERSION_MAJOR 0
+#define CLAST_VERSION_MINOR 2
+#define CLAST_VERSION_TEXT  "0.2.0"
+
 #define CLAST_API __attribute__((visibility("default")))
 #define CLAST_PI  3.14159265358979323846
 
@@ -69,7 +75,7 @@ CLAST_API const char *clast_error_detail(void);
 /// @return out
 CLAST_API const char *clast_text_printable(const char *text, size_t size, char *out);
 
-/// Version text, "0.1.0".
+/// The library's CLAST_VERSION_TEXT: MAJOR.MINOR.PATCH.
 CLAST_API const char *clast_version(void);
 
 /// The source's commit, "8b3581966463", with "-dirty" where files had changed since; "unknown"

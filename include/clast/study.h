@@ -14,9 +14,9 @@ typedef struct clast_study_config {
     int32_t design;           ///< clast_study_design
     char *table;              ///< CSV of runs, its columns are keys; or ""
     int32_t seeds;            ///< realisations of each run
-    uint64_t seed;            ///< of the first realisation; then one more each
-    clast_text_list keep;     ///< keys of the runs' results to tabulate; none: every number
-    char *shard;              ///< "K/N": this call does every N-th run from the K-th; or ""
+    int64_t seed; ///< of the first realisation, then one more each; -1: that of `config`, else 1
+    clast_text_list keep; ///< keys of the runs' results to tabulate; none: every number
+    char *shard;          ///< "K/N": this call does every N-th run from the K-th; or ""
 } clast_study_config;
 
 /// Values of several `vary` entries: all combinations (the last varies fastest), or one by one.
@@ -68,6 +68,17 @@ typedef struct clast_study_report {
     int32_t first_unknown; ///< the first of them, as an index into `keep`
     int64_t n_unconverged; ///< of all that are whole: did not converge (exit code 5)
 } clast_study_report;
+
+/// What became of the runs of a study.
+typedef struct clast_study_outcomes {
+    int64_t n_run;         ///< of the plan
+    int64_t n_done;        ///< that ended with an answer: exit code 0, 1 or 5
+    int64_t n_failed;      ///< that ended otherwise; they are tried again
+    int64_t n_unconverged; ///< of those done: exit code 5
+} clast_study_outcomes;
+
+/// Counts the runs of a study's results.csv; those without an exit code are open.
+CLAST_API clast_status clast_study_count(const clast_table *results, clast_study_outcomes *count);
 
 /// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.
 ///

@@ -9,7 +9,7 @@ __all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "STUDIED", "TABLES", "VALUE
 
 _ = (c_char, c_float, c_uint32)
 
-VERSION = '0.1.0'
+VERSION = '0.2.0'
 
 
 class clast_population(Structure):
@@ -508,6 +508,14 @@ class clast_mean(Structure):
     """Mean of a few values and how well it is known."""
 
 
+class clast_bed_known(Structure):
+    """A bed that is measured, and what is known of it; all is borrowed, and may be NULL but for bed."""
+
+
+class clast_bed_options(Structure):
+    """What is measured beside profile, bulk, side walls, overlaps and fabric; 0: not."""
+
+
 class clast_form_inputs(Structure):
     """What is known about the grains of a bed."""
 
@@ -656,6 +664,10 @@ class clast_study_report(Structure):
     """clast_study_report."""
 
 
+class clast_study_outcomes(Structure):
+    """What became of the runs of a study."""
+
+
 class clast_column(Structure):
     """A column: numbers or texts, with a unit ("m", "-", "kg/m^3")."""
 
@@ -770,6 +782,10 @@ class clast_pairs(Structure):
 
 class clast_pores(Structure):
     """clast_pores."""
+
+
+class clast_bed_findings(Structure):
+    """Tables without columns, NAN and an n of -1: not asked for, or not known."""
 
 
 class clast_fit_data(Structure):
@@ -1566,6 +1582,8 @@ clast_axes._fields_ = [
 clast_grain._fields_ = [
     ('volume', c_double),
     ('area', c_double),
+    ('pore_volume', c_double),
+    ('pore_area', c_double),
     ('centroid', (c_double * 3)),
     ('inertia', ((c_double * 3) * 3)),
     ('moments', (c_double * 3)),
@@ -1744,6 +1762,7 @@ clast_hit._fields_ = [
 ]
 clast_mesh_read_report._fields_ = [
     ('format', c_int),
+    ('unit', (c_char * 16)),
     ('is_binary', c_bool),
     ('is_big_endian', c_bool),
     ('n_byte', c_int64),
@@ -1808,6 +1827,7 @@ clast_mesh_check_result._fields_ = [
     ('n_misoriented_edge', c_int32),
     ('n_inside_out', c_int32),
     ('n_nested', c_int32),
+    ('n_flat', c_int32),
     ('n_degenerate', c_int32),
     ('n_duplicate', c_int32),
     ('n_unused_vertex', c_int32),
@@ -2082,6 +2102,24 @@ clast_mean._fields_ = [
     ('deviation', c_double),
     ('low', c_double),
     ('high', c_double),
+]
+clast_bed_known._fields_ = [
+    ('bed', POINTER(clast_bed)),
+    ('is_own', c_bool),
+    ('own', POINTER(clast_bed)),
+    ('contacts', POINTER(clast_table)),
+    ('velocities', POINTER(clast_table)),
+]
+clast_bed_options._fields_ = [
+    ('porosity', clast_porosity_options),
+    ('floor', c_double),
+    ('gap', c_double),
+    ('core', c_double),
+    ('local', c_bool),
+    ('rings', c_int32),
+    ('pores', c_int64),
+    ('fields', c_double),
+    ('chains', c_bool),
 ]
 clast_form_inputs._fields_ = [
     ('n_grain', c_int64),
@@ -2373,7 +2411,7 @@ clast_study_config._fields_ = [
     ('design', c_int32),
     ('table', c_char_p),
     ('seeds', c_int32),
-    ('seed', c_uint64),
+    ('seed', c_int64),
     ('keep', clast_text_list),
     ('shard', c_char_p),
 ]
@@ -2401,6 +2439,12 @@ clast_study_report._fields_ = [
     ('first_failed', c_int64),
     ('n_unknown', c_int32),
     ('first_unknown', c_int32),
+    ('n_unconverged', c_int64),
+]
+clast_study_outcomes._fields_ = [
+    ('n_run', c_int64),
+    ('n_done', c_int64),
+    ('n_failed', c_int64),
     ('n_unconverged', c_int64),
 ]
 clast_column._fields_ = [
@@ -2874,6 +2918,30 @@ clast_pores._fields_ = [
     ('mean', c_double),
     ('sizes', clast_table),
 ]
+clast_bed_findings._fields_ = [
+    ('bed', clast_bed),
+    ('options', clast_bed_options),
+    ('bulk', clast_porosity_bulk),
+    ('walls', clast_bed_walls),
+    ('beyond', clast_bed_beyond),
+    ('outside', c_double),
+    ('core', clast_porosity_core),
+    ('n_overlap', c_int32),
+    ('max_overlap', c_double),
+    ('max_overlap_share', c_double),
+    ('mean_coordination', c_double),
+    ('knows_contacts', c_bool),
+    ('profile', clast_table),
+    ('coordination', clast_table),
+    ('fabric', clast_table),
+    ('local', clast_table),
+    ('radial', clast_table),
+    ('stress', clast_table),
+    ('stress_profile', clast_table),
+    ('fields', clast_table),
+    ('chains', clast_table),
+    ('pores', clast_pores),
+]
 clast_fit_data._fields_ = [
     ('kind', c_int),
     ('beds', clast_table),
@@ -3005,8 +3073,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_grading_match': (72, {'n': (0, 8), 'distance_mass': (8, 8), 'distance_number': (16, 8), 'achieved_d10': (24, 8), 'achieved_d50': (32, 8), 'achieved_d90': (40, 8), 'wanted_d10': (48, 8), 'wanted_d50': (56, 8), 'wanted_d90': (64, 8)}),
     'clast_grading_list': (32, {'n_row': (0, 8), 'total': (8, 8), 'column': (16, 8), 'ignored': (24, 8)}),
     'clast_axes': (96, {'lis': (0, 24), 'direction': (24, 72)}),
-    'clast_grain': (736, {'volume': (0, 8), 'area': (8, 8), 'centroid': (16, 24), 'inertia': (40, 72), 'moments': (112, 24), 'axes': (136, 480), 'hull_volume': (616, 8), 'hull_area': (624, 8), 'longest': (632, 8), 'shortest': (640, 8), 'sphericity': (648, 8), 'convexity': (656, 8), 'roundness': (664, 8), 'roundness_deviation': (672, 8), 'n_outline': (680, 4), 'normal_roundness': (688, 8), 'angularity': (696, 8), 'projected_mean': (704, 8), 'projected_least': (712, 8), 'projected_greatest': (720, 8), 'hull_volume_added': (728, 8)}),
-    'clast_grain_record': (800, {'name': (0, 8), 'kind': (8, 4), 'has_surface': (12, 1), 'has_size': (13, 1), 'n_voxel': (16, 8), 'is_smoothed': (24, 1), 'in_metres': (25, 1), 'mixes_units': (26, 1), 'unit_m': (32, 8), 'degree': (40, 4), 'power_last': (48, 8), 'power_cut': (56, 8), 'grain': (64, 736)}),
+    'clast_grain': (752, {'volume': (0, 8), 'area': (8, 8), 'pore_volume': (16, 8), 'pore_area': (24, 8), 'centroid': (32, 24), 'inertia': (56, 72), 'moments': (128, 24), 'axes': (152, 480), 'hull_volume': (632, 8), 'hull_area': (640, 8), 'longest': (648, 8), 'shortest': (656, 8), 'sphericity': (664, 8), 'convexity': (672, 8), 'roundness': (680, 8), 'roundness_deviation': (688, 8), 'n_outline': (696, 4), 'normal_roundness': (704, 8), 'angularity': (712, 8), 'projected_mean': (720, 8), 'projected_least': (728, 8), 'projected_greatest': (736, 8), 'hull_volume_added': (744, 8)}),
+    'clast_grain_record': (816, {'name': (0, 8), 'kind': (8, 4), 'has_surface': (12, 1), 'has_size': (13, 1), 'n_voxel': (16, 8), 'is_smoothed': (24, 1), 'in_metres': (25, 1), 'mixes_units': (26, 1), 'unit_m': (32, 8), 'degree': (40, 4), 'power_last': (48, 8), 'power_cut': (56, 8), 'grain': (64, 752)}),
     'clast_grain_fault': (16, {'status': (0, 4), 'text': (8, 8)}),
     'clast_grains': (48, {'n': (0, 8), 'record': (8, 8), 'n_fault': (16, 8), 'fault': (24, 8), 'n_note': (32, 8), 'note': (40, 8)}),
     'clast_harmonics': (16, {'degree': (0, 4), 'coefficient': (8, 8)}),
@@ -3025,11 +3093,11 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh': (24, {'n_vert': (0, 4), 'n_tri': (4, 4), 'vert': (8, 8), 'tri': (16, 8)}),
     'clast_mass': (104, {'volume': (0, 8), 'centroid': (8, 24), 'inertia': (32, 72)}),
     'clast_hit': (40, {'t': (0, 8), 'tri': (8, 4), 'bary': (16, 24)}),
-    'clast_mesh_read_report': (1368, {'format': (0, 4), 'is_binary': (4, 1), 'is_big_endian': (5, 1), 'n_byte': (8, 8), 'n_trailing': (16, 8), 'n_part': (24, 4), 'n_facet': (32, 8), 'n_polygon': (40, 4), 'n_concave': (44, 4), 'n_crossing': (48, 4), 'n_short': (52, 4), 'n_repeated': (56, 4), 'n_zero_normal': (60, 4), 'n_wrong_normal': (64, 4), 'n_ignored': (72, 8), 'n_warning': (80, 4), 'warning': (84, 1280)}),
+    'clast_mesh_read_report': (1384, {'format': (0, 4), 'unit': (4, 16), 'is_binary': (20, 1), 'is_big_endian': (21, 1), 'n_byte': (24, 8), 'n_trailing': (32, 8), 'n_part': (40, 4), 'n_facet': (48, 8), 'n_polygon': (56, 4), 'n_concave': (60, 4), 'n_crossing': (64, 4), 'n_short': (68, 4), 'n_repeated': (72, 4), 'n_zero_normal': (76, 4), 'n_wrong_normal': (80, 4), 'n_ignored': (88, 8), 'n_warning': (96, 4), 'warning': (100, 1280)}),
     'clast_mesh_write_options': (24, {'format': (0, 4), 'unit': (8, 8), 'name': (16, 8)}),
     'clast_mesh_part': (96, {'n_triangle': (0, 4), 'n_open_edge': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'inside_out': (11, 1), 'genus': (12, 4), 'depth': (16, 4), 'outermost': (20, 4), 'winding': (24, 4), 'volume': (32, 8), 'area': (40, 8), 'low': (48, 24), 'high': (72, 24)}),
     'clast_mesh_fault': (385, {'blocking': (0, 1), 'code': (1, 24), 'text': (25, 360)}),
-    'clast_mesh_check_result': (6360, {'n_vertex': (0, 4), 'n_triangle': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'n_edge': (12, 4), 'n_part': (16, 4), 'n_doubled': (20, 4), 'part': (24, 8), 'euler': (32, 8), 'genus': (40, 4), 'n_open_edge': (44, 4), 'n_open_loop': (48, 4), 'n_repeated': (52, 4), 'largest_hole': (56, 8), 'n_nonmanifold_edge': (64, 4), 'n_nonmanifold_vertex': (68, 4), 'n_misoriented_edge': (72, 4), 'n_inside_out': (76, 4), 'n_nested': (80, 4), 'n_degenerate': (84, 4), 'n_duplicate': (88, 4), 'n_unused_vertex': (92, 4), 'n_intersection': (96, 8), 'n_touch': (104, 8), 'intersection_complete': (112, 1), 'intersection': (116, 8), 'n_body': (124, 4), 'extent': (128, 8), 'volume': (136, 8), 'volume_divergence': (144, 8), 'volume_spread': (152, 8), 'area': (160, 8), 'area_heron': (168, 8), 'hull_volume': (176, 8), 'weld_tolerance': (184, 8), 'n_open_after_weld': (192, 4), 'n_fault': (196, 4), 'fault': (200, 6160)}),
+    'clast_mesh_check_result': (6368, {'n_vertex': (0, 4), 'n_triangle': (4, 4), 'closed': (8, 1), 'oriented': (9, 1), 'manifold': (10, 1), 'n_edge': (12, 4), 'n_part': (16, 4), 'n_doubled': (20, 4), 'part': (24, 8), 'euler': (32, 8), 'genus': (40, 4), 'n_open_edge': (44, 4), 'n_open_loop': (48, 4), 'n_repeated': (52, 4), 'largest_hole': (56, 8), 'n_nonmanifold_edge': (64, 4), 'n_nonmanifold_vertex': (68, 4), 'n_misoriented_edge': (72, 4), 'n_inside_out': (76, 4), 'n_nested': (80, 4), 'n_flat': (84, 4), 'n_degenerate': (88, 4), 'n_duplicate': (92, 4), 'n_unused_vertex': (96, 4), 'n_intersection': (104, 8), 'n_touch': (112, 8), 'intersection_complete': (120, 1), 'intersection': (124, 8), 'n_body': (132, 4), 'extent': (136, 8), 'volume': (144, 8), 'volume_divergence': (152, 8), 'volume_spread': (160, 8), 'area': (168, 8), 'area_heron': (176, 8), 'hull_volume': (184, 8), 'weld_tolerance': (192, 8), 'n_open_after_weld': (200, 4), 'n_fault': (204, 4), 'fault': (208, 6160)}),
     'clast_mesh_repair_config': (56, {'weld': (0, 4), 'weld_tolerance': (8, 8), 'drop': (16, 1), 'split': (17, 1), 'split_tolerance': (24, 8), 'loose': (32, 1), 'orient': (33, 1), 'fill': (34, 1), 'fill_size': (40, 8), 'separate': (48, 1), 'unite': (49, 1), 'keep': (52, 4)}),
     'clast_mesh_repair_report': (104, {'n_merged': (0, 4), 'weld_distance': (8, 8), 'n_collapsed': (16, 4), 'n_degenerate': (20, 4), 'n_duplicate': (24, 4), 'n_split': (28, 4), 'n_loose': (32, 4), 'n_turned': (36, 4), 'n_conflict': (40, 4), 'n_hole_filled': (44, 4), 'n_fill_triangle': (48, 4), 'n_hole_left': (52, 4), 'n_separated': (56, 4), 'n_part_dropped': (60, 4), 'n_triangle_before': (64, 4), 'n_triangle_after': (68, 4), 'volume_before': (72, 8), 'volume_after': (80, 8), 'area_before': (88, 8), 'area_after': (96, 8)}),
     'clast_mesh_deviation': (40, {'forward': (0, 8), 'backward': (8, 8), 'hausdorff': (16, 8), 'mean': (24, 8), 'n_sample': (32, 8)}),
@@ -3052,6 +3120,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_radial_options': (12, {'method': (0, 4), 'n_ring': (4, 4), 'n_point': (8, 4)}),
     'clast_pore_options': (40, {'n_point': (0, 8), 'n_bin': (8, 4), 'period': (16, 24)}),
     'clast_mean': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
+    'clast_bed_known': (40, {'bed': (0, 8), 'is_own': (8, 1), 'own': (16, 8), 'contacts': (24, 8), 'velocities': (32, 8)}),
+    'clast_bed_options': (96, {'porosity': (0, 40), 'floor': (40, 8), 'gap': (48, 8), 'core': (56, 8), 'local': (64, 1), 'rings': (68, 4), 'pores': (72, 8), 'fields': (80, 8), 'chains': (88, 1)}),
     'clast_form_inputs': (1104, {'n_grain': (0, 8), 'has_deviation': (8, 1), 'is_independent': (9, 1), 'flatness_mean': (16, 8), 'flatness_deviation': (24, 8), 'elongation_mean': (32, 8), 'elongation_deviation': (40, 8), 'equancy_mean': (48, 8), 'equancy_deviation': (56, 8), 'single': (64, 208), 'mixture': (272, 832)}),
     'clast_model_term': (24, {'feature': (0, 8), 'coefficient': (8, 8), 'unit': (16, 8)}),
     'clast_model_range': (24, {'feature': (0, 8), 'low': (8, 8), 'high': (16, 8)}),
@@ -3089,6 +3159,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_study_item': (32, {'row': (0, 8), 'folder': (8, 8), 'n_argument': (16, 4), 'argument': (24, 8)}),
     'clast_study_worker': (40, {'has_folder': (0, 1), 'has_seed': (1, 1), 'has_resume': (2, 1), 'start': (8, 8), 'wait': (16, 8), 'stop': (24, 8), 'context': (32, 8)}),
     'clast_study_report': (64, {'n_run': (0, 8), 'n_before': (8, 8), 'n_done': (16, 8), 'n_failed': (24, 8), 'n_other': (32, 8), 'first_failed': (40, 8), 'n_unknown': (48, 4), 'first_unknown': (52, 4), 'n_unconverged': (56, 8)}),
+    'clast_study_outcomes': (32, {'n_run': (0, 8), 'n_done': (8, 8), 'n_failed': (16, 8), 'n_unconverged': (24, 8)}),
     'clast_column': (32, {'name': (0, 8), 'unit': (8, 8), 'number': (16, 8), 'text': (24, 8)}),
     'clast_table': (32, {'name': (0, 8), 'n_column': (8, 4), 'n_row': (16, 8), 'column': (24, 8)}),
     'clast_csv_options': (8, {'separator': (0, 1), 'comment': (1, 1), 'no_comment': (2, 1), 'header': (4, 4)}),
@@ -3118,6 +3189,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
+    'clast_bed_findings': (696, {'bed': (0, 96), 'options': (96, 96), 'bulk': (192, 40), 'walls': (232, 24), 'beyond': (256, 24), 'outside': (280, 8), 'core': (288, 32), 'n_overlap': (320, 4), 'max_overlap': (328, 8), 'max_overlap_share': (336, 8), 'mean_coordination': (344, 8), 'knows_contacts': (352, 1), 'profile': (360, 32), 'coordination': (392, 32), 'fabric': (424, 32), 'local': (456, 32), 'radial': (488, 32), 'stress': (520, 32), 'stress_profile': (552, 32), 'fields': (584, 32), 'chains': (616, 32), 'pores': (648, 48)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
     'clast_porosity_fit': (288, {'model': (0, 128), 'ranking': (128, 32), 'trials': (160, 32), 'terms': (192, 32), 'rows': (224, 32), 'n_removed': (256, 4), 'condition': (264, 8), 'r2_held_out': (272, 8), 'p_value': (280, 8)}),
     'clast_decomposition': (5472, {'n': (0, 8), 'n_outside': (8, 8), 'n_here': (16, 8), 'n_test': (24, 8), 'dimension': (32, 4), 'n_capped': (36, 4), 'before': (40, 232), 'n_pass': (272, 4), 'pass': (280, 4608), 'stop': (4888, 4), 'cells': (4896, 128), 'events': (5024, 8), 'events_low': (5032, 8), 'events_high': (5040, 8), 'points_needed': (5048, 8), 'events_cross': (5056, 8), 'points_per_bin': (5064, 8), 'search': (5072, 32), 'cells_bias': (5104, 8), 'bias_estimate': (5112, 8), 'smoothing_bias': (5120, 8), 'beta_dt': (5128, 8), 'volume': (5136, 8), 'seed': (5144, 8), 'pairs': (5152, 168), 'events_by_cells': (5320, 32), 'events_by_pairs': (5352, 32), 'estimator': (5384, 4), 'within': (5392, 72), 'disagree': (5464, 1), 'resolved': (5465, 1), 'keeps_apart': (5466, 1), 'has_drawn': (5467, 1)}),
@@ -3658,8 +3730,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cloud_alloc': (c_int, [c_int64, c_int32, POINTER(clast_cloud)], 'Room for n points, zeroed; `cloud` must be empty.'),
     'clast_cloud_free': (None, [POINTER(clast_cloud)], 'Frees the arrays; may be called twice.'),
     'clast_cloud_column': (c_int, [POINTER(clast_table), c_char_p, POINTER(POINTER(c_double))], 'Numbers of the named column; *column is NULL for a name that is empty or NULL.'),
-    'clast_cloud_column_factor': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Factor that takes the named column\'s numbers to SI by the unit that its name tells: in brackets anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); 1 of a name that is empty or tells none.'),
-    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s", radii and diameters also "d (phi)") is converted; see clast_cloud_column_factor.'),
+    'clast_cloud_column_si': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Takes numbers of the named column to SI by the unit that its name tells: in brackets anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); they stay what they are where it is empty or tells none.'),
+    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s", radii and diameters also "d (phi)") is converted; see clast_cloud_column_si.'),
+    'clast_cloud_unread_weight': (c_char_p, [POINTER(clast_table), POINTER(clast_cloud_columns)], 'The name of the first column that holds weights by it ("weight", "stat_weight", "statistical_weight", "parcel_weight", "n_real", "multiplicity"), some of which are not 1, where `columns` names no column of weights: each row is one particle then.'),
     'clast_cloud_repeated': (c_int, [POINTER(clast_cloud), POINTER(c_int64)], 'Points that have the very coordinates of an earlier one; O(n).'),
     'clast_cloud_repeated_ranks': (c_int, [POINTER(clast_cloud), POINTER(clast_comm), POINTER(c_int64)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
@@ -3791,7 +3864,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_form_law_cut': (clast_form_law_moments, [POINTER(clast_form_law)], 'Moments of the law as it is drawn from, cut to its range.'),
     'clast_row_fault_text': (c_char_p, [c_int], '"missing", "not a number", .'),
     'clast_form_columns_named': (c_bool, [c_char_p], 'Whether the names of a list "a,b" (flatness, elongation) or "a,b,c" (L, I, S) are a form\'s by their words, each that of its place: "flatness_mean,elongation_mean", "mean L,mean I,mean S" or "L_mm,I_mm,S_mm", not "sand,mu" or "length,width,time_s"; a letter counts at the beginning of a name, and as a capital at its end.'),
-    'clast_form_set_named': (c_bool, [POINTER(clast_table)], 'Whether the columns of a table are named as those of forms, whatever is in them.'),
+    'clast_form_set_named': (c_bool, [POINTER(clast_table)], 'Whether the columns of a table are named as those of forms, whatever is in them; false of NULL.'),
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
     'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
@@ -3904,6 +3977,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_write_idle': (POINTER(clast_idle), [c_int, POINTER(clast_idle)], 'The option `name` where a file of this format names no part (clast_fields_idle).'),
     'clast_mesh_check': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_check_result)], 'What is this surface, and can it be trusted? The counts are exact for the mesh as it is: vertices are the same only when their numbers are.'),
     'clast_mesh_check_free': (None, [POINTER(clast_mesh_check_result)], 'Frees what clast_mesh_check found; may be called twice.'),
+    'clast_mesh_check_doubles': (None, [POINTER(clast_mesh_check_result), c_size_t, c_char_p], 'What counts twice, or may, in the volume of a closed surface, or is no volume but counts in its area: "it cuts itself at 6 pairs of triangles; its volume counts overlaps twice", "" where nothing does.'),
     'clast_mesh_check_passed': (c_bool, [POINTER(clast_mesh_check_result)], 'Closed, oriented and manifold, and not flat: no blocking fault.'),
     'clast_mesh_weld': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_mesh), POINTER(c_int32)], 'Merges vertices nearer than `tolerance` times the extent (the diagonal of the box), drops triangles that collapse and vertices that nothing uses.'),
     'clast_mesh_repair_idle': (POINTER(clast_idle), [POINTER(clast_mesh_repair_config), POINTER(clast_idle)], 'The fields that a repair by the others does not look at (clast_fields_idle).'),
@@ -3957,7 +4031,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
     'clast_bed_side_walls': (clast_bed_walls, [POINTER(clast_bed), POINTER(clast_assembly)], 'NAN throughout for beds or assemblies that do not hold together.'),
     'clast_bed_beyond_measure': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_porosity_bulk), c_int, POINTER(clast_bed_beyond)], 'Between the heights of the bulk.'),
-    'clast_bed_outside': (c_int, [POINTER(clast_bed), POINTER(clast_bed), POINTER(c_double), POINTER(c_double)], "Share of a bed's room between two heights that lies outside another bed, by 20,000 even points: what a run's own bed does not hold has no grains, and would count as pores."),
+    'clast_bed_outside': (c_int, [POINTER(clast_bed), POINTER(clast_bed), POINTER(c_double), POINTER(c_double)], "Share of a bed's volume between two heights that lies outside another bed, by 20,000 even points: what a run's own bed does not hold has no grains, and would count as pores."),
     'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_options), POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
     'clast_bed_read': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], "The bed that a run's state file keeps."),
     'clast_bed_load': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], '"mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse takes.'),
@@ -3972,6 +4046,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_stress_profile': (c_int, [POINTER(clast_table), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_table)], 'The same in the slices of a porosity profile: z_low_m, z_high_m, stress_xx_Pa, .'),
     'clast_bed_fields': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_table), POINTER(clast_table), c_double, POINTER(clast_table)], 'Continuum fields from grains and contacts on a grid [Goldhirsch2010], exact at walls [Weinhart2012]: a row a cell, x fastest, with the mean of each field over the cell.'),
     'clast_bed_chains': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_table), POINTER(clast_table)], "Contacts as lines from a's centre to b's, or to a wall, and which are links of a force chain: of three grains or more whose greatest principal pressure is above the mean of all, within 45 degrees of its direction."),
+    'clast_bed_findings_free': (None, [POINTER(clast_bed_findings)], 'Frees the tables; may be called twice.'),
+    'clast_bed_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed_known), POINTER(clast_bed_options), POINTER(clast_bed_findings)], 'Everything that clast porosity measures of one bed.'),
     'clast_model_kind_name': (c_char_p, [c_int], '"single_form", "form_mixture", "columns" .'),
     'clast_mixture_feature_name': (c_bool, [c_int32, c_size_t, c_char_p], 'Name of feature 0 .'),
     'clast_mixture_feature_find': (c_int32, [c_char_p], 'Number of the named feature, or -1.'),
@@ -4025,6 +4101,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_run_folder_open': (c_int, [c_void_p], 'Makes the folder and its manifest.json ("running").'),
     'clast_run_folder_path': (c_char_p, [c_void_p], "The folder that the run's files go to; borrowed."),
     'clast_run_folder_file': (c_int, [c_void_p, c_char_p, c_char_p], 'The path of a file in it.'),
+    'clast_run_folder_summary': (c_int, [c_void_p, c_char_p], 'Writes its summary.json, whole or not at all: a text of JSON and a newline.'),
     'clast_run_folder_end': (c_int, [c_void_p, c_int], 'Ends the run with the status of its work, which is returned (CLAST_OK: or why the folder could not be closed).'),
     'clast_run_folder_check': (c_int, [c_char_p], 'For readers: CLAST_OK when the folder holds a whole run, or a study, else CLAST_E_IO with one line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN" .'),
     'clast_run_folder_owns': (c_bool, [c_char_p], 'Whether an existing file is part of a run: its folder, or one above it, holds the run that wrote it.'),
@@ -4089,10 +4166,11 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_status_exit_code': (c_int, [c_int], 'Exit code of a command that ends with this status (0 to 5, 130); DESIGN section 3.'),
     'clast_error_detail': (c_char_p, [], "The calling thread's last error in one line: what, where, how many, what to do."),
     'clast_text_printable': (c_char_p, [c_char_p, c_size_t, c_char_p], 'A text as a terminal, a table or a picture may show it: control characters and bytes that are not UTF-8 become //xNN.'),
-    'clast_version': (c_char_p, [], 'Version text, "0.1.0" .'),
+    'clast_version': (c_char_p, [], "The library's CLAST_VERSION_TEXT: MAJOR.MINOR.PATCH."),
     'clast_source': (c_char_p, [], 'The source\'s commit, "8b3581966463", with "-dirty" where files had changed since; "unknown" where there was neither a repository nor an archive\'s commit.'),
     'clast_outputs_abandon': (None, [], 'Removes the temporary files of all outputs under way, of every thread.'),
     'clast_study_plan': (c_int, [POINTER(clast_study_config), POINTER(clast_table)], 'The runs as a table: number column `run` (from 1), a text column for each varied key, number column `seed`.'),
+    'clast_study_count': (c_int, [POINTER(clast_table), POINTER(clast_study_outcomes)], "Counts the runs of a study's results.csv; those without an exit code are open."),
     'clast_study_run': (c_int, [POINTER(clast_study_config), c_char_p, POINTER(clast_study_worker), POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_study_report)], 'Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.'),
     'clast_table_init': (c_int, [POINTER(clast_table), c_char_p, c_int64], 'Empty table of n_row rows with a name.'),
     'clast_table_free': (None, [POINTER(clast_table)], '.'),
@@ -4147,7 +4225,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'weld_tolerance': ('number', 1e-06, '-', 0.0, 0.1, None, 'for weld within: times the extent'),
     },
     'mesh convert': {
-        'unit': ('text', '', '-', None, None, None, "length unit of the input's coordinates"),
+        'unit': ('text', '', '-', None, None, None, "length unit of the input's coordinates; that of its header when clast wrote one"),
         'out_unit': ('text', '', '-', None, None, None, "unit of the output's coordinates; that of the input when not given"),
         'scale': ('number', 1.0, '-', 1e-100, 1e+100, None, 'factor on all lengths'),
         'name': ('text', '', '-', None, None, None, 'name of the part, told in an STL, OBJ or 3MF'),
@@ -4194,7 +4272,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'decay': ('number', 3.0, '-', 0.0, 10.0, None, 'coefficients of degree n fall as n^-decay: larger is smoother'),
         'degrees': ('integer', 12.0, '-', 3.0, 64.0, None, 'greatest degree of the spherical harmonics'),
         'faces': ('integer', 300.0, '-', 8.0, 100000.0, None, 'at most so many triangles'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'seed of form and roughness'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of form and roughness'),
     },
     'shape': {
         'axes': ('choice', 'ellipsoid', '-', None, None, 'ellipsoid|box|fitted|feret|principal', 'definition of L, I and S behind D and the form factors'),
@@ -4216,7 +4294,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'surfaces': ('text', '', 'output', None, None, None, "write each grain's surface (or hull) as PLY into this folder"),
         'statistics': ('text', '', 'output', None, None, None, 'write statistics of the set into this folder: tables, Zingg diagram, histograms, correlation, principal components'),
         'resamples': ('integer', 2000.0, '-', 0.0, 1000000.0, None, 'statistics: bootstrap resamples for the intervals'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'statistics: random numbers of the resamples'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'statistics: random numbers of the resamples'),
         'force': ('flag', False, '-', None, None, None, "replace an earlier run in the results' folder, once the new one has succeeded"),
     },
     'grading': {
@@ -4225,7 +4303,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'sample': ('integer', 0.0, '-', 0.0, 100000000.0, None, 'sizes to draw; -o FILE.csv or .json keeps them'),
         'chart': ('text', '', 'output', None, None, None, 'draw mass and number passing, wanted and achieved, into this .svg, .pdf or .png'),
         'compare': ('text', '', '-', None, None, None, 'file of grain sizes to set beside the curve instead (column with its unit, diameter_m)'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'seed of the draws'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of the draws'),
         'mass': ('number', 0.0, 'kg', 0.0, 1000000000000.0, None, 'mass to count grains for; 0: shares only'),
         'density': ('number', 2650.0, 'kg/m^3', 0.001, 1000000.0, None, 'of the grains'),
         'grain_volume': ('number', 0.5235987755982988, '-', 1e-06, 100.0, None, "volume of a grain by the cube of its sieve size: pi/6 as the paper, or the shapes' mean"),
@@ -4249,7 +4327,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'overlap': ('flag', False, '-', None, None, None, 'spheres may overlap: a clump'),
         'protrusion': ('number', 0.0, '-', 0.0, 0.9, None, 'overlap: share of its radius by which a sphere may poke out'),
         'allow_open': ('flag', False, '-', None, None, None, 'accept a surface with large holes; they are capped'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'seed of the random draws'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of the random draws'),
         'name': ('text', '', '-', None, None, None, "name of the sphere set; none: the input file's"),
         'history': ('text', '', 'output', None, None, None, 'write the errors after each sphere to this CSV'),
     },
@@ -4325,7 +4403,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'n_final': ('integer', 1.0, '-', 1.0, 100000000.0, None, 'cluster mode: clusters left at the end'),
         'repeats': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'independent aggregates'),
         'confidence': ('number', 0.95, '-', 0.5, 0.9999, None, 'level of the intervals over repeats'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of every random number'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of every random number'),
         'checkpoint_every': ('integer', 200.0, '-', 1.0, 1000000000.0, None, 'particles between two checkpoints'),
         'picture': ('flag', True, '-', None, None, None, 'picture.png in the run folder'),
         'printable': ('flag', False, '-', None, None, None, 'printable.3mf, printable.stl (mm): one closed surface around all grains and their necks'),
@@ -4466,7 +4544,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'score': ('choice', 'mean', '-', None, None, 'mean|median', 'absolute error that decides: the mean (Tables 9, 10 of the paper) or the median'),
         'validation': ('choice', 'nested', '-', None, None, 'nested|published', 'features for a held-out bed: selected anew without it (nested), or with it, as in the paper (published), which makes the errors too small'),
         'n_permutation': ('integer', 199.0, '-', 0.0, 1000000.0, None, 'permutations of the porosities among the beds for p-values (0: none)'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'random numbers of folds and permutations'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'random numbers of folds and permutations'),
         'features': ('choice', 'auto', '-', None, None, 'auto|form|mixture|columns', "features to choose from; form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: mixture with --grains, else form where columns are named as a form's, else columns"),
         'grains': ('text', '', '-', None, None, None, "study folder, or table of all beds' grains, with a column that names the bed (--group)"),
         'name': ('text', 'fitted', '-', None, None, None, 'name of the model'),
@@ -4481,7 +4559,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'columns': ('text', '', '-', None, None, None, 'columns of the table: flatness,elongation or L,I,S (else known by their names)'),
         'each': ('flag', False, '-', None, None, None, 'every row is a bed of that single form: one prediction a row'),
         'resamples': ('integer', 500.0, '-', 0.0, 1000000.0, None, 'bootstrap resamples of the grains for the sampling error'),
-        'seed': ('integer', 1.0, '-', 0.0, 1.8e+19, None, 'random numbers'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'random numbers'),
         'force': ('flag', False, '-', None, None, None, "replace an earlier run in the results' folder, once the new one has succeeded"),
     },
     'decompose': {
@@ -4526,7 +4604,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'pairs': ('flag', False, '-', None, None, None, 'count pairs by distance: g(r), and events by pairs beside those by cells'),
         'pairs_radius': ('number', 0.0, 'm', 0.0, 1e+300, None, 'greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D'),
         'estimator': ('choice', 'auto', '-', None, None, 'cells|pairs|auto', 'what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of every draw (ghost points, samples, collisions)'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of every draw (ghost points, samples, collisions)'),
     },
     'agglomerate': {
         'columns': ('texts', 'x,y,z', '-', None, None, None, 'columns of the coordinates, as many as dimensions; x,y,z are found as x_m, x_mm, ... too; without a header they are column_1, column_2, ...'),
@@ -4631,7 +4709,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'tree_refine': ('flag', True, '-', None, None, None, 'give each cell of a tree that was split as the blocks its last test looked at'),
         'extrapolate': ('flag', True, '-', None, None, None, 'add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of cells'),
         'estimator': ('choice', 'auto', '-', None, None, 'cells|pairs|auto', 'what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'seed of every draw (ghost points, samples, collisions)'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of every draw (ghost points, samples, collisions)'),
     },
     'evolve': {
         'shapes': ('texts', 'sphere', '-', None, None, None, 'shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate (state.h5)'),
@@ -4693,7 +4771,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'rows': ('integer', 50.0, '-', 1.0, 1000000.0, None, 'rows of the tables over it'),
         'step_error': ('number', 0.05, '-', 1e-06, 0.5, None, "share of a meeting, of the height passed up or down (of the width too, where sides are not periodic) and of the density that a field changes, that a step may hold; and the most collisions of a pair's kind in a sub-step"),
         'time_step': ('number', 0.0, 's', 0.0, 1e+300, None, 'longest step; 0: by step_error'),
-        'seed': ('integer', 1.0, '-', 0.0, 0.0, None, 'of every draw'),
+        'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'of every draw'),
         'keep': ('integer', 20.0, '-', 0.0, 1000000.0, None, 'aggregates of most grains, each written as a state.h5 for clast pack --shapes'),
         'bed_width': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, each above its place (modulo the width) and those that came before; 0: none'),
         'frames': ('integer', 0.0, '-', 0.0, 1000000.0, None, 'a frame for ParaView at each so many rows; 0: none'),
@@ -4710,7 +4788,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'design': ('choice', 'grid', '-', None, None, 'grid|zip', 'values of several vary: all combinations, or first with first, second with second'),
         'table': ('text', '', '-', None, None, None, 'CSV with a run a row, a key a column'),
         'seeds': ('integer', 1.0, '-', 1.0, 1000000.0, None, 'realisations of each'),
-        'seed': ('integer', 1.0, '-', 0.0, 9007199254740992.0, None, 'seed of the first realisation, then one more each'),
+        'seed': ('integer', -1.0, '-', -1.0, 9007199253740992.0, None, 'seed of the first realisation (-1: that of the configuration, or 1), then one more each'),
         'keep': ('texts', '', '-', None, None, None, 'result to tabulate, a.b for b within a; none: every number but those of longer lists'),
         'shard': ('text', '', '-', None, None, None, 'K/N: do every N-th run from the K-th, for job arrays'),
     },

@@ -69,12 +69,15 @@ class Fixed:
         super().__setattr__(name, value)
 
 
+_INTERFACE = c.VERSION.rpartition(".")[0]  # of the soname
+
+
 def _candidates() -> Iterator[str]:
     if os.environ.get("CLAST_LIBRARY"):  # who names a file wants that one or none
         yield os.environ["CLAST_LIBRARY"]
         return
     yield from (str(p) for p in sorted(pathlib.Path(__file__).parent.glob("libclast_view.so*")))
-    yield from ("libclast_view.so.0", "libclast_view.so")  # whose handle finds the core's functions too
+    yield from (f"libclast_view.so.{_INTERFACE}", "libclast_view.so")  # whose handle finds the core's functions too
 
 
 def _load() -> ctypes.CDLL:
@@ -90,7 +93,7 @@ def _load() -> ctypes.CDLL:
         if version != c.VERSION:
             raise ImportError(f"clast: {name} is version {version}, this package is for {c.VERSION}; install both from one release")
         return library
-    raise ImportError(f"clast: no libclast_view.so ({reasons[-1]}); the wheel of clast brings it (pip install), as do the packages libclast-view0 "
+    raise ImportError(f"clast: no libclast_view.so ({reasons[-1]}); the wheel of clast brings it (pip install), as do the packages libclast-view{_INTERFACE} "
                       "(apt) and clast (conda), and make install of a clone; or set CLAST_LIBRARY to the file")
 
 

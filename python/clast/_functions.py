@@ -185,7 +185,7 @@ def aggregate(
         n_final: cluster mode: clusters left at the end (1 to 1e+08; default 1)
         repeats: independent aggregates (1 to 1e+06; default 1)
         confidence: level of the intervals over repeats (0.5 to 0.9999; default 0.95)
-        seed: seed of every random number (default 1)
+        seed: seed of every random number (at least 0; default 1)
         checkpoint_every: particles between two checkpoints (1 to 1e+09; default 200)
         picture: picture.png in the run folder (default True)
         printable: printable.3mf, printable.stl (mm): one closed surface around all grains and their necks (default False)
@@ -352,7 +352,7 @@ def agglomerate(
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
         pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
-        seed: seed of every draw (ghost points, samples, collisions) (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (at least 0; default 1)
     """
     return _clouds.agglomerate(*snapshots, **given(locals(), 'snapshots'))
 
@@ -427,7 +427,7 @@ def box_model(
     Ctrl-C ends it between steps.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        seed: seed of every draw (ghost points, samples, collisions) (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (at least 0; default 1)
         solver: of a box: draws, or a sectional population balance (needs SUNDIALS) (monte-carlo, sectional; default monte-carlo)
         initial: sizes at the start of a box (mono, exponential, lognormal, table; default mono)
         concentration: particles a volume at the start of a box; of a table, whose numbers are then shares, or 0: their sum (1/m^3; at least 0; default 0.0)
@@ -562,7 +562,7 @@ def decompose(
         pairs: count pairs by distance: g(r), and events by pairs beside those by cells (default False)
         pairs_radius: greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean spacings in 3-D (m; at least 0; default 0.0)
         estimator: what events are counted by; auto: tree cells, and pairs by distance where cells do not resolve the cloud (cells, pairs, auto; default auto)
-        seed: seed of every draw (ghost points, samples, collisions) (default 1)
+        seed: seed of every draw (ghost points, samples, collisions) (at least 0; default 1)
     """
     return _clouds.decompose(**given(locals()))
 
@@ -703,7 +703,7 @@ def evolve(
         rows: rows of the tables over it (1 to 1e+06; default 50)
         step_error: share of a meeting, of the height passed up or down (of the width too, where sides are not periodic) and of the density that a field changes, that a step may hold; and the most collisions of a pair's kind in a sub-step (1e-06 to 0.5; default 0.05)
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
-        seed: of every draw (default 1)
+        seed: of every draw (at least 0; default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
         bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, each above its place (modulo the width) and those that came before; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
@@ -872,7 +872,7 @@ def mesh_convert(
     """Writes a surface as STL, OBJ, PLY, OFF or 3MF by the name's end, in another unit if wanted; 3MF needs `unit`.
 
     Keywords (None: the default; a number is SI, a text has its unit):
-        unit: length unit of the input's coordinates (no default)
+        unit: length unit of the input's coordinates; that of its header when clast wrote one (no default)
         out_unit: unit of the output's coordinates; that of the input when not given (no default)
         scale: factor on all lengths (at least 1e-100; default 1.0)
         name: name of the part, told in an STL, OBJ or 3MF (no default)
@@ -1520,7 +1520,7 @@ def study(
         design: values of several vary: all combinations, or first with first, second with second (grid, zip; default grid)
         table: CSV with a run a row, a key a column (no default)
         seeds: realisations of each (1 to 1e+06; default 1)
-        seed: seed of the first realisation, then one more each (at least 0; default 1)
+        seed: seed of the first realisation (-1: that of the configuration, or 1), then one more each (at least -1; default -1)
         keep: result to tabulate, a.b for b within a; none: every number but those of longer lists (no default)
         shard: K/N: do every N-th run from the K-th, for job arrays (no default)
     """

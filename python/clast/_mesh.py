@@ -35,7 +35,7 @@ class MeshCheck(Equal):
     n_inside_out: int
     n_nested: int
     n_doubled: int  #: nested parts that count twice in the volume
-    n_body: int  #: solid parts, each with its cavities
+    n_body: int  #: solid parts, each with its cavities; parted where they hang together by an edge alone
     n_repeated: int  #: triangles that repeat another, wound alike: they count twice in the volume
     n_degenerate: int
     n_duplicate: int
@@ -45,26 +45,12 @@ class MeshCheck(Equal):
     volume: float
     area: float
     hull_volume: float
+    n_flat: int = 0  #: parts without volume, the two sides of a sheet
+    doubles: str = ""  #: what counts twice in the volume, in words
 
     @property
     def is_solid(self) -> bool:
         return self.closed and self.oriented and self.manifold
-
-    @property
-    def doubles(self) -> str:
-        """What counts twice in the volume, in words; "" where nothing does."""
-        if self.n_intersection > 0:
-            least = "" if self.intersection_complete else "at least "
-            return f"cuts itself at {least}{self.n_intersection} pair{'' if self.n_intersection == 1 else 's'} of triangles; its volume counts overlaps twice"
-        if not self.intersection_complete:
-            return "overlaps so densely that cuts were not looked for; its volume may count overlaps twice"
-        if self.n_doubled > 0:
-            return (f"has {self.n_doubled} of {self.n_part} parts that count twice in its volume (wound outward in a solid, or inward outside of "
-                    "one); mesh_repair drops what bounds nothing")
-        if self.n_repeated > 0:
-            return (f"has {self.n_repeated} triangle{'' if self.n_repeated == 1 else 's'} that repeat another, wound alike; its volume counts twice "
-                    "what they bound; mesh_repair drops them")
-        return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +72,8 @@ class Shape(Equal):
     feret_min: float
     axes: str
     roundness_deviation: float = float("nan")  #: of `roundness`, over where its search for corners begins
+    pore_volume: float = 0.0  #: of closed pores, which `volume` leaves out; `area`, sphericity, convexity and roundness are of the outer surface
+    pore_area: float = 0.0
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items()})
@@ -131,6 +119,8 @@ class Mesh:
     Points alone have triangles of shape (0, 3), or []. Vertices count from 0, in messages too.
     """
 
+    _unit = ""  # of the coordinates, where a file that clast wrote said it
+
     def __init__(self, vertices: Any, triangles: Any) -> None:
         """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
         none = isinstance(triangles, (list, tuple)) and len(triangles) == 0  # which has neither type nor columns
@@ -168,7 +158,9 @@ class Mesh:
         if joined.n_merged > 0:
             note(f"{os.fspath(path)}: {joined.n_merged} vert{'ex' if joined.n_merged == 1 else 'ices'} of open edges merged with others within "
                  f"{joined.weld_distance:.3g} (model units)")
-        return cls._own(struct, owner)
+        mesh = cls._own(struct, owner)
+        mesh._unit = told.unit.decode("utf-8", "replace")
+        return mesh
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
@@ -277,8 +269,11 @@ class Mesh:
         """What is this surface, and can it be trusted?"""
         result = c.clast_mesh_check_result()
         check(call("clast_mesh_check")(self._struct(), ctypes.byref(result)))
+        words = ctypes.create_string_buffer(256)
+        call("clast_mesh_check_doubles")(ctypes.byref(result), len(words), words)
         try:
-            return MeshCheck(**{name: getattr(result, name) for name in MeshCheck.__dataclass_fields__})
+            return MeshCheck(**{name: getattr(result, name) for name in MeshCheck.__dataclass_fields__ if name != "doubles"},
+                             doubles=words.value.decode("utf-8"))
         finally:
             call("clast_mesh_check_free")(ctypes.byref(result))
 
@@ -296,7 +291,7 @@ class Mesh:
         return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
                      sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,
                      convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=given["axes"],
-                     roundness_deviation=grain.roundness_deviation)
+                     roundness_deviation=grain.roundness_deviation, pore_volume=grain.pore_volume, pore_area=grain.pore_area)
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
@@ -305,7 +300,8 @@ class Mesh:
 def warn_of_doubles(found: MeshCheck, name: str, effect: str = "") -> None:
     """Warns of what counts twice in a surface's volume."""
     if found.doubles:
-        warn(f"{name} {found.doubles}{effect}")
+        is_cut = found.n_flat == 0 and (found.n_intersection > 0 or not found.intersection_complete)
+        warn(f"{name}: {found.doubles}{effect if found.n_flat == 0 else ''}{'' if is_cut else '; mesh_repair drops what bounds nothing'}")
 
 
 def mesh_check(path: Path, *, weld: str = "auto", weld_tolerance: float = 1e-6) -> MeshCheck:

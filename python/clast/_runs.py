@@ -15,7 +15,7 @@ from . import _bindings as c
 from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, changed, check, choice, encoded, fixed, html_table, quantity, refuse,
                     refuse_idle, settled, single, view, warn)
 from ._html import View, file_html, picture_html
-from ._tables import Path, Table, read_table, table_of
+from ._tables import Path, Table, given_table, read_table, table_of
 
 
 SI = "Numbers are in SI units (m, kg, s, Pa, J) where their name has no unit."
@@ -232,9 +232,9 @@ class Run:
         self.folder = os.path.abspath(os.fsdecode(folder))
         if self._has("study.json"):  # a folder of runs: each has its manifest
             self.manifest: dict[str, Any] = {"command": "study", "study": self._json("study.json")}
-            codes = self.table("results")["exit_code"]
-            done = np.isin(codes, (0, 1, 5))  # an answer, as clast study counts
-            self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int(done.sum()), "n_failed": int((~done & (codes > 0)).sum())}
+            results, count = given_table("results", os.path.join(self.folder, "results.csv")), c.clast_study_outcomes()
+            check(call("clast_study_count")(ctypes.byref(results.struct), ctypes.byref(count)))
+            self.summary: dict[str, Any] = {"n_run": count.n_run, "n_done": count.n_done, "n_failed": count.n_failed}
         else:
             self.manifest = self._json("manifest.json")
             self.summary = self._json("summary.json") if self._has("summary.json") else {}

@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
-import re
 import shutil
 import signal
 import subprocess
@@ -127,14 +126,6 @@ def _check_keys(command: str, keys: dict[str, Any]) -> None:
         raise refuse(f"seeds: clast {command} draws nothing at random; seeds must be 1")
 
 
-def _seed(command: str, config: Path) -> int | None:
-    """The first seed where none is given: the configuration's, where it has one."""
-    path = pathlib.Path(os.fsdecode(config))
-    text = path.read_text("utf-8-sig", "replace") if "seed" in c.KEYS[command] and path.is_file() else ""
-    found = re.search(r"""^[ {]*["']?seed["']?\s*:\s*["']?(\d+)""", text, re.MULTILINE)
-    return int(found[1]) if found else None
-
-
 def _entries(command: str, name: str, values: dict[str, Any]) -> list[str]:
     """A dictionary as texts of YAML: values that vary beside each other, those of a list that all runs share below each other."""
     made = []
@@ -170,8 +161,6 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
         if value is not None:
             keys[name] = _entries(run, name, value) if isinstance(value, dict) else value
     _check_keys(run, keys)
-    if keys.get("seed") is None and keys.get("config"):
-        keys["seed"] = _seed(run, keys["config"])
     n_job = whole("jobs", jobs, 0, 4096)
     workers, report, monitor = _Workers(_program(), run), c.clast_study_report(), Monitor(progress)
     before = call("clast_parallel_threads")()

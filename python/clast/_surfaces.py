@@ -135,7 +135,9 @@ def _require_solid(mesh: Mesh) -> None:
     if not (found.closed and found.oriented):
         raise Error("CLAST_E_GEOMETRY", f"surface: {'not closed' if not found.closed else 'not oriented'}; call mesh_repair, "
                     "or take its hull with hull=N")
-    warn_of_doubles(found, "the surface", "; L, I and S are off")
+    warn_of_doubles(found, "the surface", ", so L, I and S are off")
+    if found.n_body > 1 and not found.doubles:
+        warn(f"the surface is {found.n_body} bodies that do not hang together, taken as one grain; mesh_repair(keep='largest') keeps one")
 
 
 def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
@@ -163,13 +165,16 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     of_path = call("clast_mesh_format_of_path")(encoded("output", output))
     if of_path == c.VALUES["CLAST_MESH_ANY"]:
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
+    mesh = _read(surface, weld=False)
+    if unit and mesh._unit and _metres(unit) != _metres(mesh._unit):
+        raise refuse(f"unit: the surface says that it is in {mesh._unit}, not in {unit}: leave it out")
+    unit = unit or mesh._unit
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):
         raise refuse(f"unit: is missing; {'out_unit needs it' if out_unit else '3MF is in millimetres'}")
     refuse_idle(changed("mesh convert", wanted), "clast_mesh_write_idle", of_path)
     factor, out_unit = wanted["scale"], out_unit or unit
     if unit and unit != out_unit:
         factor *= _metres(unit) / _metres(out_unit)
-    mesh = _read(surface, weld=False)
     if factor != 1.0:
         mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
     options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", wanted["name"]) or None)

@@ -168,7 +168,8 @@ const clast_field clast_aggregate_fields[] = {
 
     COUNT(, repeats, 1, 1, 1e6, "independent aggregates", .group = "repeats and random numbers"),
     NUMBER(, confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
-    {FIELD(U64, params., seed), 1, 0, 0, "-", "seed of every random number", NULL, .common = true},
+    {FIELD(U64, params., seed), 1, 0, 1.8446744073709552e19, "-", "seed of every random number",
+     NULL, .common = true},
     COUNT(, checkpoint_every, 200, 1, 1e9, "particles between two checkpoints", .group = "output"),
     {FIELD(BOOL, , picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},
     FLAG(, printable,

@@ -129,7 +129,11 @@ static bool step(walk *w, clx_landing *landing)
     return true;
 }
 
-void clx_walk_run(clx_search *search, int32_t tries, clx_landing *landing)
+/// The landing of one Brownian walk that came from infinity; walks that escape are begun again and
+/// counted in aim.attempt. Not found: aim.attempt reached `tries`.
+///
+/// Follows from (seed, particle) alone. @note no allocation, one thread
+static void run_walk(clx_search *search, int32_t tries, clx_landing *landing)
 {
     CLAST_ASSERT(tries > 0 && search->walk_step > 0.0);
     walk w = {.search = search};
@@ -151,7 +155,7 @@ clast_status clx_walk_or_search(clx_search *search, int32_t tries, clx_landing *
 {
     clast_status status = CLAST_OK;
     if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
-        clx_walk_run(search, tries, landing);
+        run_walk(search, tries, landing);
         return CLAST_OK;
     }
     do {

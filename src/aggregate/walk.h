@@ -2,12 +2,6 @@
 // Brownian approach: a particle or cluster walks from far away until it touches.
 #include "aggregate/trial.h"
 
-/// The landing of one Brownian walk that came from infinity; walks that escape are begun again and
-/// counted in aim.attempt. Not found: aim.attempt reached `tries`.
-///
-/// Follows from (seed, particle) alone. @note no allocation, one thread
-void clx_walk_run(clx_search *search, int32_t tries, clx_landing *landing);
-
 /// The landing by the search's approach: a walk, or the best trial of the first axis of which some
 /// ray does not miss.
 ///

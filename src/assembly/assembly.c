@@ -217,7 +217,7 @@ done:
     return status;
 }
 
-static double grain_volume(const clast_assembly *a, int32_t i)
+double clx_grain_volume(const clast_assembly *a, int32_t i)
 {
     CLAST_ASSERT(i >= 0 && i < a->n_grain);
     const double s = a->scale[i];
@@ -231,7 +231,7 @@ double clast_assembly_volume(const clast_assembly *assembly)
     }
     double sum = 0.0;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        sum += grain_volume(assembly, i);
+        sum += clx_grain_volume(assembly, i);
     }
     return sum;
 }
@@ -243,7 +243,7 @@ double clast_assembly_mass(const clast_assembly *assembly)
     }
     double sum = 0.0;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        sum += assembly->density[i] * grain_volume(assembly, i);
+        sum += assembly->density[i] * clx_grain_volume(assembly, i);
     }
     return sum;
 }
@@ -259,7 +259,7 @@ void clast_assembly_centre(const clast_assembly *assembly, double centre[3])
     v3_set(centre, 0.0, 0.0, 0.0);
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         double offset[3];
-        const double m = assembly->density[i] * grain_volume(assembly, i);
+        const double m = assembly->density[i] * clx_grain_volume(assembly, i);
         v3_sub(offset, assembly->position[i], assembly->position[0]);
         v3_axpy(sum, sum, m, offset);
         mass += m;

@@ -60,12 +60,6 @@ done:
     return status;
 }
 
-static double grain_volume(const clast_assembly *a, int32_t i)
-{
-    const double s = a->scale[i];
-    return s * s * s * a->shape[a->shape_id[i]].volume;
-}
-
 /// Volume-equivalent radius of the mean grain.
 static double mean_radius(const clast_assembly *a)
 {
@@ -81,7 +75,7 @@ static void add_grain(gyration *g, const clast_assembly *a, int32_t i)
 {
     const clast_shape *shape = &a->shape[a->shape_id[i]];
     const double s = a->scale[i];
-    const double v = grain_volume(a, i);
+    const double v = clx_grain_volume(a, i);
     double d[3];
     v3_sub(d, a->position[i], a->position[0]);
     g->volume += v;
@@ -155,10 +149,10 @@ static void count_solid(const clast_assembly *assembly, around *c)
     for (int32_t m = 0; m < n_centre; ++m) {
         const double at = 0.61803398874989485 * (m + 1.0);
         const int32_t i = n_centre == n ? m : (int32_t)((at - floor(at)) * n);
-        const double v = grain_volume(assembly, i);
+        const double v = clx_grain_volume(assembly, i);
         weight += v;
         for (int32_t j = 0; j < n; ++j) {
-            const double vj = grain_volume(assembly, j);
+            const double vj = clx_grain_volume(assembly, j);
             add_within(c, vj, cbrt(0.75 / CLAST_PI * vj),
                        v3_distance(assembly->position[i], assembly->position[j]), v);
         }

@@ -94,7 +94,10 @@ static clast_status make_part(const clast_shape *shape, bool of_spheres, clx_hul
     return CLAST_OK;
 }
 
-clast_status clx_hull_parts_update(clx_hull_parts *parts, const clast_assembly *assembly)
+/// Makes the parts of shapes that have none yet.
+///
+/// @return CLAST_E_USAGE, naming the shape, when spheres are wanted of one that has none
+static clast_status update(clx_hull_parts *parts, const clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     clx_hull_part made = {0};
@@ -136,7 +139,7 @@ clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *ass
     const double *position = assembly->position[i];
     const double scale = assembly->scale[i];
     double turn[3][3];
-    CLX_TRY(clx_hull_parts_update(parts, assembly));
+    CLX_TRY(update(parts, assembly));
     clx_hull_part *part = &parts->part[assembly->shape_id[i]];
     if (clx_smooth_hull_hides(hull, position, scale * part->radius)) {
         goto done;
@@ -193,7 +196,7 @@ clast_status clx_hull_parts_add_all(clx_hull_parts *parts, const clast_assembly 
 {
     clast_status status = CLAST_OK;
     outer *order = NULL;
-    CLX_TRY(clx_hull_parts_update(parts, assembly));
+    CLX_TRY(update(parts, assembly));
     CLX_TRY(clx_alloc(&order, assembly->n_grain, sizeof *order));
     rank_grains(parts, assembly, order);
     for (int32_t i = 0; i < assembly->n_grain; ++i) {

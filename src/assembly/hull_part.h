@@ -24,11 +24,6 @@ typedef struct clx_hull_parts {
 
 void clx_hull_parts_free(clx_hull_parts *parts);
 
-/// Makes the parts of shapes that have none yet.
-///
-/// @return CLAST_E_USAGE, naming the shape, when spheres are wanted of one that has none
-clast_status clx_hull_parts_update(clx_hull_parts *parts, const clast_assembly *assembly);
-
 /// Adds grain i to a hull; a grain whose bounding ball shows nowhere costs one look per facet.
 clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *assembly, int32_t i,
                                 clx_smooth_hull *hull);

@@ -2,19 +2,10 @@
 #include "assembly/pieces.h"
 
 #include "base/alloc.h"
+#include "geom/union_find.h"
 #include <clast/assembly.h>
 #include <clast/shape.h>
 #include <string.h>
-
-/// The first grain of the group, with the way there halved.
-static int32_t root_of(int32_t *parent, int32_t grain)
-{
-    while (parent[grain] != grain) {
-        parent[grain] = parent[parent[grain]];
-        grain = parent[grain];
-    }
-    return grain;
-}
 
 clast_status clx_assembly_pieces(const clast_assembly *assembly, int32_t *piece, int32_t *n_piece)
 {
@@ -22,16 +13,12 @@ clast_status clx_assembly_pieces(const clast_assembly *assembly, int32_t *piece,
     int32_t *parent = NULL;
     int32_t n = 0;
     CLX_TRY(clx_alloc(&parent, assembly->n_grain, sizeof *parent));
-    for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        parent[i] = i;
-    }
+    clx_sets_init(parent, assembly->n_grain);
     for (int32_t c = 0; c < assembly->n_contact; ++c) {
-        const int32_t a = root_of(parent, assembly->contact[c][0]);
-        const int32_t b = root_of(parent, assembly->contact[c][1]);
-        parent[a > b ? a : b] = a > b ? b : a;
+        clx_sets_join(parent, assembly->contact[c][0], assembly->contact[c][1]);
     }
     for (int32_t i = 0; i < assembly->n_grain; ++i) { // a group's root is its first grain
-        const int32_t root = root_of(parent, i);
+        const int32_t root = clx_sets_find(parent, i);
         piece[i] = root == i ? n++ : piece[root];
     }
     *n_piece = n;

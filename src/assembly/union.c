@@ -48,17 +48,10 @@ clast_union_options clast_union_options_default(void)
         .tolerance = 1e-4, .n_sample = 1 << 24, .seed = 1, .find_depth = true};
 }
 
-static double grain_volume(const clast_assembly *a, int32_t i)
-{
-    CLAST_ASSERT(i >= 0 && i < a->n_grain);
-    const double s = a->scale[i];
-    return s * s * s * a->shape[a->shape_id[i]].volume;
-}
-
 /// Radius of the sphere of equal volume.
 static double grain_radius(const clast_assembly *a, int32_t i)
 {
-    return cbrt(0.75 / CLAST_PI * grain_volume(a, i));
+    return cbrt(0.75 / CLAST_PI * clx_grain_volume(a, i));
 }
 
 /// Mean of 1 / k over one shifted lattice of points in a grain.
@@ -115,7 +108,7 @@ static void sample_group(group *g, const clast_union_options *options, double re
         double variance = 0.0;
         clx_parallel_for(g->n, 1, sample_members, g);
         for (int32_t i = 0; i < g->n; ++i) {
-            const double v = grain_volume(g->assembly, g->member[i].grain);
+            const double v = clx_grain_volume(g->assembly, g->member[i].grain);
             sum += v * g->member[i].mean;
             variance += v * g->member[i].error * v * g->member[i].error;
         }
@@ -308,7 +301,7 @@ static clast_status add_group(group *g, const clast_union_options *options, clas
     bool all_spheres = true;
     out->volume = out->sum;
     for (int32_t i = 0; i < g->n; ++i) {
-        out->volume -= grain_volume(g->assembly, g->member[i].grain);
+        out->volume -= clx_grain_volume(g->assembly, g->member[i].grain);
         all_spheres = all_spheres && is_of_spheres(g->assembly, g->member[i].grain);
     }
     if (all_spheres) {

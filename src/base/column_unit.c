@@ -24,7 +24,8 @@ static bool is_known(const char *text)
     return is_one_of(text, alone) || clx_unit_is_known(text);
 }
 
-/// A unit that is written out, or of other systems, or in capitals: nobody means metres by it.
+/// A unit that is written out, or of other systems or alphabets (Latin-1's micro sign), or in
+/// capitals: nobody means metres by it.
 static bool is_foreign(const char *text, bool in_brackets)
 {
     static const char *const names[] = {
@@ -32,7 +33,7 @@ static bool is_foreign(const char *text, bool in_brackets)
         "miles", "micron", "microns",    "meter",      "metre",      "meters",     "metres",
         "fps",   "mph",    "millimeter", "millimetre", "centimeter", "centimetre", "lb",
         "lbs",   "oz",     "kn",         "micrometer", "micrometre", "nanometer",  "nanometre",
-        "gram",  "grams",  "kilogram",   NULL};
+        "gram",  "grams",  "kilogram",   "\xb5m",      "\xb5g",      NULL};
     char low[CLX_COLUMN_UNIT];
     size_t n = 0;
     for (; text[n] != '\0'; ++n) {
@@ -52,9 +53,33 @@ static bool is_formula(const char *text, bool in_brackets)
                              isalpha((unsigned char)text[n - 3]))));
 }
 
-static clx_unit_said judge(const char *text, bool in_brackets)
+bool clx_unit_is_celsius(const char *unit)
+{
+    static const char *const names[] = {"C", "degC", "celsius", "Celsius", "\u00b0C", NULL};
+    return is_one_of(unit, names);
+}
+
+/// What is a unit where a column is known to hold this dimension: L_in, d_phi, T_C.
+static clx_unit_said judge_known(const char *text, const char *si_unit)
+{
+    static const char *const other[] = {"F", "degF", "Fahrenheit", "\u00b0F", "R", "mK", NULL};
+    const bool is_length = strcmp(si_unit, "m") == 0;
+    const bool is_kelvin = strcmp(si_unit, "K") == 0;
+    const bool is_told = (is_length && strcmp(text, "phi") == 0) ||
+                         (is_kelvin && (clx_unit_is_celsius(text) || is_one_of(text, other)));
+    return is_told                                ? CLX_UNIT_TOLD
+           : is_length && strcmp(text, "in") == 0 ? CLX_UNIT_WORD
+                                                  : CLX_UNIT_NONE;
+}
+
+/// @param si_unit  of the dimension that the column is known to hold, or ""
+static clx_unit_said judge(const char *text, const char *si_unit, bool in_brackets)
 {
     static const char *const words[] = {"min", "in", "rad", "t", "phi", NULL}; // d (min), x(t)
+    const clx_unit_said known = judge_known(text, si_unit);
+    if (known != CLX_UNIT_NONE) {
+        return known;
+    }
     if (text[0] == '\0' || strcmp(text, "-") == 0 || (!in_brackets && strcmp(text, "in") == 0)) {
         return CLX_UNIT_NONE; // "flow_in" flows in
     }
@@ -79,7 +104,7 @@ static void copy_trimmed(const char *at, size_t n, char unit[CLX_COLUMN_UNIT])
     (void)snprintf(unit, CLX_COLUMN_UNIT, "%.*s", n < CLX_COLUMN_UNIT ? (int)n : 0, at);
 }
 
-static clx_unit_said in_brackets(const char *name, char unit[CLX_COLUMN_UNIT])
+static clx_unit_said in_brackets(const char *name, const char *si_unit, char unit[CLX_COLUMN_UNIT])
 {
     clx_unit_said said = CLX_UNIT_NONE;
     const char *open = strpbrk(name, "([");
@@ -87,7 +112,7 @@ static clx_unit_said in_brackets(const char *name, char unit[CLX_COLUMN_UNIT])
         const char *close = strchr(open, *open == '(' ? ')' : ']');
         if (close != NULL) {
             copy_trimmed(open + 1, (size_t)(close - open) - 1, unit);
-            said = judge(unit, true);
+            said = judge(unit, si_unit, true);
         }
         open = strpbrk(open + 1, "([");
     }
@@ -100,7 +125,7 @@ static bool is_component(const char *part, size_t n)
 }
 
 /// Parts from the last one to the second: of those before the last only what has a "/" is a unit.
-static clx_unit_said behind_bars(const char *name, char unit[CLX_COLUMN_UNIT])
+static clx_unit_said behind_bars(const char *name, const char *si_unit, char unit[CLX_COLUMN_UNIT])
 {
     clx_unit_said said = CLX_UNIT_NONE;
     bool is_last = true;
@@ -112,7 +137,7 @@ static clx_unit_said behind_bars(const char *name, char unit[CLX_COLUMN_UNIT])
         }
         copy_trimmed(name + at, end - at, unit);
         if (is_last || strchr(unit, '/') != NULL) {
-            said = judge(unit, false);
+            said = judge(unit, si_unit, false);
         }
         is_last = is_last && is_component(name + at, end - at);
         end = at - 1;
@@ -120,11 +145,25 @@ static clx_unit_said behind_bars(const char *name, char unit[CLX_COLUMN_UNIT])
     return said;
 }
 
-clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT])
+/// "density g/cm3": the last word, where nothing but a unit is written so.
+static clx_unit_said behind_blank(const char *name, const char *si_unit, char unit[CLX_COLUMN_UNIT])
 {
-    clx_unit_said said = in_brackets(name, unit);
+    const char *blank = strrchr(name, ' ');
+    if (blank == NULL) {
+        return CLX_UNIT_NONE;
+    }
+    copy_trimmed(blank, strlen(blank), unit);
+    return judge(unit, si_unit, false) == CLX_UNIT_TOLD ? CLX_UNIT_TOLD : CLX_UNIT_NONE;
+}
+
+static clx_unit_said find_unit(const char *name, const char *si_unit, char unit[CLX_COLUMN_UNIT])
+{
+    clx_unit_said said = in_brackets(name, si_unit, unit);
     if (said == CLX_UNIT_NONE) {
-        said = behind_bars(name, unit);
+        said = behind_bars(name, si_unit, unit);
+    }
+    if (said == CLX_UNIT_NONE) {
+        said = behind_blank(name, si_unit, unit);
     }
     if (said == CLX_UNIT_NONE) {
         (void)snprintf(unit, CLX_COLUMN_UNIT, "-");
@@ -132,43 +171,72 @@ clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT])
     return said;
 }
 
-/// The unit of a column that is known to hold lengths: "L_in" is in inches then.
-static clx_unit_said unit_of_length(const char *name, char unit[CLX_COLUMN_UNIT])
+clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT])
 {
-    const char *bar = strrchr(name, '_');
-    const clx_unit_said said = clx_column_unit(name, unit);
-    if (said != CLX_UNIT_NONE || bar == NULL || strcmp(bar, "_in") != 0) {
+    return find_unit(name, "", unit);
+}
+
+/// The unit that a column says, else that of its name.
+static clx_unit_said own_unit(const clast_column *column, const char *si_unit,
+                              char unit[CLX_COLUMN_UNIT])
+{
+    const clx_unit_said said = find_unit(column->name, si_unit, unit);
+    const bool has_own = column->unit != NULL && strlen(column->unit) < CLX_COLUMN_UNIT;
+    const clx_unit_said own = has_own ? judge(column->unit, si_unit, true) : CLX_UNIT_NONE;
+    if (own == CLX_UNIT_NONE || strcmp(column->unit, unit) == 0) {
         return said;
     }
-    (void)snprintf(unit, CLX_COLUMN_UNIT, "in");
-    return CLX_UNIT_WORD;
+    (void)snprintf(unit, CLX_COLUMN_UNIT, "%s", column->unit);
+    return own;
 }
 
 bool clx_column_says_length(const char *name, char unit[CLX_COLUMN_UNIT])
 {
     double metre = 0.0;
-    const clx_unit_said said = unit_of_length(name, unit);
+    const clx_unit_said said = find_unit(name, "m", unit);
     return clast_unit_factor(unit, "m", &metre) == CLAST_OK || strcmp(unit, "phi") == 0 ||
            (said == CLX_UNIT_TOLD && strchr(unit, '/') == NULL && !is_known(unit));
+}
+
+clast_status clx_column_factor(const clast_column *column, const char *si_unit,
+                               char unit[CLX_COLUMN_UNIT], double *factor)
+{
+    const clx_unit_said said = own_unit(column, si_unit, unit);
+    clast_status status = CLAST_OK;
+    *factor = 0.0;
+    if (strcmp(si_unit, "K") == 0 && clx_unit_is_celsius(unit)) {
+        *factor = 1.0;
+    } else if (said != CLX_UNIT_NONE) {
+        status = clast_unit_factor(unit, si_unit, factor);
+    }
+    if (status != CLAST_OK && said == CLX_UNIT_WORD) { // "x_t" is no time
+        return CLAST_OK;
+    }
+    if (status != CLAST_OK) {
+        clx_fail_prefix("column '%s' (convert or rename it%s)", column->name,
+                        strcmp(si_unit, "K") == 0 ? "; T_C is in degrees Celsius" : "");
+    }
+    return status;
+}
+
+/// "phi", "Phi (mean)"
+static bool is_called_phi(const char *name)
+{
+    return strncasecmp(name, "phi", 3) == 0 && !isalnum((unsigned char)name[3]);
 }
 
 clast_status clx_column_length(const clast_column *column, bool takes_phi, clx_length_unit *length)
 {
     clast_status status = CLAST_OK;
     clx_length_unit found = {.metre = 0.0};
-    clx_unit_said said = unit_of_length(column->name, found.unit);
-    const bool has_own = column->unit != NULL && strlen(column->unit) < sizeof found.unit;
-    const clx_unit_said own = has_own ? judge(column->unit, true) : CLX_UNIT_NONE;
-    if (own != CLX_UNIT_NONE && strcmp(column->unit, found.unit) != 0) {
-        (void)snprintf(found.unit, sizeof found.unit, "%s", column->unit);
-        said = own;
-    }
-    found.is_phi = takes_phi && strcmp(found.unit, "phi") == 0;
+    const clx_unit_said said = own_unit(column, "m", found.unit);
+    found.is_phi = takes_phi && (strcmp(found.unit, "phi") == 0 ||
+                                 (said == CLX_UNIT_NONE && is_called_phi(column->name)));
     if (found.is_phi) {
         (void)snprintf(found.unit, sizeof found.unit, "mm");
     }
     if (clast_unit_factor(found.unit, "m", &found.metre) != CLAST_OK) {
-        CLX_CHECK(said != CLX_UNIT_TOLD && strcmp(found.unit, "phi") != 0, CLAST_E_FORMAT,
+        CLX_CHECK(said != CLX_UNIT_TOLD, CLAST_E_FORMAT,
                   "column '%s' is in no unit of length that is read here (m, mm, um, ...%s): "
                   "convert or rename it",
                   column->name, takes_phi ? "; phi" : "");

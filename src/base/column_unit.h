@@ -13,12 +13,23 @@ typedef enum {
 enum { CLX_COLUMN_UNIT = 32 };
 
 /// The unit in a name: in brackets anywhere, else behind "_", a component's name or number
-/// after it or not ("U_cm/s_x", "U_cm/s:0"). One that is TOLD may be none that clast knows.
+/// after it or not ("U_cm/s_x", "U_cm/s:0"), else a last word that is told ("density g/cm3"). One
+/// that is TOLD may be none that clast knows.
 clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT]);
 
 /// True where a name says a unit of length, phi, or one that may be of length and is not read here:
 /// "d_mm", "x (ft)", "d_ft", "L_in"; false of "r_g" and "x_m/s".
 bool clx_column_says_length(const char *name, char unit[CLX_COLUMN_UNIT]);
+
+/// What takes a column of this dimension to SI by the unit that it, or else its name, says; 0 where
+/// it says none, as "x_t" does of any but times. To Celsius ("T_C") 273.15 is added.
+///
+/// @param unit  what it says, "-" for none
+/// @return CLAST_E_CONFIG, with the column, for one that is told and is none of this dimension
+clast_status clx_column_factor(const clast_column *column, const char *si_unit,
+                               char unit[CLX_COLUMN_UNIT], double *factor);
+
+bool clx_unit_is_celsius(const char *unit);
 
 /// The unit of a column of lengths. {0} where it says none.
 typedef struct {
@@ -29,7 +40,7 @@ typedef struct {
 
 /// What a column, or else its name, says of the unit of its lengths.
 ///
-/// @param takes_phi  of sizes: phi is a unit
+/// @param takes_phi  of sizes: phi is a unit, and a column's name
 /// @return CLAST_E_FORMAT for one that is told and is none of length that is read here
 clast_status clx_column_length(const clast_column *column, bool takes_phi, clx_length_unit *length);
 

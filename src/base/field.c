@@ -204,18 +204,32 @@ static clast_status append_f64(const clast_field *f, clast_f64_list *list, const
     return status;
 }
 
+/// Base 16 after 0x alone: 010 is ten.
+static int base_of(const char *text)
+{
+    text += *text == '-' || *text == '+';
+    return text[0] == '0' && (text[1] == 'x' || text[1] == 'X') ? 16 : 10;
+}
+
+/// A whole number that is not written as one, such as 1e6.
+static clast_status parse_whole(const clast_field *f, const char *text, double *value)
+{
+    const clast_status status = parse_number(f, text, true, value);
+    return status != CLAST_OK || (*value == floor(*value) && fabs(*value) <= 9e15)
+               ? status
+               : clx_fail(CLAST_E_CONFIG, "%s: '%s' is not a whole number", f->name, text);
+}
+
 static clast_status set_integer(const clast_field *f, void *slot, const char *text)
 {
     char *end = NULL;
     errno = 0;
-    long long wide = strtoll(text, &end, 10);
+    long long wide = strtoll(text, &end, base_of(text));
     if (end == text || *end != '\0' || errno != 0) {
-        double value = 0.0; // accepts 1e6
-        const clast_status status = parse_number(f, text, true, &value);
-        if (status != CLAST_OK || value != floor(value) || fabs(value) > 9e15) {
-            return status != CLAST_OK
-                       ? status
-                       : clx_fail(CLAST_E_CONFIG, "%s: '%s' is not a whole number", f->name, text);
+        double value = 0.0;
+        const clast_status status = parse_whole(f, text, &value);
+        if (status != CLAST_OK) {
+            return status;
         }
         wide = (long long)value;
     }
@@ -234,10 +248,20 @@ static clast_status set_u64(const clast_field *f, uint64_t *slot, const char *te
 {
     char *end = NULL;
     errno = 0;
-    const unsigned long long wide = strtoull(text, &end, 0);
-    if (end == text || *end != '\0' || errno != 0 || strchr(text, '-') != NULL) {
-        return clx_fail(CLAST_E_CONFIG, "%s: '%s' is not a whole number from 0 to 2^64-1", f->name,
-                        text);
+    uint64_t wide = strtoull(text, &end, base_of(text));
+    if (errno == ERANGE) {
+        return bad_range(f, text);
+    }
+    if (end == text || *end != '\0' || strchr(text, '-') != NULL) {
+        double value = 0.0;
+        const clast_status status = parse_whole(f, text, &value);
+        if (status != CLAST_OK) {
+            return status;
+        }
+        wide = (uint64_t)value;
+    }
+    if ((double)wide < f->low || (double)wide > f->high) {
+        return bad_range(f, text);
     }
     *slot = wide;
     return CLAST_OK;

@@ -1,5 +1,6 @@
 #pragma once
-// The range check of configurations that callers fill themselves.
+// What the library needs of field tables beyond clast/field.h: range checks, units, a part of a
+// file.
 #include "base/status.h"
 
 typedef struct clast_field clast_field;
@@ -25,6 +26,10 @@ clast_status clx_field_check(const clast_field *field, const void *slot);
 /// begins there.
 clast_status clx_fields_check_part(const clast_field *fields, size_t begin, size_t end,
                                    const void *part);
+
+/// As clast_fields_read; keys that the table does not have are passed over.
+CLX_SHARED clast_status clx_fields_read_part(const char *path, const clast_field *fields,
+                                             void *config);
 
 /// Refuses the first idle field (clast_fields_idle): "walk_step does nothing without approach
 /// diffusive".

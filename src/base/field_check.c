@@ -76,7 +76,7 @@ clast_status clx_field_check(const clast_field *f, const void *slot)
     case CLAST_FIELD_I64:
         return check_number(f, (double)*(const int64_t *)slot);
     case CLAST_FIELD_U64:
-        return CLAST_OK;
+        return check_number(f, (double)*(const uint64_t *)slot);
     case CLAST_FIELD_BOOL: // read as a byte: a bool that is neither cannot be looked at
         return *(const unsigned char *)slot <= 1
                    ? CLAST_OK

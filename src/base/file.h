@@ -55,7 +55,7 @@ CLX_SHARED void clx_file_abandon(clx_file *file);
 CLX_SHARED clast_status clx_file_write_all(const char *path, const void *bytes, size_t n);
 
 /// The same of a text, with a newline after it.
-CLX_SHARED clast_status clx_file_write_line(const char *path, const char *text);
+clast_status clx_file_write_line(const char *path, const char *text);
 
 /// Whole file into a fresh block (clx_free it) of *n bytes and one 0 byte more, pipes too.
 ///

@@ -3,7 +3,6 @@
 
 #include "base/number.h"
 #include "clast_source.h"
-#include "clast_version.h"
 #include <clast/field.h>
 #include <errno.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #include <clast/status.h>
 
 // The library is built as two: libclast, the core, and libclast_view (src/plot, render, report and
-// study), which needs cairo.
+// study), which needs cairo. libclast_mpi stands on the core as the view does.
 
 /// Of the core, called by the view too: exported under a version name of the exact release
 /// (cmake/Exports.cmake), so that a view never meets another core. Inside the core the call stays

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/monitor.h"
+#include "cloud/collide.h"
 #include "cloud/contract.h"
 #include "cloud/exact_counts.h"
 #include "cloud/kernel_range.h"
@@ -344,15 +345,6 @@ done:
     return status;
 }
 
-static int64_t aggregate_of(const clast_population *p, int64_t i)
-{
-    CLAST_ASSERT(i >= 0 && i < p->n);
-    while (p->owner[i] != i) {
-        i = p->owner[i];
-    }
-    return i;
-}
-
 /// Columns of the particles that are left.
 enum {
     PARTICLE,
@@ -474,7 +466,7 @@ static clast_status list_members(const clast_population *p, clast_table *table)
     }
     CLX_TRY(clast_table_add_number(table, "aggregate", "-", &column));
     for (int64_t i = 0; i < p->n; ++i) {
-        column[i] = (double)aggregate_of(p, i);
+        column[i] = (double)clx_population_owner(p, i);
     }
 done:
     return status;

@@ -8,6 +8,7 @@
 #include "cloud/contract.h"
 #include "math/rng.h"
 #include "math/sort.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -72,23 +73,11 @@ clast_status clast_cloud_column(const clast_table *table, const char *name, doub
     return status;
 }
 
-/// What a column says of its unit: its own one, else that in its name.
-static clx_unit_said said_unit(const clast_column *c, char unit[CLX_COLUMN_UNIT])
-{
-    clx_unit_said said = clx_column_unit(c->name, unit);
-    if (strcmp(c->unit, "-") != 0 && strcmp(c->unit, unit) != 0) {
-        (void)snprintf(unit, CLX_COLUMN_UNIT, "%s", c->unit);
-        said = CLX_UNIT_TOLD;
-    }
-    return said;
-}
-
 /// Whether a column says a unit of this dimension, which is copied then.
 static bool has_unit(const clast_column *c, const char *si_unit, char unit[CLX_COLUMN_UNIT])
 {
-    double factor = 1.0;
-    return said_unit(c, unit) != CLX_UNIT_NONE &&
-           clast_unit_factor(unit, si_unit, &factor) == CLAST_OK;
+    double factor = 0.0;
+    return clx_column_factor(c, si_unit, unit, &factor) == CLAST_OK && factor > 0.0;
 }
 
 /// Whether a column holds lengths of this axis by its name and unit: "x_mm", "x (mm)", "x [mm]".
@@ -163,46 +152,45 @@ static const clast_column *column_of(const clast_table *table, const double *num
 /// Whether a column holds sizes in phi, minus the binary logarithm of millimetres.
 static bool is_phi(const clast_column *c, const char *si_unit)
 {
-    char unit[CLX_COLUMN_UNIT];
-    return strcmp(si_unit, "m") == 0 && said_unit(c, unit) != CLX_UNIT_NONE &&
-           strcmp(unit, "phi") == 0;
+    clx_length_unit length;
+    return strcmp(si_unit, "m") == 0 && clx_column_length(c, true, &length) == CLAST_OK &&
+           length.is_phi;
 }
 
 /// Factor to SI by the unit that a column says; 1 where it says none of this dimension.
 static clast_status own_factor(const clast_table *table, const clast_column *c, const char *si_unit,
-                               double *factor)
+                               char unit[CLX_COLUMN_UNIT], double *factor)
 {
     clast_status status = CLAST_OK;
-    char unit[CLX_COLUMN_UNIT];
-    const clx_unit_said said = said_unit(c, unit);
-    double found = 1.0;
-    if (strcmp(si_unit, "-") != 0 && said != CLX_UNIT_NONE) {
-        const bool is_told = said == CLX_UNIT_TOLD || is_phi(c, si_unit); // "x_t" is no time
-        status = clast_unit_factor(unit, si_unit, &found);
-        status = is_told ? status : CLAST_OK;
-        if (status != CLAST_OK) {
-            clx_fail_prefix("%s: column '%s' (convert or rename it%s)", table->name, c->name,
-                            strcmp(si_unit, "m") == 0 ? "; unit says that of coordinates" : "");
-            goto done;
-        }
+    double found = 0.0;
+    if (strcmp(si_unit, "-") != 0) {
+        status = clx_column_factor(c, si_unit, unit, &found);
     }
-    *factor = found;
-done:
+    if (status == CLAST_OK) {
+        *factor = found > 0.0 ? found : 1.0;
+    } else {
+        clx_fail_prefix("%s%s", table->name,
+                        strcmp(si_unit, "m") == 0 ? " (unit says that of coordinates)" : "");
+    }
     return status;
 }
 
-clast_status clast_cloud_column_factor(const clast_table *table, const char *name,
-                                       const char *si_unit, double *factor)
+clast_status clast_cloud_column_si(const clast_table *table, const char *name, const char *si_unit,
+                                   double *value)
 {
-    CLX_ARGUMENTS(table, name, si_unit, factor);
+    CLX_ARGUMENTS(table, name, si_unit, value);
     CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     double *number = NULL;
+    double factor = 1.0;
+    char unit[CLX_COLUMN_UNIT] = "-";
     CLX_TRY(clast_cloud_column(table, name, &number));
-    if (number == NULL) {
-        *factor = 1.0;
-    } else {
-        CLX_TRY(own_factor(table, column_of(table, number), si_unit, factor));
+    if (number != NULL) {
+        CLX_TRY(own_factor(table, column_of(table, number), si_unit, unit, &factor));
+    }
+    const double zero = strcmp(si_unit, "K") == 0 && clx_unit_is_celsius(unit) ? 273.15 : 0.0;
+    for (int64_t i = 0; i < table->n_row && number != NULL; ++i) {
+        value[i] = value[i] * factor + zero;
     }
 done:
     return status;
@@ -217,7 +205,7 @@ static clast_status factor_of(const clast_table *table, const double *column, co
     char unit[CLX_COLUMN_UNIT];
     double own = 1.0;
     if (asked == NULL || asked[0] == '\0') {
-        return own_factor(table, c, si_unit, factor);
+        return own_factor(table, c, si_unit, unit, factor);
     }
     CLX_TRY(clast_unit_factor(asked, si_unit, factor));
     if (has_unit(c, si_unit, unit)) {
@@ -318,6 +306,15 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     CLX_WHOLE(table, table);
     CLX_GUARD(clx_texts_given(__func__, "columns", &columns->columns));
     CLX_GUARD(clx_texts_given(__func__, "velocity_columns", &columns->velocity_columns));
+    clx_times times = {.n = 0};
+    clx_times_add(table, columns, &times);
+    CLX_GUARD(clx_times_check(clast_comm_one(), table->name, &times));
+    return clx_cloud_from_part(table, columns, cloud);
+}
+
+clast_status clx_cloud_from_part(const clast_table *table, const clast_cloud_columns *columns,
+                                 clast_cloud *cloud)
+{
     clast_status status = CLAST_OK;
     clast_cloud made = {.n = table->n_row};
     double *column[3] = {NULL};

@@ -82,6 +82,9 @@ void clx_population_pair_up(clast_population *population, const clast_collide_co
 /// Radius of an aggregate of so many monomers by the configuration's law, from monomers of a0.
 double clx_aggregate_radius(const clast_collide_config *config, double monomers);
 
+/// The live particle that this one has become part of, or is.
+int64_t clx_population_owner(const clast_population *population, int64_t i);
+
 /// A particle as ranges see it.
 clast_collider clx_population_collider(const clast_population *population, int64_t i);
 

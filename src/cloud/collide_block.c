@@ -395,7 +395,7 @@ static void freeze(clx_block *b)
     }
 }
 
-static int64_t owner_of(const clast_population *p, int64_t i)
+int64_t clx_population_owner(const clast_population *p, int64_t i)
 {
     CLAST_ASSERT(i >= 0 && i < p->n);
     while (p->owner[i] != i) {
@@ -408,7 +408,7 @@ static int64_t pick_frozen(clx_block *b, int64_t kind)
 {
     CLAST_ASSERT(kind >= 0 && kind < b->n_kind && b->kind[kind].n > 0);
     const int64_t at = b->kind[kind].head + clx_rng_below(b->rng, b->kind[kind].n);
-    return owner_of(b->population, b->frozen[at]);
+    return clx_population_owner(b->population, b->frozen[at]);
 }
 
 /// One event of the frozen rates; a particle that has merged meanwhile stands for its aggregate.

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "cloud/gauss_beyond.h"
+#include "math/fixed_sum.h"
 #include "math/sort.h"
 #include <clast/machine.h>
 #include <clast/status.h>
@@ -584,21 +585,11 @@ static clast_status evaluate(grid *g, double *sum)
     return quadratic_form(g, sum);
 }
 
-/// A power of two that lets n weights of at most 1 be added in 62 bits.
-static double unit_of(int64_t n)
-{
-    int bits = 0;
-    while (n >> bits > 0) {
-        ++bits;
-    }
-    return ldexp(1.0, 62 - bits);
-}
-
 clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *sum)
 {
     CLAST_ASSERT(part->n_all > 0 && part->d >= 1 && part->d <= 3 && beta > 0.0);
     clast_status status = CLAST_OK;
-    grid g = {.d = part->d, .h = SPACING / beta, .unit = unit_of(part->n_all)};
+    grid g = {.d = part->d, .h = SPACING / beta, .unit = clx_fixed_unit(part->n_all)};
     aside list[2] = {{0}, {0}};
     double beyond = 0.0;
     kernel_coefficients(g.kernel);

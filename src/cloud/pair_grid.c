@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "cloud/part.h"
 #include "math/exact_sum.h"
+#include "math/fixed_sum.h"
 #include <clast/machine.h>
 #include <math.h>
 #include <string.h>
@@ -40,16 +41,6 @@ typedef struct {
     clx_exact_sum own[MOST_CHUNK][CLAST_N_DISCREPANCY]; ///< over points the product of in-slab
                                                         ///< factors with themselves
 } tensor;
-
-/// A power of two that lets n moments of at most 1 be added in 62 bits.
-static double unit_of(int64_t n)
-{
-    int bits = 0;
-    while (n >> bits > 0) {
-        ++bits;
-    }
-    return ldexp(1.0, 62 - bits);
-}
 
 /// Pair factor of x with a y of its own slab: coefficients of (1, y).
 static void slab_coefficients(double x, int32_t g, double c[CLAST_N_DISCREPANCY][2])
@@ -277,7 +268,7 @@ clast_status clx_pair_sums_binned(const clx_part *part, double sum[CLAST_N_DISCR
                       .d = d,
                       .g = cells_an_axis(d),
                       .n_chunk = n_chunk_of(part->n),
-                      .unit = unit_of(part->n_all),
+                      .unit = clx_fixed_unit(part->n_all),
                       .size = 1};
         for (int32_t j = 0; j < d; ++j) {
             t->size *= 2 * t->g;

@@ -6,7 +6,7 @@
 #include "geom/topology.h"
 #include "math/vec3.h"
 
-enum { LEAF = 4, MOST_NEAR = 256, MOST_OWNERS = 16 };
+enum { LEAF = 4 };
 
 /// Share of the triangle within which a point counts as on a side, and the lean that rounding
 /// makes.
@@ -273,73 +273,6 @@ int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], dou
                 }
                 ++n;
             }
-        }
-    }
-    return n;
-}
-
-/// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
-static int32_t insert(clx_wall_contact *list, int32_t n, int32_t cap, const clx_wall_contact *one)
-{
-    CLAST_ASSERT(n >= 0 && n <= cap);
-    int32_t at = 0;
-    while (at < n && list[at].contact.gap <= one->contact.gap) {
-        if (v3_dot(list[at].contact.normal, one->contact.normal) > SAME_PUSH) {
-            return n;
-        }
-        ++at;
-    }
-    int32_t kept = at;
-    for (int32_t i = at; i < n; ++i) { // those that it stands for go
-        if (v3_dot(list[i].contact.normal, one->contact.normal) <= SAME_PUSH) {
-            list[kept++] = list[i];
-        }
-    }
-    n = kept < cap ? kept + 1 : cap;
-    for (int32_t i = n - 1; i > at; --i) {
-        list[i] = list[i - 1];
-    }
-    if (at < cap) {
-        list[at] = *one;
-    }
-    return n;
-}
-
-int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body, double max_gap,
-                               int32_t cap, clx_wall_contact *contact)
-{
-    CLAST_ASSERT(cap > 0);
-    int32_t tri[MOST_NEAR];
-    int32_t n = 0;
-    clx_contact owner[MOST_OWNERS];
-    int32_t n_owner = 0;
-    bool has_orphans = false;
-    const int32_t n_near = clx_wall_mesh_near(
-        wall, body->position, body->shape->bounding_radius + max_gap, MOST_NEAR, tri);
-    // More than fit: every triangle is tested, which is slow but misses none.
-    const int32_t n_ask = n_near <= MOST_NEAR ? n_near : wall->n_tri;
-    for (int pass = 0; pass < (has_orphans ? 2 : 1); ++pass) {
-        for (int32_t i = 0; i < n_ask; ++i) {
-            clx_wall_contact one = {.tri = n_near <= MOST_NEAR ? tri[i] : i};
-            clx_contact least;
-            const clx_wall_triangle *t = &wall->tri[one.tri];
-            if (!clx_triangle_contact(t, body, max_gap, NULL, &least)) {
-                continue;
-            }
-            const bool owns = clx_triangle_owns(t, body, &least);
-            one.contact = least;
-            has_orphans = has_orphans || (!owns && least.gap < 0.0);
-            if (pass == 0
-                    ? owns
-                    : !owns && least.gap < 0.0 &&
-                          clx_triangle_face_acts(t, body, &least, n_owner, owner, &one.contact)) {
-                n = insert(contact, n, cap, &one);
-            }
-        }
-        for (; pass == 0 && n_owner < n && n_owner < MOST_OWNERS &&
-               contact[n_owner].contact.gap < 0.0;
-             ++n_owner) {
-            owner[n_owner] = contact[n_owner].contact;
         }
     }
     return n;

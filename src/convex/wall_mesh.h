@@ -22,12 +22,6 @@ typedef struct clx_wall_mesh {
     clx_tree tree;          ///< item i of the tree is triangle tree.item[i]
 } clx_wall_mesh;
 
-/// Where a body meets a wall.
-typedef struct clx_wall_contact {
-    clx_contact contact; ///< point relative to the body's position
-    int32_t tri;         ///< names the contact from step to step
-} clx_wall_contact;
-
 /// @return CLAST_E_GEOMETRY if no triangle has an area
 clast_status clx_wall_mesh_create(const clast_mesh *mesh, clx_wall_mesh **wall);
 void clx_wall_mesh_destroy(clx_wall_mesh *wall); ///< NULL is allowed
@@ -63,8 +57,3 @@ void clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_plac
 bool clx_triangle_face_acts(const clx_wall_triangle *triangle, const clx_placed *body,
                             const clx_contact *least, int32_t n, const clx_contact *owner,
                             clx_contact *face);
-
-/// All contacts of a body with the wall whose gap is at most max_gap, deepest first: one for each
-/// direction of push (25 degrees), at most `cap`. Returns how many.
-int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body, double max_gap,
-                               int32_t cap, clx_wall_contact *contact);

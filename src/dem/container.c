@@ -78,16 +78,6 @@ clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
                : clast_dem_add_wall(dem, mesh, &wall);
 }
 
-int64_t clx_container_end(const clast_dem *dem, int32_t i)
-{
-    CLAST_ASSERT(i >= 0 && i < dem->n_item);
-    int64_t k = dem->list.begin[i];
-    while (k < dem->list.begin[i + 1] && clx_pair_is_container(dem, &dem->list.pair[k])) {
-        ++k;
-    }
-    return k;
-}
-
 static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
 {
     CLAST_ASSERT(i >= 0 && i < dem->n_item);

@@ -31,9 +31,6 @@ static inline const clx_wall_triangle *clx_pair_triangle(const clast_dem *dem,
     return &dem->container->tri[-1 - pair->b - dem->n_wall];
 }
 
-/// First pair of the item that is not one with the container.
-int64_t clx_container_end(const clast_dem *dem, int32_t i);
-
 /// Which triangles an item touches now: of contacts within 25 degrees the deepest stands for all,
 /// none leans over an edge farther than the neighbour's plane (convex/wall_mesh.h). The history
 /// goes with the contact from triangle to triangle. Marks the pairs; at most CLX_CONTAINER_TOUCHES.

@@ -176,7 +176,8 @@ done:
     return status;
 }
 
-void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
+/// Grain i anew, as given; its slot exists.
+static void set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
 {
     CLAST_ASSERT(from->shape >= 0 && from->shape < dem->n_body);
     CLAST_ASSERT(from->scale > 0.0 && from->density > 0.0);
@@ -236,7 +237,7 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
     CLX_TRY(clx_items_reserve(dem, n, grain));
     const int32_t first = dem->n_grain;
     for (int32_t i = 0; i < n; ++i) {
-        clx_dem_set_grain(dem, dem->n_grain, &grain[i]);
+        set_grain(dem, dem->n_grain, &grain[i]);
         clx_items_add(dem, dem->n_grain++);
     }
     clx_energy_added(dem, first);

@@ -194,9 +194,6 @@ static inline const clx_law *clx_law_at(const clast_dem *dem, int32_t shape, int
 /// Whether any two grains have friction.
 bool clx_grains_rub(const clast_dem *dem);
 
-/// Grain i anew, as given; its slot exists.
-void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
-
 /// Contacts, then motion, of all grains: a step's work. *is_fine as clx_move.
 clast_status clx_contacts_and_motion(clast_dem *dem, bool *is_fine);
 

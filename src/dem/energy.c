@@ -41,7 +41,7 @@ void clx_energy_merge(const clx_energy *energy, clx_exact_sum sum[CLX_N_WORK])
     }
 }
 
-void clx_energy_sums(const clx_energy *energy, double sum[CLX_N_WORK])
+static void sum_works(const clx_energy *energy, double sum[CLX_N_WORK])
 {
     clx_exact_sum all[CLX_N_WORK];
     clx_energy_merge(energy, all);
@@ -553,7 +553,7 @@ void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy)
         return;
     }
     double sum[CLX_N_WORK];
-    clx_energy_sums(dem->energy, sum);
+    sum_works(dem->energy, sum);
     const clx_energy_held now = clx_energy_held_now(dem);
     clast_dem_energy e = {.translation = now.translation,
                           .rotation = now.rotation,

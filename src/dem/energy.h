@@ -57,8 +57,6 @@ void clx_energy_add(clx_energy *energy, int32_t worker, const double share[CLX_N
 
 /// All parts in one; then the sums rounded.
 void clx_energy_merge(const clx_energy *energy, clx_exact_sum sum[CLX_N_WORK]);
-void clx_energy_sums(const clx_energy *energy, double sum[CLX_N_WORK]);
-
 /// The sums are these from now on.
 void clx_energy_set(clx_energy *energy, const clx_exact_sum sum[CLX_N_WORK]);
 clx_energy_held clx_energy_held_now(const clast_dem *dem);

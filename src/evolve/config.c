@@ -172,7 +172,7 @@ const clast_field clast_evolve_fields[] = {
            "not periodic) and of the density that a field changes, that a step may hold; and the "
            "most collisions of a pair's kind in a sub-step"),
     NUMBER(time_step, 0, 0, 1e300, "s", "longest step; 0: by step_error"),
-    {FIELD(U64, seed), 1, 0, 0, "-", "of every draw", .common = true},
+    {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "of every draw", .common = true},
 
     COUNT(keep, 20, 0, 1e6,
           "aggregates of most grains, each written as a state.h5 for clast pack --shapes",

@@ -2,6 +2,7 @@
 #include "evolve/flow.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,13 +12,6 @@ void clx_flow_free(clx_flow *flow)
 {
     clx_free(flow->u);
     *flow = (clx_flow){0};
-}
-
-static int rising(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /// First plane, distance and number of the planes of one axis.
@@ -30,7 +24,7 @@ static clast_status find_planes(const clast_cloud *cloud, int axis, clx_flow *fl
     for (int64_t i = 0; i < cloud->n; ++i) {
         x[i] = cloud->x[3 * i + axis];
     }
-    qsort(x, (size_t)cloud->n, sizeof *x, rising);
+    qsort(x, (size_t)cloud->n, sizeof *x, clx_by_value);
     const double slack = EVEN * (x[cloud->n - 1] - x[0]) / (double)cloud->n;
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (n == 0 || x[i] > x[n - 1] + slack) {

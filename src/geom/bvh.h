@@ -28,10 +28,6 @@ struct clast_bvh {
     clx_bvh_moment *moment; ///< [n_node], for CLX_BVH_SOLID_ANGLE only
 };
 
-/// True if any triangle is hit with t_low <= t <= t_high: cheaper than the first hit.
-bool clx_bvh_blocked(const clast_bvh *bvh, const double origin[3], const double direction[3],
-                     double t_low, double t_high);
-
 /// True if every edge of the surface is used equally often in both directions.
 bool clx_bvh_is_closed(const clast_mesh *mesh);
 
@@ -63,6 +59,8 @@ bool clx_triangles_meet(double a[3][3], double b[3][3]);
 /// number first, in rising order (when there are more than cap: some of them, always the same).
 /// O(n log n) and the same for any thread count.
 ///
-/// @param pair  [cap][2], or NULL with cap = 0
-clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t cap, int32_t (*pair)[2],
-                                        int64_t *n_pair);
+/// @param budget  pairs to test (of some 50 ns; exact arithmetic counts as more) before the search
+///                is given up: *n_pair is then -1
+/// @param pair    [cap][2], or NULL with cap = 0
+clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t budget, int64_t cap,
+                                        int32_t (*pair)[2], int64_t *n_pair);

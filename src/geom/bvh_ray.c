@@ -75,8 +75,8 @@ static bool visit_leaf(const clast_bvh *bvh, const clx_tree_node *node, ray_fram
     return found;
 }
 
-/// Nearest hit, or any when `any` is set.
-static bool walk(const clast_bvh *bvh, ray_frame *ray, bool any, clast_hit *hit)
+/// Nearest hit.
+static bool walk(const clast_bvh *bvh, ray_frame *ray, clast_hit *hit)
 {
     struct {
         int32_t node;
@@ -113,9 +113,6 @@ static bool walk(const clast_bvh *bvh, ray_frame *ray, bool any, clast_hit *hit)
             }
         } else if (visit_leaf(bvh, node, ray, hit)) {
             found = true;
-            if (any) {
-                return true;
-            }
         }
         do {
             if (n_stack == 0) {
@@ -135,17 +132,9 @@ bool clast_bvh_ray(const clast_bvh *bvh, const double origin[3], const double di
     }
     ray_frame ray;
     clast_hit best = {.t = INFINITY, .tri = INT32_MAX};
-    if (!frame_of(bvh, origin, direction, t_low, t_high, &ray) || !walk(bvh, &ray, false, &best)) {
+    if (!frame_of(bvh, origin, direction, t_low, t_high, &ray) || !walk(bvh, &ray, &best)) {
         return false;
     }
     *hit = best;
     return true;
-}
-
-bool clx_bvh_blocked(const clast_bvh *bvh, const double origin[3], const double direction[3],
-                     double t_low, double t_high)
-{
-    ray_frame ray;
-    clast_hit best = {.t = INFINITY, .tri = INT32_MAX};
-    return frame_of(bvh, origin, direction, t_low, t_high, &ray) && walk(bvh, &ray, true, &best);
 }

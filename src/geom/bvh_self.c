@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 256, SLOTS = 64 };
+enum { BLOCK = 256, SLOTS = 64, EXACT_STEPS = 4 }; // steps of exact arithmetic to a pair's work
 
 static int sign(double x)
 {
@@ -134,11 +134,12 @@ static int shared_corners(double a[3][3], double b[3][3], int match[3])
     return n;
 }
 
-/// Signs of the corners of b against the plane of a; false when all are strictly on one side.
-static bool sides_of(double a[3][3], double b[3][3], int side[3])
+/// Signs of the corners of b against the plane of a, in which its corner `shared` (-1: none) lies;
+/// false when all are strictly on one side.
+static bool sides_of(double a[3][3], double b[3][3], int shared, int side[3])
 {
     for (int i = 0; i < 3; ++i) {
-        side[i] = sign(clx_orient3d(a[0], a[1], a[2], b[i]));
+        side[i] = i == shared ? 0 : sign(clx_orient3d(a[0], a[1], a[2], b[i]));
     }
     return !(side[0] == side[1] && side[1] == side[2] && side[0] != 0);
 }
@@ -182,13 +183,15 @@ bool clx_triangles_meet(double a[3][3], double b[3][3])
     if (n_shared == 2) {
         return edge_pair_overlaps(a, b, match);
     }
-    if (!sides_of(a, b, side_b) || !sides_of(b, a, side_a)) {
+    const int shared_a = first_corner(match, true);
+    const int shared_b = shared_a < 0 ? -1 : match[shared_a];
+    if (!sides_of(a, b, shared_b, side_b) || !sides_of(b, a, shared_a, side_a)) {
         return false;
     }
     // With one shared corner, whatever else the triangles share reaches the edge opposite of it in
     // one of them.
-    const int only_a = n_shared == 1 ? (first_corner(match, true) + 1) % 3 : -1;
-    const int only_b = n_shared == 1 ? (match[first_corner(match, true)] + 1) % 3 : -1;
+    const int only_a = shared_a < 0 ? -1 : (shared_a + 1) % 3;
+    const int only_b = shared_b < 0 ? -1 : (shared_b + 1) % 3;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         if (((only_b < 0 || only_b == i) && segment_meets(b[i], side_b[i], b[j], side_b[j], a)) ||
@@ -202,12 +205,15 @@ bool clx_triangles_meet(double a[3][3], double b[3][3])
 /// What one block of triangles found: all counted, the first SLOTS kept.
 typedef struct {
     int64_t n;
+    int64_t work; ///< pairs tested, and exact arithmetic by its time
     int32_t pair[SLOTS][2];
 } block_result;
 
 typedef struct {
     const clast_bvh *bvh;
     block_result *block;
+    int64_t first; ///< triangle of the round at hand
+    int64_t left;  ///< work that a block may do
     // For a block whose slots ran over: where its pairs go instead.
     int32_t (*all)[2];
     int64_t n_all, cap;
@@ -271,8 +277,11 @@ static void search_one(self_search *search, block_result *result, int32_t i)
             double other_low[3];
             double other_high[3];
             box_of(bvh->corner[j], other_low, other_high);
-            if (j > i && boxes_meet(low, high, other_low, other_high) &&
-                clx_triangles_meet(bvh->corner[i], bvh->corner[j])) {
+            if (j <= i || !boxes_meet(low, high, other_low, other_high)) {
+                continue;
+            }
+            ++result->work;
+            if (clx_triangles_meet(bvh->corner[i], bvh->corner[j])) {
                 append_pair(search, result, i, j);
             }
         }
@@ -282,10 +291,33 @@ static void search_one(self_search *search, block_result *result, int32_t i)
 static void search_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     self_search *search = context;
+    block_result *result = &search->block[(search->first + begin) / BLOCK];
     (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        search_one(search, &search->block[begin / BLOCK], (int32_t)i);
+    for (int64_t i = search->first + begin; i < search->first + end && result->work <= search->left;
+         ++i) {
+        const int64_t before = clx_exact_work();
+        search_one(search, result, (int32_t)i);
+        result->work += (clx_exact_work() - before) / EXACT_STEPS;
     }
+}
+
+/// Searches in rounds of 1, 2, 4, ... blocks, so that it ends soon after the work is used up, and
+/// after the same round for any number of threads. False: it ended there.
+static bool search_rounds(self_search *search, int64_t n_block, int64_t budget)
+{
+    const int64_t n_item = search->bvh->tree.n_item;
+    int64_t n_done = 0;
+    search->left = budget;
+    for (int64_t size = 1; n_done < n_block && search->left >= 0; size *= 2) {
+        const int64_t end = n_done + size < n_block ? n_done + size : n_block;
+        search->first = n_done * BLOCK;
+        clx_parallel_for((end * BLOCK < n_item ? end * BLOCK : n_item) - search->first, BLOCK,
+                         search_block, search);
+        for (; n_done < end; ++n_done) {
+            search->left -= search->block[n_done].work;
+        }
+    }
+    return search->left >= 0;
 }
 
 /// Gathers the blocks' pairs, asking crowded blocks again; their sum goes to *n_pair.
@@ -295,6 +327,8 @@ static void gather(self_search *search, int64_t n_block, int64_t cap, int32_t (*
     int64_t total = 0;
     search->all = pair;
     search->cap = cap;
+    search->first = 0;
+    search->left = INT64_MAX;
     for (int64_t b = 0; b < n_block; ++b) {
         const block_result *result = &search->block[b];
         total += result->n;
@@ -321,15 +355,18 @@ static int compare_pairs(const void *a, const void *b)
     return (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t cap, int32_t (*pair)[2],
-                                        int64_t *n_pair)
+clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t budget, int64_t cap,
+                                        int32_t (*pair)[2], int64_t *n_pair)
 {
     CLAST_ASSERT(cap >= 0);
     clast_status status = CLAST_OK;
     const int64_t n_block = (bvh->tree.n_item + BLOCK - 1) / BLOCK;
     self_search search = {.bvh = bvh};
     CLX_TRY(clx_alloc(&search.block, n_block, sizeof *search.block));
-    clx_parallel_for(bvh->tree.n_item, BLOCK, search_block, &search);
+    if (!search_rounds(&search, n_block, budget)) {
+        *n_pair = -1;
+        goto done;
+    }
     gather(&search, n_block, cap, pair, n_pair);
     if (search.n_all > 1) {
         qsort(pair, (size_t)search.n_all, sizeof *pair, compare_pairs);

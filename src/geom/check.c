@@ -133,18 +133,6 @@ static clast_status measure_hull(const clast_mesh *mesh, double *volume)
     return status;
 }
 
-static clast_status count_cuts(const clast_mesh *mesh, clast_mesh_check_result *result)
-{
-    clx_cuts cuts = {0};
-    const clast_status status = clx_mesh_cuts(mesh, &cuts);
-    result->n_intersection = cuts.n_pair;
-    result->n_touch = cuts.n_touch;
-    result->intersection[0] = cuts.first[0];
-    result->intersection[1] = cuts.first[1];
-    result->intersection_complete = cuts.complete;
-    return status;
-}
-
 clast_status clx_check_finite(const clast_mesh *mesh)
 {
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
@@ -170,7 +158,7 @@ clast_status clx_check_without_cuts(const clast_mesh *mesh, clast_mesh_check_res
     CLX_TRY(count_facets(mesh, &topology, &made));
     CLX_TRY(count_fans(mesh, &topology, &made));
     CLX_TRY(count_holes(mesh, &topology, &made));
-    CLX_TRY(clx_check_parts(mesh, &topology, &made));
+    CLX_TRY(clx_check_parts(mesh, &topology, &made, NULL));
     CLX_TRY(measure_hull(mesh, &made.hull_volume));
     clx_check_measures(mesh, &made);
     made.manifold = made.n_nonmanifold_edge == 0 && made.n_nonmanifold_vertex == 0;
@@ -183,22 +171,7 @@ done:
     return status;
 }
 
-clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *result)
-{
-    CLX_ARGUMENTS(mesh, result);
-    clast_status status = CLAST_OK;
-    clast_mesh_check_result made = {0};
-    CLX_TRY(clx_check_without_cuts(mesh, &made));
-    CLX_TRY(count_cuts(mesh, &made));
-    clx_check_words(&made);
-    *result = made;
-    made = (clast_mesh_check_result){0};
-done:
-    clast_mesh_check_free(&made);
-    return status;
-}
-
-clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles)
+clast_status clx_count_doubles(const clast_mesh *mesh, clx_doubles *doubles)
 {
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
@@ -211,20 +184,19 @@ clast_status clx_find_doubles(const clast_mesh *mesh, clx_doubles *doubles)
     CLX_TRY(clx_topology_build(mesh, &topology));
     count_edges(mesh, &topology, &made);
     CLX_TRY(count_facets(mesh, &topology, &made));
-    CLX_TRY(clx_check_parts(mesh, &topology, &made));
+    CLX_TRY(clx_check_parts(mesh, &topology, &made, NULL));
     CLX_TRY(clx_mesh_cuts(mesh, &cuts));
     *doubles = (clx_doubles){.n_part = made.n_part,
                              .n_doubled = made.n_doubled,
                              .n_repeated = made.n_repeated,
                              .n_body = made.n_body,
-                             .n_flat = clx_count_flat(&made),
+                             .n_flat = made.n_flat,
+                             .n_apart = clx_count_apart(&made),
                              .n_wall = made.n_duplicate,
                              .n_nonmanifold_edge = made.n_nonmanifold_edge,
                              .n_intersection = cuts.n_pair,
                              .intersection_complete = cuts.complete};
-    for (int32_t i = 0; i < made.n_part; ++i) {
-        doubles->n_apart += clx_part_facing(&made, i) > 0 && made.part[i].depth == 0;
-    }
+    CLX_TRY(clx_count_parted(&made, &doubles->n_parted));
 done:
     clast_mesh_check_free(&made);
     clx_topology_free(&topology);

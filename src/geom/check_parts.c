@@ -15,6 +15,8 @@
 /// Volume of a part by its area and extent below which it is rounding.
 static const double FLAT = 1e-12;
 
+enum { MOST_ASKED = 64 }; // triangles of a part that are asked where they lie
+
 static void add_triangles(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)
 {
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -114,9 +116,7 @@ static bool box_in_box(const clast_mesh_part *inner, const clast_mesh_part *oute
     return true;
 }
 
-/// Solid angle of triangle (a, b, c) seen from p, with sign. [VanOosterom1983 eq. 8]
-static double solid_angle(const double p[3], const double a[3], const double b[3],
-                          const double c[3])
+double clx_solid_angle(const double p[3], const double a[3], const double b[3], const double c[3])
 {
     double u[3];
     double v[3];
@@ -154,7 +154,7 @@ bool clx_is_star_shaped(const clast_mesh *mesh)
         if (!(v3_dot(corner[0], n) > 1e-14 * extent * extent * extent)) {
             return false;
         }
-        sum += solid_angle((double[3]){0}, corner[0], corner[1], corner[2]);
+        sum += clx_solid_angle((double[3]){0}, corner[0], corner[1], corner[2]);
     }
     return sum < 6.0 * CLAST_PI;
 }
@@ -165,34 +165,45 @@ typedef struct {
     const int32_t *tri;
 } part_lists;
 
-/// Does the part wind around the point? Its winding number is 0 outside and +-1 inside.
-static bool winds_around(const part_lists *lists, int32_t part, const double point[3])
+/// Does the part wind around the point? 1 inside, -1 outside, 0 on the surface itself, where one
+/// triangle alone fills half of all directions and its sign is rounding.
+static int winds_around(const part_lists *lists, int32_t part, const double point[3])
 {
     CLAST_ASSERT(part >= 0 && lists->first[part] <= lists->first[part + 1]);
     const clast_mesh *mesh = lists->mesh;
     double sum = 0.0;
     for (int32_t i = lists->first[part]; i < lists->first[part + 1]; ++i) {
         const int32_t *c = mesh->tri[lists->tri[i]];
-        sum += solid_angle(point, mesh->vert[c[0]], mesh->vert[c[1]], mesh->vert[c[2]]);
+        const double angle =
+            clx_solid_angle(point, mesh->vert[c[0]], mesh->vert[c[1]], mesh->vert[c[2]]);
+        if (fabs(angle) > 2.0 * CLAST_PI - 1e-9) {
+            return 0;
+        }
+        sum += angle;
     }
-    return fabs(sum) > 2.0 * CLAST_PI;
+    return fabs(sum) > 2.0 * CLAST_PI ? 1 : -1;
 }
 
-/// Middles of three triangles vote, so that one contact point does not decide.
+/// Middles of three triangles vote, so that one contact point does not decide; those on the outer
+/// part's surface (walls that touch) have no vote, and others are asked.
 static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
 {
     CLAST_ASSERT(inner != outer);
     int votes = 0;
+    int n_vote = 0;
     const int32_t n = lists->first[inner + 1] - lists->first[inner];
-    for (int i = 0; i < 3; ++i) {
-        const int32_t t = lists->tri[lists->first[inner] + (int32_t)((int64_t)i * (n - 1) / 2)];
+    for (int32_t i = 0; i < MOST_ASKED && i < n + 3 && n_vote < 3; ++i) {
+        const int32_t at = i < 3 ? (int32_t)((int64_t)i * (n - 1) / 2) : i - 3;
+        const int32_t t = lists->tri[lists->first[inner] + at];
         double middle[3] = {0};
         for (int k = 0; k < 3; ++k) {
             v3_axpy(middle, middle, 1.0 / 3.0, lists->mesh->vert[lists->mesh->tri[t][k]]);
         }
-        votes += winds_around(lists, outer, middle);
+        const int vote = winds_around(lists, outer, middle);
+        votes += vote;
+        n_vote += vote != 0;
     }
-    return votes >= 2;
+    return votes > 0;
 }
 
 /// A number of a part's triangles in any order, alike for copies.
@@ -238,13 +249,23 @@ static bool is_within(const part_lists *lists, const clast_mesh_part *list, int3
     return lies_in(lists, inner, outer);
 }
 
-/// Of all parts around one, the outermost has the largest volume.
-static void keep_outermost(clast_mesh_part *list, int32_t inner, int32_t outer)
+/// Of all parts around one, the outermost has the largest volume and the parent, directly around
+/// it, the smallest; of copies the later one lies in the other.
+static void keep_around(clast_mesh_part *list, int32_t *parent, int32_t inner, int32_t outer)
 {
     CLAST_ASSERT(inner != outer);
+    const double volume = fabs(list[outer].volume);
     const int32_t known = list[inner].outermost;
-    if (known < 0 || fabs(list[outer].volume) > fabs(list[known].volume)) {
+    if (known < 0 || volume > fabs(list[known].volume)) {
         list[inner].outermost = outer;
+    }
+    if (parent == NULL) {
+        return;
+    }
+    const int32_t near = parent[inner];
+    const double least = near >= 0 ? fabs(list[near].volume) : (double)INFINITY;
+    if (volume < least || (volume == least && outer > near)) {
+        parent[inner] = outer;
     }
 }
 
@@ -253,19 +274,15 @@ static int sign(double x)
     return (x > 0.0) - (x < 0.0);
 }
 
+bool clx_is_no_volume(double volume, double area, double extent)
+{
+    return fabs(volume) <= FLAT * area * extent;
+}
+
 bool clx_part_is_flat(const clast_mesh_part *part)
 {
     return part->closed && part->oriented &&
-           fabs(part->volume) <= FLAT * part->area * v3_distance(part->low, part->high);
-}
-
-int32_t clx_count_flat(const clast_mesh_check_result *result)
-{
-    int32_t n = 0;
-    for (int32_t i = 0; i < result->n_part; ++i) {
-        n += clx_part_is_flat(&result->part[i]);
-    }
-    return n;
+           clx_is_no_volume(part->volume, part->area, v3_distance(part->low, part->high));
 }
 
 int clx_part_facing(const clast_mesh_check_result *result, int32_t part)
@@ -275,6 +292,51 @@ int clx_part_facing(const clast_mesh_check_result *result, int32_t part)
     return p->closed && p->oriented && !clx_part_is_flat(p)
                ? sign(p->volume) * sign(outermost->volume)
                : 0;
+}
+
+int32_t clx_count_apart(const clast_mesh_check_result *result)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < result->n_part; ++i) {
+        n += clx_part_facing(result, i) > 0 && result->part[i].depth == 0;
+    }
+    return n;
+}
+
+static int compare_low(const void *a, const void *b)
+{
+    const double *p = a;
+    const double *q = b;
+    return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+clast_status clx_count_parted(const clast_mesh_check_result *result, int32_t *n_parted)
+{
+    clast_status status = CLAST_OK;
+    double(*range)[2] = NULL;
+    *n_parted = 0;
+    CLX_TRY(clx_alloc(&range, result->n_part, sizeof *range));
+    for (int k = 0; k < 3; ++k) {
+        int32_t n = 0;
+        int32_t n_group = 0;
+        double high = -INFINITY;
+        for (int32_t i = 0; i < result->n_part; ++i) {
+            const clast_mesh_part *p = &result->part[i];
+            if (clx_part_facing(result, i) != 0) {
+                range[n][0] = p->low[k];
+                range[n++][1] = p->high[k];
+            }
+        }
+        qsort(range, (size_t)n, sizeof *range, compare_low);
+        for (int32_t i = 0; i < n; ++i) {
+            n_group += range[i][0] > high;
+            high = fmax(high, range[i][1]);
+        }
+        *n_parted = n_group > *n_parted ? n_group : *n_parted;
+    }
+done:
+    clx_free(range);
+    return status;
 }
 
 /// Tree of the boxes of parts that can contain others.
@@ -301,7 +363,7 @@ done:
 
 /// Finds all parts around one.
 static void find_depth(const part_lists *lists, const clx_tree *tree, clast_mesh_part *list,
-                       int32_t inner)
+                       int32_t *parent, int32_t inner)
 {
     int32_t stack[CLX_TREE_DEPTH + 1] = {0};
     int32_t n_stack = 1;
@@ -322,14 +384,14 @@ static void find_depth(const part_lists *lists, const clx_tree *tree, clast_mesh
             if (outer != inner && is_within(lists, list, inner, outer)) {
                 ++list[inner].depth;
                 list[inner].winding += sign(list[outer].volume);
-                keep_outermost(list, inner, outer);
+                keep_around(list, parent, inner, outer);
             }
         }
     }
 }
 
 static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int32_t n_part,
-                                clast_mesh_part *list)
+                                clast_mesh_part *list, int32_t *parent)
 {
     clast_status status = CLAST_OK;
     clx_tree tree = {0};
@@ -349,7 +411,7 @@ static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int
     CLX_TRY(build_tree(list, n_part, &tree));
     for (int32_t inner = 0; inner < n_part && tree.n_node > 0; ++inner) {
         if (list[inner].closed) {
-            find_depth(&lists, &tree, list, inner);
+            find_depth(&lists, &tree, list, parent, inner);
         }
     }
 done:
@@ -371,6 +433,7 @@ static void count_nested(clast_mesh_check_result *result)
         p->inside_out =
             p->closed && p->oriented && p->depth == 0 && p->volume < 0.0 && !clx_part_is_flat(p);
         result->n_inside_out += p->inside_out;
+        result->n_flat += clx_part_is_flat(p);
         result->n_nested += p->closed && p->depth > 0;
         result->n_doubled += (facing > 0 && p->winding > 1) || (facing < 0 && p->winding < 0);
         result->n_body += facing > 0 && p->winding == 1;
@@ -378,7 +441,7 @@ static void count_nested(clast_mesh_check_result *result)
 }
 
 clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
-                             clast_mesh_check_result *result)
+                             clast_mesh_check_result *result, int32_t *parent)
 {
     clast_status status = CLAST_OK;
     int32_t *part = NULL;
@@ -388,12 +451,15 @@ clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topolog
     for (int32_t i = 0; i < result->n_part; ++i) {
         result->part[i] =
             (clast_mesh_part){.closed = true, .oriented = true, .manifold = true, .outermost = -1};
+        if (parent != NULL) {
+            parent[i] = -1;
+        }
     }
     add_triangles(mesh, part, result->part);
     add_volumes(mesh, part, result->part);
     add_edges(mesh, topology, part, result->part);
     CLX_TRY(add_genus(mesh, topology, part, result->n_part, result->part));
-    CLX_TRY(find_depths(mesh, part, result->n_part, result->part));
+    CLX_TRY(find_depths(mesh, part, result->n_part, result->part, parent));
     count_nested(result);
     for (int32_t i = 0; i < result->n_part; ++i) {
         result->genus += result->part[i].genus > 0 ? result->part[i].genus : 0;

@@ -1,7 +1,9 @@
 // The findings of clast_mesh_check in words, with numbers and what to run.
 #include "base/number.h"
 #include "geom/check.h"
+#include "math/vec3.h"
 
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <math.h>
 #include <stdarg.h>
@@ -10,6 +12,9 @@
 
 /// Below it a product of three lengths is not to be told from 0.
 static const double SMALLEST_EXTENT = 1e-95;
+
+/// Times the extent: what welding a file's rounding moves (24 bits), and no word is said of.
+static const double SMALL_MOVE = 1e-6;
 
 __attribute__((format(printf, 4, 5))) static void
 add(clast_mesh_check_result *result, bool blocking, const char *code, const char *format, ...)
@@ -120,8 +125,8 @@ static void part_words(clast_mesh_check_result *r)
 
 static void flat_words(clast_mesh_check_result *r)
 {
-    const int32_t n_flat = clx_count_flat(r);
-    if (r->n_edge > 0 && r->hull_volume == 0.0 && r->extent < SMALLEST_EXTENT) {
+    const int32_t n_flat = r->n_flat;
+    if (r->n_edge > 0 && r->extent < SMALLEST_EXTENT) {
         add(r, true, "flat", "an extent of %.3g is too small for a volume; is the unit right?",
             r->extent);
     } else if (r->n_edge > 0 && r->hull_volume == 0.0) {
@@ -131,6 +136,9 @@ static void flat_words(clast_mesh_check_result *r)
             "%d of %d parts ha%s no volume: the two sides of a sheet; `clast mesh repair` drops "
             "%s",
             n_flat, r->n_part, n_flat == 1 ? "s" : "ve", n_flat == 1 ? "it" : "them");
+    } else if (r->closed && r->oriented && clx_is_no_volume(r->volume, r->area, r->extent)) {
+        add(r, true, "flat", "a volume of %.3g by an area of %.3g: cavities take all of its parts",
+            r->volume, r->area);
     }
 }
 
@@ -201,6 +209,37 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
                        "what they bound",
                        doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
     }
+}
+
+void clx_weld_words(const clast_mesh *mesh, const clast_mesh_repair_report *weld, size_t size,
+                    char *text)
+{
+    double low[3];
+    double high[3];
+    clast_mesh_bounds(mesh, low, high);
+    const double extent = v3_distance(low, high);
+    text[0] = '\0';
+    if (weld->n_merged > 0 && weld->weld_distance > SMALL_MOVE * extent) {
+        (void)clx_number_print(text, size,
+                               "%d vert%s of open edges merged with others within %.3g (%.2g of "
+                               "the extent)",
+                               weld->n_merged, weld->n_merged == 1 ? "ex" : "ices",
+                               weld->weld_distance, weld->weld_distance / extent);
+    }
+}
+
+void clast_mesh_check_doubles(const clast_mesh_check_result *result, size_t size, char *text)
+{
+    if (result == NULL || text == NULL || size == 0) {
+        return;
+    }
+    clx_doubles_words(&(clx_doubles){.n_part = result->n_part,
+                                     .n_doubled = result->n_doubled,
+                                     .n_repeated = result->n_repeated,
+                                     .n_flat = result->n_flat,
+                                     .n_intersection = result->n_intersection,
+                                     .intersection_complete = result->intersection_complete},
+                      size, text);
 }
 
 void clx_check_words(clast_mesh_check_result *result)

@@ -6,7 +6,9 @@
 // evenly along it, and then each stretch between two of them as a loop of its own, so that the time
 // stays linear in the length. Diagonals that are edges
 // of the surface already would get more than two triangles, and triangles without area are faults
-// themselves: both are taken only when there is no other way.
+// themselves: both are taken only when there is no other way. A sheet
+// that stands in the loop already (a wall across a solid) is taken where it has no more area: front
+// and back of it are superfluous then, and go.
 #include "geom/repair.h"
 
 #include "base/alloc.h"
@@ -14,6 +16,7 @@
 #include "geom/holes.h"
 #include "geom/polygon.h"
 #include "geom/topology.h"
+#include "geom/union_find.h"
 #include "geom/weld.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
@@ -22,6 +25,14 @@
 #include <string.h>
 
 enum { MOST = 80 };
+
+/// Triangles joined by edges of two users, named by their first.
+typedef struct {
+    int32_t *of;       ///< [n_tri]
+    int32_t *next;     ///< [n_tri] the next triangle of the sheet, -1: none
+    int32_t *n_border; ///< [n_tri] by sheet: its sides on edges with another number of users
+    double *area;      ///< [n_tri] by sheet
+} sheets;
 
 typedef struct {
     clast_mesh *mesh;
@@ -36,6 +47,7 @@ typedef struct {
     clx_polygon_cutter cutter;
     int32_t *stack; ///< loops waiting: lengths and corners, see push
     int64_t n_stack, stack_capacity;
+    sheets sheets;
 } filler;
 
 static void filler_free(filler *f)
@@ -46,6 +58,10 @@ static void filler_free(filler *f)
     clx_free(f->bad);
     clx_free(f->split);
     clx_free(f->stack);
+    clx_free(f->sheets.of);
+    clx_free(f->sheets.next);
+    clx_free(f->sheets.n_border);
+    clx_free(f->sheets.area);
     clx_polygon_cutter_free(&f->cutter);
 }
 
@@ -60,8 +76,8 @@ static double area(const clast_mesh *mesh, int32_t a, int32_t b, int32_t c)
     return 0.5 * v3_norm(n);
 }
 
-/// Is (a, b) an edge of the surface as it was?
-static bool is_edge(const filler *f, int32_t a, int32_t b)
+/// Edge (a, b) of the surface as it was; -1: none.
+static int32_t find_edge(const filler *f, int32_t a, int32_t b)
 {
     CLAST_ASSERT(a != b);
     const int32_t low = a < b ? a : b;
@@ -76,7 +92,12 @@ static bool is_edge(const filler *f, int32_t a, int32_t b)
             end = middle;
         }
     }
-    return begin < f->first[low + 1] && f->topology->edge[begin][1] == high;
+    return begin < f->first[low + 1] && f->topology->edge[begin][1] == high ? begin : -1;
+}
+
+static bool is_edge(const filler *f, int32_t a, int32_t b)
+{
+    return find_edge(f, a, b) >= 0;
 }
 
 static clast_status add_triangle(filler *f, int32_t a, int32_t b, int32_t c)
@@ -309,6 +330,93 @@ done:
     return status;
 }
 
+static clast_status find_sheets(const clast_mesh *mesh, const clx_topology *topology, sheets *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&s->of, mesh->n_tri, sizeof *s->of));
+    CLX_TRY(clx_alloc(&s->next, mesh->n_tri, sizeof *s->next));
+    CLX_TRY(clx_alloc(&s->n_border, mesh->n_tri, sizeof *s->n_border));
+    CLX_TRY(clx_alloc(&s->area, mesh->n_tri, sizeof *s->area));
+    clx_sets_init(s->of, mesh->n_tri);
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        s->next[t] = -1;
+    }
+    for (int32_t e = 0; e < topology->n_edge; ++e) {
+        const int32_t *users = topology->half + topology->begin[e];
+        if (clx_edge_use(topology, e) == 2) {
+            clx_sets_join(s->of, users[0] / 3, users[1] / 3);
+        }
+    }
+    for (int32_t t = mesh->n_tri - 1; t >= 0; --t) {
+        const int32_t *tri = mesh->tri[t];
+        const int32_t sheet = clx_sets_find(s->of, t);
+        if (sheet != t) { // behind the first
+            s->next[t] = s->next[sheet];
+            s->next[sheet] = t;
+        }
+        s->area[sheet] += area(mesh, tri[0], tri[1], tri[2]);
+    }
+    for (int32_t e = 0; e < topology->n_edge; ++e) {
+        for (int32_t i = topology->begin[e];
+             clx_edge_use(topology, e) != 2 && i < topology->begin[e + 1]; ++i) {
+            ++s->n_border[clx_sets_find(s->of, topology->half[i] / 3)];
+        }
+    }
+done:
+    return status;
+}
+
+/// Does the sheet end at the loop and nowhere else, and at other triangles there?
+static bool ends_at(const filler *f, int32_t sheet, const int32_t *corner, int32_t n)
+{
+    CLAST_ASSERT(n > 2);
+    const clx_topology *topology = f->topology;
+    bool ends = f->sheets.n_border[sheet] == n;
+    bool meets = false;
+    for (int32_t i = 0; i < n && ends; ++i) {
+        const int32_t e = find_edge(f, corner[i], corner[(i + 1) % n]);
+        const int32_t use = e >= 0 ? clx_edge_use(topology, e) : 2;
+        ends = false;
+        for (int32_t k = 0; k < use && use != 2; ++k) {
+            const int32_t t = topology->half[topology->begin[e] + k] / 3;
+            ends = ends || clx_sets_find(f->sheets.of, t) == sheet;
+        }
+        meets = meets || use > 2;
+    }
+    return ends && meets;
+}
+
+/// Takes the sheet of least area that stands in the loop in place of the triangles from `made` on,
+/// which fill it, where it has no more area than they.
+static clast_status take_sheet(filler *f, int32_t made, const int32_t *corner, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh *mesh = f->mesh;
+    const clx_topology *topology = f->topology;
+    const int32_t e = find_edge(f, corner[0], corner[1]);
+    double least = 0.0;
+    int32_t best = -1;
+    CLAST_ASSERT(e >= 0);
+    for (int32_t t = made; t < mesh->n_tri; ++t) {
+        least += (1.0 + 1e-9) * area(mesh, mesh->tri[t][0], mesh->tri[t][1], mesh->tri[t][2]);
+    }
+    for (int32_t i = topology->begin[e]; i < topology->begin[e + 1]; ++i) {
+        const int32_t sheet = clx_sets_find(f->sheets.of, topology->half[i] / 3);
+        if (f->sheets.area[sheet] <= least && ends_at(f, sheet, corner, n)) {
+            least = f->sheets.area[sheet];
+            best = sheet;
+        }
+    }
+    if (best >= 0) {
+        mesh->n_tri = made;
+    }
+    for (int32_t t = best; t >= 0; t = f->sheets.next[t]) {
+        CLX_TRY(add_triangle(f, mesh->tri[t][1], mesh->tri[t][0], mesh->tri[t][2]));
+    }
+done:
+    return status;
+}
+
 static clast_status filler_init(filler *f)
 {
     clast_status status = CLAST_OK;
@@ -324,6 +432,7 @@ static clast_status filler_init(filler *f)
     for (int32_t v = 0; v < f->mesh->n_vert; ++v) {
         f->first[v + 1] += f->first[v];
     }
+    CLX_TRY(find_sheets(f->mesh, f->topology, &f->sheets));
 done:
     return status;
 }
@@ -345,7 +454,11 @@ clast_status clx_fill_holes(clast_mesh *mesh, double most, clast_mesh_repair_rep
             ++report->n_hole_left;
             continue;
         }
-        CLX_TRY(fill_loop(&f, loops.vertex + loops.begin[i], loops.begin[i + 1] - loops.begin[i]));
+        const int32_t *corner = loops.vertex + loops.begin[i];
+        const int32_t n = loops.begin[i + 1] - loops.begin[i];
+        const int32_t made = mesh->n_tri;
+        CLX_TRY(fill_loop(&f, corner, n));
+        CLX_TRY(take_sheet(&f, made, corner, n));
         ++report->n_hole_filled;
     }
     report->n_fill_triangle += mesh->n_tri - n_before;

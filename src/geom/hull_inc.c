@@ -44,7 +44,8 @@ static double signed_distance(const clx_hull_inc *hull, const clx_hull_facet *fa
     return v3_dot(facet->normal, d);
 }
 
-bool clx_hull_inc_sees(const clx_hull_inc *hull, const clx_hull_facet *facet, const double point[3])
+/// Does the point lie strictly outside this facet's plane? Exact.
+static bool is_outside(const clx_hull_inc *hull, const clx_hull_facet *facet, const double point[3])
 {
     CLAST_ASSERT(facet->vert[0] >= 0);
     const double distance = signed_distance(hull, facet, point);
@@ -206,7 +207,7 @@ static clast_status find_horizon(clx_hull_inc *hull, int32_t first, const double
         for (int k = 0; k < 3; ++k) {
             clx_hull_facet *beyond = &hull->facet[facet->adj[k]];
             if (beyond->stamp < seen) {
-                const bool is_visible = clx_hull_inc_sees(hull, beyond, point);
+                const bool is_visible = is_outside(hull, beyond, point);
                 beyond->stamp = seen + (is_visible ? 0 : 1);
                 if (is_visible) {
                     hull->visible[hull->n_visible++] = facet->adj[k];
@@ -262,7 +263,7 @@ static clast_status assign(clx_hull_inc *hull, int32_t i, const double point[3],
 {
     for (int32_t j = 0; j < n; ++j) {
         clx_hull_facet *facet = &hull->facet[facets[j]];
-        if (clx_hull_inc_sees(hull, facet, point)) {
+        if (is_outside(hull, facet, point)) {
             hull->next[i] = facet->outside;
             facet->outside = i;
             *is_assigned = true;
@@ -379,7 +380,7 @@ done:
 }
 
 /// Candidates' planes side by side, moved outward from nothing a point could be doubted to see:
-/// n.(p - low) - offset > -2 doubt for every point that clx_hull_inc_sees would say yes to.
+/// n.(p - low) - offset > -2 doubt for every point that is_outside would say yes to.
 static clast_status set_planes(clx_hull_inc *hull, int32_t n)
 {
     clast_status status = CLAST_OK;
@@ -624,7 +625,7 @@ clast_status clx_hull_inc_insert(clx_hull_inc *hull, const double point[3], int3
     *done = false;
     CLX_TRY(check_finite(1, (const double(*)[3])point));
     extend_box(hull, 1, (const double(*)[3])point);
-    if (clx_hull_inc_sees(hull, &hull->facet[facet], point)) {
+    if (is_outside(hull, &hull->facet[facet], point)) {
         CLX_TRY(clx_grow(&hull->next, &hull->next_room, 1, sizeof *hull->next));
         hull->next[0] = -1;
         hull->facet[facet].outside = 0;
@@ -697,50 +698,4 @@ done:
 double clx_hull_inc_volume(const clx_hull_inc *hull)
 {
     return hull->volume + hull->volume_low;
-}
-
-double clx_hull_inc_area(const clx_hull_inc *hull)
-{
-    double area = 0.0;
-    for (int32_t f = 0; f < hull->facet_end; ++f) {
-        const int32_t *v = hull->facet[f].vert;
-        if (v[0] >= 0) {
-            area += 0.5 * twice_area(hull->vert[v[0]].point, hull->vert[v[1]].point,
-                                     hull->vert[v[2]].point);
-        }
-    }
-    return area;
-}
-
-clast_status clx_hull_inc_mesh(const clx_hull_inc *hull, clast_mesh *mesh)
-{
-    clast_status status = CLAST_OK;
-    clast_mesh made = {0};
-    int32_t *number = NULL;
-    int32_t n_vert = 0;
-    int32_t n_tri = 0;
-    CLX_CHECK(hull->is_solid, CLAST_E_GEOMETRY, "hull: all %d points lie in one plane",
-              hull->n_pending);
-    CLX_TRY(clx_alloc(&number, hull->vert_end, sizeof *number));
-    CLX_TRY(clast_mesh_alloc(hull->n_vert, hull->n_facet, &made));
-    for (int32_t v = 0; v < hull->vert_end; ++v) {
-        if (hull->vert[v].degree > 0) {
-            v3_copy(made.vert[n_vert], hull->vert[v].point);
-            number[v] = n_vert++;
-        }
-    }
-    for (int32_t f = 0; f < hull->facet_end; ++f) {
-        if (hull->facet[f].vert[0] >= 0) {
-            for (int k = 0; k < 3; ++k) {
-                made.tri[n_tri][k] = number[hull->facet[f].vert[k]];
-            }
-            ++n_tri;
-        }
-    }
-    *mesh = made;
-    made = (clast_mesh){0};
-done:
-    clast_mesh_free(&made);
-    clx_free(number);
-    return status;
 }

@@ -104,13 +104,3 @@ clast_status clx_hull_inc_compact(clx_hull_inc *hull);
 /// Volume of the hull; 0 while all points are coplanar. O(1): the sum of what each insertion added,
 /// all terms positive, with compensation.
 double clx_hull_inc_volume(const clx_hull_inc *hull);
-
-/// Surface area, O(facets).
-double clx_hull_inc_area(const clx_hull_inc *hull);
-
-/// The hull as a closed outward mesh; CLAST_E_GEOMETRY while all points are coplanar.
-clast_status clx_hull_inc_mesh(const clx_hull_inc *hull, clast_mesh *mesh);
-
-/// Does the point lie strictly outside this facet's plane? Exact.
-bool clx_hull_inc_sees(const clx_hull_inc *hull, const clx_hull_facet *facet,
-                       const double point[3]);

@@ -4,7 +4,8 @@
 // Only signs of determinants are used [Shewchuk1997], in the scheme of Guigue and Devillers 2003
 // ("Fast and robust triangle-triangle overlap test using orientation predicates", sec. 2) with
 // strict inequalities. A surface whose boxes overlap so densely that testing them all would take
-// minutes (a soup of large triangles) is left alone, and the result says so.
+// minutes (a soup of large triangles) is left alone, as is one on which exact arithmetic would
+// (slivers on one line), and the result says so.
 #include "geom/intersect.h"
 
 #include "base/alloc.h"
@@ -14,6 +15,7 @@
 
 enum { PAIR_CAP = 65536, SAMPLES = 1024 };
 static const int64_t PAIR_BUDGET = 200000000; // about 10 s on one core
+static const int64_t TRIANGLE_BUDGET = 250;   // more for each triangle: exact zeros of a grid
 
 static int sign(double x)
 {
@@ -156,8 +158,9 @@ clast_status clx_mesh_cuts(const clast_mesh *mesh, clx_cuts *cuts)
     CLX_TRY(clast_bvh_create(mesh, &bvh));
     all.complete = !is_too_dense(bvh);
     if (all.complete) {
-        CLX_TRY(clx_bvh_self_intersections(bvh, PAIR_CAP, pair, &n_pair));
-        all.complete = n_pair <= PAIR_CAP;
+        const int64_t budget = PAIR_BUDGET + TRIANGLE_BUDGET * mesh->n_tri;
+        CLX_TRY(clx_bvh_self_intersections(bvh, budget, PAIR_CAP, pair, &n_pair));
+        all.complete = n_pair >= 0 && n_pair <= PAIR_CAP;
     }
     for (int64_t i = 0; i < n_pair && i < PAIR_CAP; ++i) {
         double a[3][3];

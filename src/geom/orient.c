@@ -109,7 +109,7 @@ clast_status clx_orient_outward(clast_mesh *mesh, bool *turned, int32_t n_known)
     int32_t *part = NULL;
     int32_t n_part = 0;
     CLX_TRY(clx_topology_build(mesh, &topology));
-    CLX_TRY(clx_check_parts(mesh, &topology, &found));
+    CLX_TRY(clx_check_parts(mesh, &topology, &found, NULL));
     if (found.n_inside_out > 0) {
         CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
         CLX_TRY(clx_topology_parts(&topology, mesh->n_tri, part, &n_part));

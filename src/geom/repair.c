@@ -59,7 +59,8 @@ const clast_idle *clast_mesh_repair_idle(const clast_mesh_repair_config *c,
     return clx_idle_copy(made, rules);
 }
 
-int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark)
+/// Drops marked triangles; returns how many.
+static int32_t drop_marked(clast_mesh *mesh, const bool *mark)
 {
     int32_t n = 0;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -123,10 +124,10 @@ static clast_status drop_bad(clast_mesh *mesh, clast_mesh_repair_report *report)
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         mark[t] = clx_is_flat(mesh, t);
     }
-    report->n_degenerate += clx_drop_marked(mesh, mark);
+    report->n_degenerate += drop_marked(mesh, mark);
     CLX_TRY(clx_topology_build(mesh, &topology));
     CLX_TRY(clx_find_duplicates(mesh, &topology, mark, &n));
-    report->n_duplicate += clx_drop_marked(mesh, mark);
+    report->n_duplicate += drop_marked(mesh, mark);
 done:
     clx_topology_free(&topology);
     clx_free(mark);
@@ -147,7 +148,7 @@ static clast_status drop_loose(clast_mesh *mesh, clast_mesh_repair_report *repor
             mark[t] = mark[t] && (e < 0 || clx_edge_use(&topology, e) == 1);
         }
     }
-    report->n_loose += clx_drop_marked(mesh, mark);
+    report->n_loose += drop_marked(mesh, mark);
 done:
     clx_topology_free(&topology);
     clx_free(mark);
@@ -167,6 +168,7 @@ typedef struct {
     clx_topology topology;
     clast_mesh_check_result found;
     int32_t *of_triangle; ///< [n_tri] -1: none
+    int32_t *parent;      ///< [n_part] the part directly around each, -1: none
     bool *is_dropped;     ///< [n_part]
     int32_t n;
 } parts;
@@ -175,7 +177,8 @@ static clast_status find_parts(const clast_mesh *mesh, parts *p)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_topology_build(mesh, &p->topology));
-    CLX_TRY(clx_check_parts(mesh, &p->topology, &p->found));
+    CLX_TRY(clx_alloc(&p->parent, mesh->n_tri, sizeof *p->parent));
+    CLX_TRY(clx_check_parts(mesh, &p->topology, &p->found, p->parent));
     CLX_TRY(clx_alloc(&p->of_triangle, mesh->n_tri, sizeof *p->of_triangle));
     CLX_TRY(clx_topology_parts(&p->topology, mesh->n_tri, p->of_triangle, &p->n));
     CLX_TRY(clx_alloc(&p->is_dropped, p->n, sizeof *p->is_dropped));
@@ -188,6 +191,7 @@ static void free_parts(parts *p)
     clx_topology_free(&p->topology);
     clast_mesh_check_free(&p->found);
     clx_free(p->of_triangle);
+    clx_free(p->parent);
     clx_free(p->is_dropped);
 }
 
@@ -205,7 +209,7 @@ static clast_status drop_parts(clast_mesh *mesh, const parts *p, bool drops_othe
     for (int32_t i = 0; i < p->n; ++i) {
         report->n_part_dropped += p->is_dropped[i];
     }
-    (void)clx_drop_marked(mesh, mark);
+    (void)drop_marked(mesh, mark);
 done:
     clx_free(mark);
     return status;
@@ -235,16 +239,34 @@ done:
     return status;
 }
 
-/// Drops closed parts without volume, which bound nothing.
+/// Whether the part is the surface of the one around it inside out: a cavity that takes all of a
+/// body, or an island that fills its cavity.
+static bool fills_parent(const parts *p, int32_t i)
+{
+    const clast_mesh_part *list = p->found.part;
+    const int32_t around = p->parent[i];
+    return around >= 0 && list[i].closed && list[i].oriented &&
+           clx_is_no_volume(list[i].volume + list[around].volume, list[around].area,
+                            v3_distance(list[around].low, list[around].high));
+}
+
+/// Drops closed parts without volume, which bound nothing, and shells without thickness.
 static clast_status drop_flat(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
     clast_status status = CLAST_OK;
     parts p = {.n = 0};
+    int32_t n = 0;
     CLX_TRY(find_parts(mesh, &p));
     for (int32_t i = 0; i < p.n; ++i) {
-        p.is_dropped[i] = clx_part_is_flat(&p.found.part[i]);
+        if (clx_part_is_flat(&p.found.part[i])) {
+            p.is_dropped[i] = true;
+            ++n;
+        } else if (fills_parent(&p, i) && !p.is_dropped[p.parent[i]]) {
+            p.is_dropped[i] = p.is_dropped[p.parent[i]] = true;
+            ++n;
+        }
     }
-    if (clx_count_flat(&p.found) > 0) {
+    if (n > 0) {
         CLX_TRY(drop_parts(mesh, &p, false, report));
     }
 done:
@@ -252,26 +274,50 @@ done:
     return status;
 }
 
-/// Keeps the part of the largest volume (area, where none is closed) and the cavities in it.
+/// Whether the part is a cavity of a body: the body is directly around it.
+static bool is_cavity_of(const parts *p, int32_t i, int32_t body)
+{
+    return p->parent[i] == body && p->found.part[i].volume < 0.0;
+}
+
+/// Volumes [n_part] of the parts, those outward less their cavities.
+static void measure_bodies(const parts *p, double *volume)
+{
+    const clast_mesh_part *list = p->found.part;
+    for (int32_t i = 0; i < p->n; ++i) {
+        volume[i] += list[i].volume;
+        const int32_t around = p->parent[i];
+        if (around >= 0 && list[around].volume > 0.0 && is_cavity_of(p, i, around)) {
+            volume[around] += list[i].volume;
+        }
+    }
+}
+
+/// Keeps the body of the largest volume (area, where none is closed) with its own cavities: not
+/// those of islands in them.
 static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
     clast_status status = CLAST_OK;
     parts p = {.n = 0};
+    double *volume = NULL;
     int32_t best = 0;
     CLX_TRY(find_parts(mesh, &p));
+    CLX_TRY(clx_alloc(&volume, p.n, sizeof *volume));
+    measure_bodies(&p, volume);
     const clast_mesh_part *list = p.found.part;
     for (int32_t i = 1; i < p.n; ++i) {
-        const bool larger = list[i].closed == list[best].closed
-                                ? (list[i].closed ? list[i].volume > list[best].volume
-                                                  : list[i].area > list[best].area)
-                                : list[i].closed;
+        const bool larger =
+            list[i].closed == list[best].closed
+                ? (list[i].closed ? volume[i] > volume[best] : list[i].area > list[best].area)
+                : list[i].closed;
         best = larger ? i : best;
     }
     for (int32_t i = 0; i < p.n; ++i) {
-        p.is_dropped[i] = i != best && !(list[i].outermost == best && list[i].volume < 0.0);
+        p.is_dropped[i] = i != best && !is_cavity_of(&p, i, best);
     }
     CLX_TRY(drop_parts(mesh, &p, true, report));
 done:
+    clx_free(volume);
     free_parts(&p);
     return status;
 }
@@ -335,7 +381,7 @@ static clast_status drop_fins(clast_mesh *mesh, bool *turned, int32_t *n_known,
         n += !mark[t];
     }
     *n_known = n;
-    report->n_duplicate += clx_drop_marked(mesh, mark);
+    report->n_duplicate += drop_marked(mesh, mark);
 done:
     clx_free(mark);
     return status;

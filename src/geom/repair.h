@@ -5,10 +5,8 @@
 
 typedef struct clast_mesh_repair_report clast_mesh_repair_report;
 
-/// Drops marked triangles; returns how many.
-int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark);
-
-/// Splits triangles at open vertices that lie on their open edges within tolerance [model units].
+/// Splits triangles at open vertices that lie on their open edges within tolerance [model units],
+/// but to no more than 8 times as many triangles and 1000.
 clast_status clx_split_tjunctions(clast_mesh *mesh, double tolerance, int32_t *n_split);
 
 /// Turns triangles so that neighbours agree, as few as possible of each part; turned [n_known]

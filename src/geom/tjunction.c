@@ -2,7 +2,8 @@
 // through the vertex, so that the edge falls into pieces that its neighbours share.
 //
 // Open edges go into a tree of boxes; each open vertex asks for the edges near it. A triangle is
-// cut along one of its edges a pass; passes repeat until nothing is left to cut.
+// cut along one of its edges a pass; passes repeat until nothing is left to cut, or until a pass
+// would make more than MOST_TIMES the triangles that there were, as slivers on one line would.
 #include "geom/repair.h"
 
 #include "base/alloc.h"
@@ -13,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_PASS = 8, MAX_ASKED = 128 };
+enum { MAX_PASS = 8, MAX_ASKED = 128, MOST_TIMES = 8, MOST_MORE = 1000 };
 
 /// Vertex v lies on half-edge `half`, at this fraction of it.
 typedef struct {
@@ -198,7 +199,8 @@ static clast_status apply_cuts(clast_mesh *mesh, const junction_search *s, int32
     return status;
 }
 
-static clast_status split_once(clast_mesh *mesh, double tolerance, int32_t *n_split, bool *changed)
+static clast_status split_once(clast_mesh *mesh, double tolerance, int64_t most, int32_t *n_split,
+                               bool *changed)
 {
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
@@ -209,7 +211,7 @@ static clast_status split_once(clast_mesh *mesh, double tolerance, int32_t *n_sp
     if (s.n_open > 0) {
         CLX_TRY(find_cuts(&topology, &s));
     }
-    if (s.n_cut > 0) {
+    if (s.n_cut > 0 && mesh->n_tri + s.n_cut <= most) {
         CLX_TRY(apply_cuts(mesh, &s, n_split));
         *changed = true;
     }
@@ -224,8 +226,9 @@ clast_status clx_split_tjunctions(clast_mesh *mesh, double tolerance, int32_t *n
     CLAST_ASSERT(tolerance >= 0.0);
     clast_status status = CLAST_OK;
     bool changed = true;
+    const int64_t most = MOST_TIMES * (int64_t)mesh->n_tri + MOST_MORE;
     for (int pass = 0; pass < MAX_PASS && changed && status == CLAST_OK; ++pass) {
-        status = split_once(mesh, tolerance, n_split, &changed);
+        status = split_once(mesh, tolerance, most, n_split, &changed);
     }
     return status;
 }

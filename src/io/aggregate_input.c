@@ -6,6 +6,7 @@
 #include "base/path.h"
 #include "geom/check.h"
 #include "io/config_files.h"
+#include "io/mesh_io.h"
 #include "io/shape_word.h"
 #include "io/size_columns.h"
 #include <clast/fill.h>
@@ -22,31 +23,12 @@
 static const double NOWHERE[3] = {0.0, 0.0, 0.0};
 static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
 
-/// Bodies that lie in no other; those that hang together by an edge alone, which is no neck, are
-/// parted, but not those with a common wall.
-static clast_status count_apart(const clast_mesh *mesh, const clx_doubles *found, int32_t *n_apart)
-{
-    clast_status status = CLAST_OK;
-    clast_mesh parted = {0};
-    clx_doubles of_parted = {0};
-    *n_apart = found->n_apart;
-    if (found->n_nonmanifold_edge > 0) {
-        CLX_TRY(clast_mesh_repair(mesh, NULL, &parted, NULL));
-        CLX_TRY(clx_find_doubles(&parted, &of_parted));
-        *n_apart = of_parted.n_apart;
-    }
-done:
-    clast_mesh_free(&parted);
-    return status;
-}
-
 /// Whether the surface bounds a solid whose volume counts once; says what is wrong and what to run.
 static clast_status check_surface(const char *path, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clx_doubles found = {0};
     char words[200];
-    int32_t n_apart = 0;
     char cure[400] = "";
     CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
     CLX_TRY(clx_find_doubles(mesh, &found));
@@ -57,11 +39,10 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     clx_doubles_words(&found, sizeof words, words);
     CLX_CHECK(found.intersection_complete, CLAST_E_GEOMETRY, "%s: %s; or --accept-faults", path,
               words);
-    CLX_TRY(count_apart(mesh, &found, &n_apart));
-    CLX_CHECK(words[0] != '\0' || n_apart < 2, CLAST_E_GEOMETRY,
+    CLX_CHECK(words[0] != '\0' || found.n_apart < 2, CLAST_E_GEOMETRY,
               "%s: %d bodies that do not hang together, no one rigid grain; keep one: clast mesh "
               "repair --keep largest, or --accept-faults",
-              path, n_apart);
+              path, found.n_apart);
     if (words[0] != '\0') {
         CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
         status = clx_fail(CLAST_E_GEOMETRY, "%s: %s; drop %s: %s, or --accept-faults", path, words,
@@ -77,13 +58,15 @@ static clast_status read_surface(const clast_aggregate_config *config, const cha
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
+    clast_mesh_read_report report = {0};
     char name[200];
     (void)snprintf(name, sizeof name, "%.*s", clx_path_stem_length(path), clx_path_name(path));
+    CLX_TRY(clast_mesh_read(path, &mesh, &report));
+    CLX_TRY(clx_mesh_check_unit(path, &report, config->unit));
     if (config->accept_faults) {
-        CLX_TRY(clast_mesh_read(path, &mesh, NULL));
         CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
     } else {
-        CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
+        CLX_TRY(clast_mesh_weld_auto(&mesh, NULL));
         CLX_TRY(check_surface(path, &mesh));
     }
     clast_mesh_transform(&mesh, factor, UNTURNED, NOWHERE);
@@ -314,9 +297,10 @@ done:
     return status;
 }
 
-const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
+static const char *file_of(const void *of, int32_t i, const char **role)
 {
-    if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK || role == NULL) {
+    const clast_aggregate_config *config = of;
+    if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK) {
         return NULL;
     }
     const struct {
@@ -339,15 +323,7 @@ const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i, 
     return NULL;
 }
 
-int32_t clx_aggregate_n_file(const clast_aggregate_config *config)
+clx_run_inputs clx_aggregate_inputs(const clast_aggregate_config *config)
 {
-    if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK) {
-        return 0;
-    }
-    int32_t n = 0;
-    const char *role = NULL;
-    while (clx_aggregate_file(config, n, &role) != NULL) {
-        ++n;
-    }
-    return n;
+    return (clx_run_inputs){clast_aggregate_fields, config, config->params.seed, file_of};
 }

@@ -2,6 +2,7 @@
 #include <clast/field.h>
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/file.h"
 #include <string.h>
 #include <yaml.h>
@@ -12,8 +13,9 @@ typedef struct {
     const char *path;
     const clast_field *fields;
     void *config;
-    bool is_si; ///< bare numbers are SI; else lengths and angles need a unit
-    bool *seen; ///< [number of fields]
+    bool is_si;   ///< bare numbers are SI; else lengths and angles need a unit
+    bool is_part; ///< keys that the table does not have are passed over
+    bool *seen;   ///< [number of fields]
 } reader;
 
 static clast_status fail_at(const reader *r, const yaml_node_t *node, const char *what,
@@ -61,6 +63,9 @@ static clast_status set_key(const reader *r, yaml_document_t *document, const ya
     }
     const char *name = (const char *)key->data.scalar.value;
     const clast_field *f = clast_fields_find(r->fields, name);
+    if (f == NULL && r->is_part) {
+        return CLAST_OK;
+    }
     if (f == NULL) {
         const char *near = clast_fields_nearest(r->fields, name);
         return clx_fail(CLAST_E_CONFIG, "%s:%zu: unknown key '%s'%s%s%s", r->path,
@@ -194,17 +199,27 @@ done:
     return status;
 }
 
-clast_status clast_fields_read(const char *path, const clast_field *fields, void *config)
+static clast_status read_file(const char *path, reader r)
 {
-    CLX_ARGUMENTS(path, fields, config);
     clast_status status = CLAST_OK;
     char *text = NULL;
     int64_t n = 0;
     CLX_TRY(clx_file_read_all(path, CONFIG_LIMIT, &text, &n));
-    CLX_TRY(parse(path, text, (size_t)n, &(reader){.fields = fields, .config = config}));
+    CLX_TRY(parse(path, text, (size_t)n, &r));
 done:
     clx_free(text);
     return status;
+}
+
+clast_status clast_fields_read(const char *path, const clast_field *fields, void *config)
+{
+    CLX_ARGUMENTS(path, fields, config);
+    return read_file(path, (reader){.fields = fields, .config = config});
+}
+
+clast_status clx_fields_read_part(const char *path, const clast_field *fields, void *config)
+{
+    return read_file(path, (reader){.is_part = true, .fields = fields, .config = config});
 }
 
 clast_status clast_fields_parse(const char *name, const char *text, const clast_field *fields,

@@ -1,24 +1,25 @@
 #pragma once
-// The files that a configuration names, for the manifest of its run: how many, and the i-th with
-// its role ("core", "sizes", "curve").
+// What the run of a configuration is made from, for its manifest.
 #include "base/status.h"
 
 typedef struct clast_aggregate_config clast_aggregate_config;
 typedef struct clast_pack_config clast_pack_config;
 typedef struct clast_evolve_config clast_evolve_config;
+typedef struct clast_field clast_field;
 typedef struct clast_grading_list clast_grading_list;
 typedef struct clx_sizes_columns clx_sizes_columns;
 
-CLX_SHARED int32_t clx_aggregate_n_file(const clast_aggregate_config *config);
-CLX_SHARED const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i,
-                                          const char **role);
+typedef struct clx_run_inputs {
+    const clast_field *fields; ///< of the configuration
+    const void *config;        ///< borrowed
+    uint64_t seed;
+    /// The i-th file that it names, and its role ("core", "sizes", "curve"); NULL: there is none.
+    const char *(*file)(const void *config, int32_t i, const char **role);
+} clx_run_inputs;
 
-CLX_SHARED int32_t clx_pack_n_file(const clast_pack_config *config);
-CLX_SHARED const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char **role);
-
-CLX_SHARED int32_t clx_evolve_n_file(const clast_evolve_config *config);
-CLX_SHARED const char *clx_evolve_file(const clast_evolve_config *config, int32_t i,
-                                       const char **role);
+CLX_SHARED clx_run_inputs clx_aggregate_inputs(const clast_aggregate_config *config);
+CLX_SHARED clx_run_inputs clx_pack_inputs(const clast_pack_config *config);
+CLX_SHARED clx_run_inputs clx_evolve_inputs(const clast_evolve_config *config);
 
 /// What the rows of an aggregate's file of sizes count, by `columns`; of no row without a file, and
 /// of a pipe, which is read only once.

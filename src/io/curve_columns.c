@@ -7,7 +7,8 @@
 #include <ctype.h>
 #include <string.h>
 
-bool clx_curve_column_is(const char *name, const char *word)
+/// Whether a column's name is this word, alone or followed by its unit ("sieve_mm", "Size (um)").
+static bool is_called(const char *name, const char *word)
 {
     size_t i = 0;
     for (; word[i] != '\0'; ++i) {
@@ -24,7 +25,7 @@ static int32_t find_called(const clast_table *table, const char *const *words, i
     *n_found = 0;
     for (int32_t c = 0; c < table->n_column; ++c) {
         for (const char *const *word = words; *word != NULL; ++word) {
-            if (clx_curve_column_is(table->column[c].name, *word)) {
+            if (is_called(table->column[c].name, *word)) {
                 found = c;
                 ++*n_found;
                 break;

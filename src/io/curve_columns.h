@@ -20,6 +20,3 @@ typedef struct clx_curve_columns {
 /// above").
 clast_status clx_curve_columns_find(const char *file, const clast_table *table,
                                     clx_curve_columns *columns);
-
-/// Whether a column's name is this word, alone or followed by its unit ("sieve_mm", "Size (um)").
-bool clx_curve_column_is(const char *name, const char *word);

@@ -2,6 +2,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/file.h"
 #include "base/number.h"
 #include "io/curve_columns.h"
@@ -29,7 +30,8 @@ typedef struct {
 
 typedef struct {
     const char *name; ///< of the file, for messages
-    sieve_row *row;   ///< [n] ascending
+    clx_length_unit unit;
+    sieve_row *row; ///< [n] ascending
     int32_t n;
     clx_curve_kind kind;
     const clast_column *value;
@@ -42,24 +44,14 @@ static clast_status size_in_metres(const curve_reader *r, const clast_column *co
 {
     clast_status status = CLAST_OK;
     const double number = column->number[i];
-    const bool is_phi =
-        strcmp(column->unit, "phi") == 0 || clx_curve_column_is(column->name, "phi");
-    double factor = 0.0;
     CLX_CHECK(isfinite(number), CLAST_E_FORMAT,
               "%s: row %lld: the sieve size is missing or not "
               "finite",
               r->name, (long long)i + 1);
-    if (is_phi) {
-        *size = clast_phi_size(number);
-        return CLAST_OK;
-    }
-    CLX_CHECK(strcmp(column->unit, "-") != 0, CLAST_E_FORMAT,
-              "%s: column %s has no unit; call it %s_mm, %s_um or phi", r->name, column->name,
-              column->name, column->name);
-    CLX_TRY(clast_unit_factor(column->unit, "m", &factor));
-    CLX_CHECK(number >= 0.0, CLAST_E_FORMAT, "%s: row %lld: a sieve size of %g %s", r->name,
-              (long long)i + 1, number, column->unit);
-    *size = number * factor;
+    CLX_CHECK(number >= 0.0 || r->unit.is_phi, CLAST_E_FORMAT,
+              "%s: row %lld: a sieve size of %g %s", r->name, (long long)i + 1, number,
+              r->unit.unit);
+    *size = clx_length_value(&r->unit, number) * r->unit.metre;
 done:
     return status;
 }
@@ -81,6 +73,14 @@ static clast_status take_rows(curve_reader *r, const clast_table *table)
     r->kind = columns.kind;
     r->value = value;
     r->whole = columns.whole;
+    status = clx_column_length(size, true, &r->unit);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", r->name);
+        goto done;
+    }
+    CLX_CHECK(r->unit.metre > 0.0, CLAST_E_FORMAT,
+              "%s: column %s has no unit; call it %s_mm, %s_um or phi", r->name, size->name,
+              size->name, size->name);
     CLX_CHECK(table->n_row >= 2 && table->n_row <= SIEVE_LIMIT, CLAST_E_FORMAT,
               "%s: %lld sieves; a curve has 2 to %d", r->name, (long long)table->n_row,
               SIEVE_LIMIT);

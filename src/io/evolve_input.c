@@ -177,9 +177,10 @@ static const char *curve_file(const char *text)
                                                                                             : NULL;
 }
 
-const char *clx_evolve_file(const clast_evolve_config *config, int32_t i, const char **role)
+static const char *file_of(const void *of, int32_t i, const char **role)
 {
-    if (clast_fields_check(clast_evolve_fields, config) != CLAST_OK || role == NULL) {
+    const clast_evolve_config *config = of;
+    if (clast_fields_check(clast_evolve_fields, config) != CLAST_OK) {
         return NULL;
     }
     *role = "shapes";
@@ -204,12 +205,7 @@ const char *clx_evolve_file(const clast_evolve_config *config, int32_t i, const 
     return NULL;
 }
 
-int32_t clx_evolve_n_file(const clast_evolve_config *config)
+clx_run_inputs clx_evolve_inputs(const clast_evolve_config *config)
 {
-    int32_t n = 0;
-    const char *role = NULL;
-    while (clx_evolve_file(config, n, &role) != NULL) {
-        ++n;
-    }
-    return n;
+    return (clx_run_inputs){clast_evolve_fields, config, config->seed, file_of};
 }

@@ -85,11 +85,6 @@ done:
     return status;
 }
 
-static double volume_of(const clast_assembly *a, int32_t i)
-{
-    return a->scale[i] * a->scale[i] * a->scale[i] * a->shape[a->shape_id[i]].volume;
-}
-
 /// What facets hold of the spheres and ellipsoids, whose vertices lie on them.
 static double facet_ratio(const clx_export *e)
 {
@@ -99,8 +94,8 @@ static double facet_ratio(const clx_export *e)
         const int32_t s = e->assembly->shape_id[i];
         if (!clx_is_stood_for(&e->assembly->shape[s])) {
             const double part = clast_mesh_volume(&e->parts.surface[s]);
-            all += volume_of(e->assembly, i);
-            held += volume_of(e->assembly, i) * part / e->assembly->shape[s].volume;
+            all += clx_grain_volume(e->assembly, i);
+            held += clx_grain_volume(e->assembly, i) * part / e->assembly->shape[s].volume;
         }
     }
     return held / all;
@@ -113,8 +108,8 @@ static double ellipsoid_ratio(const clast_assembly *a)
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const clast_shape *shape = &a->shape[a->shape_id[i]];
         if (clx_is_stood_for(shape)) {
-            all += volume_of(a, i);
-            held += volume_of(a, i) * clx_ellipsoid_ratio(shape);
+            all += clx_grain_volume(a, i);
+            held += clx_grain_volume(a, i) * clx_ellipsoid_ratio(shape);
         }
     }
     return held / all;

@@ -52,9 +52,5 @@ bool clx_is_stood_for(const clast_shape *shape);
 /// Volume of the ellipsoid of a shape by the shape's own, 1 where it is one.
 double clx_ellipsoid_ratio(const clast_shape *shape);
 
-/// Semi-axes and orientation of the ellipsoid with a shape's volume and moments: `turn` takes the
-/// ellipsoid's frame, a >= b >= c along x, y, z, to the shape's.
-void clx_shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4]);
-
 /// Length unit for headers: "m", "um", ... or "model".
 const char *clx_export_unit(const clast_assembly *assembly);

@@ -38,7 +38,9 @@ static void matrix_quaternion(double m[3][3], double q[4])
     q_unit(q);
 }
 
-void clx_shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4])
+/// Semi-axes and orientation of the ellipsoid with a shape's volume and moments: `turn` takes the
+/// ellipsoid's frame, a >= b >= c along x, y, z, to the shape's.
+static void shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4])
 {
     double c[3][3];
     double value[3];
@@ -257,7 +259,7 @@ void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3]
     double axes[3];
     double turn[4];
     CLAST_ASSERT(i >= 0 && i < a->n_grain);
-    clx_shape_ellipsoid(&a->shape[a->shape_id[i]], axes, turn);
+    shape_ellipsoid(&a->shape[a->shape_id[i]], axes, turn);
     q_mul(q, a->orientation[i], turn);
     v3_scale(diameter, 2.0 * a->scale[i], axes);
 }

@@ -120,7 +120,8 @@ static clast_status write_surface(const clx_grains_task *task, const char *suffi
     if (task->options->hull || mesh->n_tri == 0) {
         CLX_TRY(clast_mesh_hull(mesh, &hull));
     }
-    CLX_TRY(clast_mesh_write(hull.n_tri > 0 ? &hull : mesh, path, NULL));
+    const clast_mesh_write_options options = {.unit = task->unit[0] != '\0' ? task->unit : NULL};
+    CLX_TRY(clast_mesh_write(hull.n_tri > 0 ? &hull : mesh, path, &options));
 done:
     clx_free(path);
     clast_mesh_free(&hull);
@@ -138,13 +139,17 @@ static clast_status warn(clx_grains_task *task, const char *text)
 static clast_status note_bodies(clx_grains_task *task, const clx_doubles *found)
 {
     char text[160];
-    if (found->n_body < 2 || found->n_intersection > 0 || !found->intersection_complete) {
+    const bool is_known = found->n_intersection == 0 && found->intersection_complete;
+    const int32_t n =
+        is_known ? found->n_body : found->n_parted; // of cuts nobody knows what they join
+    if (n < 2) {
         return CLAST_OK;
     }
-    (void)snprintf(text, sizeof text,
-                   "%d bodies that do not hang together, measured as one grain; clast mesh repair "
-                   "--keep largest keeps one",
-                   found->n_body);
+    (void)snprintf(
+        text, sizeof text,
+        "%s%d bodies that do not hang together, measured as one grain; clast mesh repair "
+        "--keep largest keeps one",
+        is_known ? "" : "at least ", n);
     return warn(task, text);
 }
 
@@ -204,11 +209,21 @@ done:
     return status;
 }
 
+/// Tells what a weld moved by more than a file's rounding.
+static clast_status note_weld(clx_grains_task *task, const clast_mesh *welded,
+                              const clast_mesh_repair_report *weld)
+{
+    char text[160];
+    clx_weld_words(welded, weld, sizeof text, text);
+    return text[0] != '\0' ? warn(task, text) : CLAST_OK;
+}
+
 static clast_status measure_grain(clx_grains_task *task, clast_grains_kind kind,
                                   const clast_mesh *mesh, clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     clast_mesh welded = {0};
+    clast_mesh_repair_report weld = {0};
     if (task->options->hull || mesh->n_tri == 0) {
         CLX_TRY(clast_grain_measure_hull(mesh, grain));
         return isfinite(grain->hull_volume_added) ? note_doubles(task, kind, mesh) : CLAST_OK;
@@ -216,11 +231,12 @@ static clast_status measure_grain(clx_grains_task *task, clast_grains_kind kind,
     status = clast_grain_measure(mesh, grain);
     if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices that rounding has parted
         CLX_TRY(clast_mesh_copy(mesh, &welded));
-        CLX_TRY(clast_mesh_weld_auto(&welded, NULL));
+        CLX_TRY(clast_mesh_weld_auto(&welded, &weld));
         CLX_TRY(clast_mesh_require_solid(&welded, task->path, "measure its hull with --hull"));
         status = clast_grain_measure(&welded, grain);
     }
     CLX_TRY(status);
+    CLX_TRY(note_weld(task, welded.n_tri > 0 ? &welded : mesh, &weld));
     CLX_TRY(note_doubles(task, kind, welded.n_tri > 0 ? &welded : mesh));
 done:
     clast_mesh_free(&welded);
@@ -521,11 +537,18 @@ done:
 static clast_status take_surface(clx_grains_task *task, clast_mesh_format format)
 {
     clast_mesh mesh = {0};
-    clast_status status = clast_mesh_parse(task->bytes, (size_t)task->n_byte, format, &mesh, NULL);
+    clast_mesh_read_report report = {0};
+    const int64_t first = task->grains.n;
+    clast_status status =
+        clast_mesh_parse(task->bytes, (size_t)task->n_byte, format, &mesh, &report);
+    (void)snprintf(task->unit, sizeof task->unit, "%s", report.unit);
     if (status == CLAST_OK && mesh.n_tri == 0 && mesh.n_vert > 0) {
         status = take_points(task, &mesh);
     } else if (status == CLAST_OK) {
         status = take_mesh(task, CLAST_GRAINS_SURFACE, "", &mesh, 0);
+    }
+    for (int64_t i = first; i < task->grains.n && task->unit[0] != '\0'; ++i) {
+        (void)clast_unit_factor(task->unit, "m", &task->grains.record[i].unit_m);
     }
     clast_mesh_free(&mesh);
     return status;

@@ -9,6 +9,7 @@ typedef struct clx_grains_task {
     const clast_grains_options *options;
     char *bytes; ///< of the file while it is read
     int64_t n_byte;
+    char unit[16]; ///< that a surface says of itself, or ""
     clast_grains grains;
     int64_t record_room, fault_room, note_room;
 } clx_grains_task;

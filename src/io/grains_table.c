@@ -177,6 +177,8 @@ static const measure measures[] = {
     MEASURE("centroid_x", centroid[0], 1),
     MEASURE("centroid_y", centroid[1], 1),
     MEASURE("centroid_z", centroid[2], 1),
+    MEASURE("pore_volume", pore_volume, 3),
+    MEASURE("pore_area", pore_area, 2),
 };
 
 static const char *const ending[] = {"", "_m", "_m2", "_m3", "_m4", "_m5"};

@@ -74,6 +74,58 @@ done:
     return status;
 }
 
+static bool skip_word(const char **text, const char *word)
+{
+    const size_t n = strlen(word);
+    const bool is_there = strncmp(*text, word, n) == 0;
+    *text += is_there ? n : 0;
+    return is_there;
+}
+
+/// The unit in the line "clast VERSION, unit U" that our writers begin with (in an STL "clast
+/// VERSION binary STL, unit U"); "" where there is none, or none of length.
+static void find_unit(const char *bytes, size_t n, char unit[16])
+{
+    static const char *const before[] = {"", "# ", "OFF\n# ",
+                                         "ply\nformat binary_little_endian 1.0\ncomment "};
+    static const char *const after[] = {", unit ", " binary STL, unit "};
+    char head[128] = "";
+    double factor = 0.0;
+    memcpy(head, bytes, n < sizeof head ? n : sizeof head - 1);
+    unit[0] = '\0';
+    for (int k = 0; k < 8; ++k) {
+        const char *text = head;
+        if (!skip_word(&text, before[k / 2]) || !skip_word(&text, "clast ")) {
+            continue;
+        }
+        text += strcspn(text, " ,\n"); // the version
+        const size_t length = skip_word(&text, after[k % 2]) ? strcspn(text, ",\r\n") : 0;
+        if (length > 0 && length < 16) {
+            (void)snprintf(unit, 16, "%.*s", (int)length, text);
+        }
+    }
+    if (unit[0] != '\0' && clast_unit_factor(unit, "m", &factor) != CLAST_OK) {
+        unit[0] = '\0'; // "not stated", "model"
+    }
+}
+
+clast_status clx_mesh_check_unit(const char *path, const clast_mesh_read_report *report,
+                                 const char *given)
+{
+    clast_status status = CLAST_OK;
+    double own = 0.0;
+    double other = 0.0;
+    if (report->unit[0] == '\0' || given == NULL || given[0] == '\0') {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_unit_factor(report->unit, "m", &own));
+    CLX_TRY(clast_unit_factor(given, "m", &other));
+    CLX_CHECK(own == other, CLAST_E_CONFIG,
+              "%s says that it is in %s, not in %s: leave out the unit", path, report->unit, given);
+done:
+    return status;
+}
+
 clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                               clast_mesh *mesh, clast_mesh_read_report *report)
 {
@@ -85,6 +137,7 @@ clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format for
                                     .n_byte = (int64_t)n};
     const clast_status status = parse(bytes, n, found.format, &made, &found);
     if (status == CLAST_OK) {
+        find_unit(bytes, n, found.unit);
         *mesh = made;
         if (report != NULL) {
             *report = found;

@@ -367,26 +367,10 @@ static const char *curve_file(const char *text)
                                                                                             : NULL;
 }
 
-int32_t clx_pack_n_file(const clast_pack_config *config)
+static const char *file_of(const void *of, int32_t i, const char **role)
 {
+    const clast_pack_config *config = of;
     if (clast_fields_check(clast_pack_fields, config) != CLAST_OK) {
-        return 0;
-    }
-    int32_t n = curve_file(config->curve) != NULL ? 1 : 0;
-    n += config->container[0] != '\0' ? 1 : 0;
-    n += config->start[0] != '\0' ? 1 : 0;
-    for (int32_t i = 0; i < config->shapes.n; ++i) {
-        n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
-    }
-    for (int32_t i = 0; clx_walls_file(config, i) != NULL; ++i) {
-        ++n;
-    }
-    return n;
-}
-
-const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char **role)
-{
-    if (clast_fields_check(clast_pack_fields, config) != CLAST_OK || role == NULL) {
         return NULL;
     }
     *role = "shapes";
@@ -409,4 +393,9 @@ const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char
     }
     *role = "wall";
     return clx_walls_file(config, i);
+}
+
+clx_run_inputs clx_pack_inputs(const clast_pack_config *config)
+{
+    return (clx_run_inputs){clast_pack_fields, config, config->seed, file_of};
 }

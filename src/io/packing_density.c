@@ -1,6 +1,7 @@
 // Densities of grains that another program placed: what its columns say, in SI.
 #include "io/packing.h"
 
+#include "base/column_unit.h"
 #include "base/status.h"
 #include <clast/assembly.h>
 #include <clast/field.h>
@@ -72,37 +73,17 @@ static const clast_column *find_column(const clast_table *table, const char *lis
     return NULL;
 }
 
-/// The unit in "density_g/cm3", "density (g/cm3)"; of columns that a list names the table's own.
-static void read_unit(const clast_column *column, bool is_listed, char unit[32])
-{
-    const char *open = strpbrk(column->name, "([");
-    const char *bar = strchr(column->name, '_');
-    (void)snprintf(unit, 32, "%s", is_listed ? column->unit : "-");
-    if (!is_listed && open != NULL) {
-        (void)snprintf(unit, 32, "%.*s", (int)strcspn(open + 1, ")]"), open + 1);
-    } else if (!is_listed && bar != NULL) {
-        (void)snprintf(unit, 32, "%s", bar + 1);
-    }
-}
-
 /// SI units in that of a column; `bare` where it says none.
-static clast_status find_factor(const clast_column *column, bool is_listed, const char *si_unit,
-                                double bare, double *factor)
+static clast_status find_factor(const clast_column *column, const char *si_unit, double bare,
+                                double *factor)
 {
     clast_status status = CLAST_OK;
-    char unit[32];
+    char unit[CLX_COLUMN_UNIT];
     CLX_CHECK(column->number != NULL, CLAST_E_FORMAT, "column %s holds texts", column->name);
-    read_unit(column, is_listed, unit);
-    *factor = bare;
-    if (unit[0] != '\0' && strcmp(unit, "-") != 0) {
-        CLX_TRY(clast_unit_factor(unit, si_unit, factor));
-    }
+    CLX_TRY(clx_column_factor(column, si_unit, unit, factor));
+    *factor = *factor > 0.0 ? *factor : bare;
 done:
-    if (status == CLAST_E_CONFIG) {
-        clx_fail_prefix("column %s", column->name);
-        status = CLAST_E_FORMAT;
-    }
-    return status;
+    return status == CLAST_E_CONFIG ? CLAST_E_FORMAT : status;
 }
 
 /// What a table of any program tells.
@@ -111,15 +92,14 @@ static clast_status find_in_table(const clast_table *table, const clx_packing_wa
 {
     clast_status status = CLAST_OK;
     const char *list = wanted->spheres.options.columns;
-    const bool is_listed = list != NULL && list[0] != '\0';
     from->column = find_column(table, list, "density", "rho", "kg/m^3");
     if (from->column != NULL) {
-        return find_factor(from->column, is_listed, "kg/m^3", 1.0, &from->factor);
+        return find_factor(from->column, "kg/m^3", 1.0, &from->factor);
     }
     from->column = find_column(table, list, "mass", "mass", "kg");
     from->is_mass = true;
     if (from->column != NULL) {
-        CLX_TRY(find_factor(from->column, is_listed, "kg", 0.0, &from->factor));
+        CLX_TRY(find_factor(from->column, "kg", 0.0, &from->factor));
     }
 done:
     return status;

@@ -66,6 +66,9 @@ clast_status clx_points_check_options(const char *name, const clast_points_optio
 /// Whether a file that begins with these bytes is delimited text.
 bool clx_points_is_text(const char *bytes, size_t n);
 
+/// Refuses (CLAST_E_FORMAT) files of EnSight and OpenFOAM, whose first bytes may look like text.
+clast_status clx_points_check_kind(const char *name, const char *bytes, size_t n);
+
 /// Refuses (CLAST_E_FORMAT on all ranks) a file that is not the one that rank 0 reads, by its size
 /// and blocks of it. Called by all ranks.
 clast_status clx_points_agree(const clast_comm *comm, const char *path);

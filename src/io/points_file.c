@@ -23,17 +23,34 @@ static bool is_word(const char *bytes, size_t n, const char *mark)
            strchr("\r\n", bytes[strlen(mark)]) != NULL;
 }
 
-/// <VTKFile among the first bytes.
-static bool is_vtk_xml(const char *bytes, size_t n)
+/// The mark among the first bytes.
+static bool has(const char *bytes, size_t n, const char *mark)
 {
-    static const char mark[] = "<VTKFile";
     const size_t last = n < LOOK ? n : LOOK;
-    for (size_t i = 0; i + sizeof mark - 1 <= last; ++i) {
-        if (memcmp(bytes + i, mark, sizeof mark - 1) == 0) {
+    for (size_t i = 0; i + strlen(mark) <= last; ++i) {
+        if (begins(bytes + i, last - i, mark)) {
             return true;
         }
     }
     return false;
+}
+
+static bool is_vtk_xml(const char *bytes, size_t n)
+{
+    return has(bytes, n, "<VTKFile");
+}
+
+clast_status clx_points_check_kind(const char *name, const char *bytes, size_t n)
+{
+    clast_status status = CLAST_OK;
+    const bool is_ensight = begins(bytes, n, "C Binary") || begins(bytes, n, "Fortran Binary") ||
+                            (has(bytes, n, "FORMAT") && has(bytes, n, "ensight"));
+    CLX_CHECK(!is_ensight && !has(bytes, n, "FoamFile"), CLAST_E_FORMAT,
+              "%s is a file of %s, which is not read: save its points as .vtp, .vtu or .csv "
+              "(ParaView), or write a table x,y,z,... from the solver",
+              name, is_ensight ? "EnSight" : "OpenFOAM");
+done:
+    return status;
 }
 
 bool clx_points_is_text(const char *bytes, size_t n)
@@ -81,6 +98,7 @@ clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
     if (clx_points_is_xyz(bytes, n)) {
         return clx_points_xyz(name, bytes, n, table);
     }
+    CLX_GUARD(clx_points_check_kind(name, bytes, n));
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
 }
 

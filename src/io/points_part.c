@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/comm.h"
 #include "base/number.h"
+#include "cloud/columns.h"
 #include <clast/cloud.h>
 #include <clast/table.h>
 
@@ -22,6 +23,7 @@ enum { HEAD = 1 << 16, ROWS = 1 << 20 };
 typedef struct {
     clast_cloud cloud;
     int64_t capacity;
+    clx_times times;
 } sink;
 
 /// Appends n numbers to an array of the cloud, where the piece has it and the capacity is enough.
@@ -48,7 +50,8 @@ static clast_status take_rows(sink *s, const clast_table *table, const clast_clo
     clast_status status = CLAST_OK;
     clast_cloud piece = {0};
     clast_cloud *c = &s->cloud;
-    CLX_TRY(clast_cloud_from_table(table, columns, &piece));
+    CLX_TRY(clx_cloud_from_part(table, columns, &piece));
+    clx_times_add(table, columns, &s->times);
     const int32_t d = piece.dimension;
     CLX_CHECK(piece.n <= s->capacity - c->n && (c->x == NULL || d == c->dimension), CLAST_E_IO,
               "%s holds more than was counted in it: it changed while it was read", table->name);
@@ -249,7 +252,7 @@ static bool is_needed(const text *t, const clast_table *piece, int32_t k,
     const clast_column own = head.column[k];
     head.n_row = 0;
     head.column[k] = piece->column[k];
-    const bool is = clast_cloud_from_table(&head, columns, &none) == CLAST_E_FORMAT;
+    const bool is = clx_cloud_from_part(&head, columns, &none) == CLAST_E_FORMAT;
     head.column[k] = own;
     clast_cloud_free(&none);
     return is;
@@ -355,7 +358,7 @@ static clast_status read_text(const clast_comm *comm, const char *path,
     int64_t total = 0;
     status = open_text(path, &t);
     if (status == CLAST_OK) { // missing columns, and texts that the first rows show already
-        status = clast_cloud_from_table(&t.columns, columns, &first);
+        status = clx_cloud_from_part(&t.columns, columns, &first);
     }
     if (status == CLAST_OK) {
         status = clx_alloc(&bytes, t.n_head + (t.size < 2 * PIECE ? t.size : 2 * PIECE), 1);
@@ -419,6 +422,7 @@ static clast_status find_kind(const char *path, bool *is_text)
         return cannot_read(&t);
     }
     *is_text = clx_points_is_text(head, n);
+    CLX_TRY(clx_points_check_kind(path, head, n));
     CLX_CHECK(*is_text || (n >= 4 && memcmp(head, "\x89HDF", 4) == 0), CLAST_E_FORMAT,
               "%s: ranks read delimited text and HDF5 arrays together, no other format; run one "
               "process",
@@ -447,6 +451,7 @@ clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
         status = read_h5(all, path, chosen.dataset, columns, &s);
         CLX_TRY(clast_comm_agree(all, status, NULL));
     }
+    CLX_TRY(clx_times_check(all, path, &s.times)); // the same on all
     *cloud = s.cloud;
     s.cloud = (clast_cloud){0};
 done:

@@ -64,7 +64,8 @@ static void split_unit(char name[NAME_SIZE], char unit[NAME_SIZE])
     const size_t length = strlen(name);
     unit[0] = '\0';
     if (open != NULL) {
-        (void)snprintf(unit, NAME_SIZE, "%.*s", (int)strcspn(open + 1, ")]"), open + 1);
+        const char *at = open + 1 + strspn(open + 1, " ");
+        (void)snprintf(unit, NAME_SIZE, "%.*s", (int)strcspn(at, " )]"), at);
         *open = '\0';
     } else if (bar != NULL && (is_mass_unit(bar + 1) || is_share_unit(bar + 1))) {
         (void)snprintf(unit, NAME_SIZE, "%s", bar + 1);

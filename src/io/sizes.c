@@ -2,6 +2,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/file.h"
 #include "base/number.h"
 #include "io/size_columns.h"
@@ -25,10 +26,8 @@ typedef struct {
     int32_t density;          ///< column, or -1
     double density_factor;
     int32_t n_column;
-    const char *asked; ///< unit, "" for that in the columns' names
-    char unit[2][16];  ///< of low and high
-    bool is_phi[2];
-    double factor[2];
+    clx_length_unit asked;   ///< {0} for that in the columns' names
+    clx_length_unit unit[2]; ///< of low and high
     clx_sizes_columns columns;
     clast_sizes sizes; ///< as far as read
     int64_t low_room, high_room, count_room, density_room;
@@ -164,28 +163,6 @@ static int32_t find_word(const reader *r, const char *with, bool whole)
     return -1;
 }
 
-static bool is_unit(const char *text)
-{
-    double factor = 0.0;
-    return strcmp(text, "phi") == 0 || clast_unit_factor(text, "m", &factor) == CLAST_OK;
-}
-
-/// The unit that a column's name ends in ("d_mm", "Diameter (mm)", "size [mm]"), "" for none.
-static void unit_of(const char *column, char unit[16])
-{
-    const char *bar = strrchr(column, '_');
-    const char *round = strrchr(column, '(');
-    const char *open = round != NULL ? round : strrchr(column, '[');
-    const char *start = open != NULL                 ? open + 1
-                        : bar != NULL                ? bar + 1
-                        : strcmp(column, "phi") == 0 ? column
-                                                     : "";
-    (void)snprintf(unit, 16, "%.*s", (int)strcspn(start, ")]"), start);
-    if (!is_unit(unit)) {
-        unit[0] = '\0';
-    }
-}
-
 /// The column that is named a size, when there is just one; else -1.
 static int32_t find_size(const reader *r)
 {
@@ -205,21 +182,30 @@ static int32_t find_size(const reader *r)
     return n == 1 ? found : -1;
 }
 
-/// The column of densities, and its unit: what follows "_" or "(" in its name.
+/// A column of the file as one of a table, which says its unit by its name alone.
+static clast_column column_at(reader *r, int32_t k)
+{
+    return (clast_column){.name = r->word[k]};
+}
+
+static clast_status in_file(const reader *r, clast_status status)
+{
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", r->name);
+    }
+    return status;
+}
+
 static clast_status find_density(reader *r)
 {
     clast_status status = CLAST_OK;
-    char unit[32];
+    char unit[CLX_COLUMN_UNIT];
     r->density = find_word(r, "density", false);
     r->density_factor = 1.0;
-    if (r->density < 0) {
-        return CLAST_OK;
-    }
-    const char *rest = r->word[r->density] + strlen("density");
-    rest += strspn(rest, "_ (");
-    (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(rest, ")"), rest);
-    if (unit[0] != '\0') {
-        CLX_TRY(clast_unit_factor(unit, "kg/m^3", &r->density_factor));
+    if (r->density >= 0) {
+        const clast_column column = column_at(r, r->density);
+        CLX_TRY(in_file(r, clx_column_factor(&column, "kg/m^3", unit, &r->density_factor)));
+        r->density_factor = r->density_factor > 0.0 ? r->density_factor : 1.0;
     }
 done:
     return status;
@@ -310,23 +296,25 @@ static clast_status check_second(const reader *r, const char *asked)
                     r->name, r->word[other]);
 }
 
+static const char *unit_name(const clx_length_unit *unit)
+{
+    return unit->is_phi ? "phi" : unit->unit;
+}
+
 /// The unit of a column of sizes: the one asked for, which is that in the column's name if there is
 /// one.
-static clast_status find_unit(const reader *r, int32_t column, char unit[16])
+static clast_status find_unit(reader *r, int32_t k, clx_length_unit *unit)
 {
     clast_status status = CLAST_OK;
-    double factor[2] = {0.0, 0.0};
-    unit_of(r->word[column], unit);
-    if (r->asked[0] == '\0' || strcmp(unit, r->asked) == 0) {
-        return CLAST_OK;
+    const clast_column column = column_at(r, k);
+    CLX_TRY(in_file(r, clx_column_length(&column, true, unit)));
+    if (r->asked.metre > 0.0) {
+        CLX_CHECK(unit->metre <= 0.0 ||
+                      (unit->is_phi == r->asked.is_phi && unit->metre == r->asked.metre),
+                  CLAST_E_CONFIG, "%s: column '%s' is in %s by its name, the unit asked for is %s",
+                  r->name, column.name, unit_name(unit), unit_name(&r->asked));
+        *unit = r->asked;
     }
-    const bool is_same = clast_unit_factor(unit, "m", &factor[0]) == CLAST_OK &&
-                         clast_unit_factor(r->asked, "m", &factor[1]) == CLAST_OK &&
-                         factor[0] == factor[1];
-    CLX_CHECK(unit[0] == '\0' || is_same, CLAST_E_CONFIG,
-              "%s: column '%s' is in %s by its name, the unit asked for is %s", r->name,
-              r->word[column], unit, r->asked);
-    (void)snprintf(unit, 16, "%s", r->asked);
 done:
     return status;
 }
@@ -335,12 +323,10 @@ done:
 static clast_status find_units(reader *r)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(find_unit(r, r->low, r->unit[0]));
-    CLX_TRY(find_unit(r, r->high, r->unit[1]));
+    CLX_TRY(find_unit(r, r->low, &r->unit[0]));
+    CLX_TRY(find_unit(r, r->high, &r->unit[1]));
     for (int k = 0; k < 2; ++k) {
-        if (r->unit[k][0] == '\0') {
-            memcpy(r->unit[k], r->unit[1 - k], sizeof r->unit[k]);
-        }
+        r->unit[k] = r->unit[k].metre > 0.0 ? r->unit[k] : r->unit[1 - k];
     }
 done:
     return status;
@@ -404,23 +390,6 @@ static void note_columns(reader *r, bool is_header)
     }
 }
 
-static clast_status set_units(reader *r)
-{
-    clast_status status = CLAST_OK;
-    CLX_CHECK(r->unit[0][0] != '\0', CLAST_E_CONFIG,
-              "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
-              "(mm), phi)%s",
-              r->name, r->use->unit_instead);
-    for (int k = 0; k < 2; ++k) {
-        r->is_phi[k] = strcmp(r->unit[k], "phi") == 0;
-        if (!r->is_phi[k]) {
-            CLX_TRY(clast_unit_factor(r->unit[k], "m", &r->factor[k]));
-        }
-    }
-done:
-    return status;
-}
-
 static clast_status begin(reader *r, const char *column, bool *is_header)
 {
     clast_status status = CLAST_OK;
@@ -436,12 +405,13 @@ static clast_status begin(reader *r, const char *column, bool *is_header)
         r->count = r->n_word > 1 ? 1 : -1;
         CLX_CHECK(r->count >= 0 || r->use->wanted != CLX_SIZE_COLUMN_MASS, CLAST_E_CONFIG,
                   "%s: no column of masses: it has sizes alone", r->name);
-        for (int k = 0; k < 2; ++k) {
-            (void)snprintf(r->unit[k], sizeof r->unit[k], "%s", r->asked);
-        }
+        r->unit[0] = r->unit[1] = r->asked;
     }
     note_columns(r, *is_header);
-    CLX_TRY(set_units(r));
+    CLX_CHECK(r->unit[0].metre > 0.0, CLAST_E_CONFIG,
+              "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
+              "(mm), phi)%s",
+              r->name, r->use->unit_instead);
 done:
     return status;
 }
@@ -456,7 +426,7 @@ static clast_status size_at(const reader *r, int end, double *size)
     const double number = clx_number_read(word, NULL);
     CLX_CHECK(isfinite(number), CLAST_E_FORMAT, "%s:%lld: the size '%s' is not finite", r->name,
               (long long)r->line, word);
-    *size = r->is_phi[end] ? 1e-3 * exp2(-number) : number * r->factor[end];
+    *size = clx_length_value(&r->unit[end], number) * r->unit[end].metre;
     CLX_CHECK(*size > 0.0 && isfinite(*size), CLAST_E_FORMAT, "%s:%lld: the size %s is not above 0",
               r->name, (long long)r->line, word);
 done:
@@ -515,9 +485,9 @@ static clast_status read_row(reader *r)
               (long long)r->line, r->n_word, r->n_column);
     CLX_TRY(size_at(r, 0, &low));
     CLX_TRY(size_at(r, 1, &high));
-    CLX_CHECK(low <= high || r->is_phi[0], CLAST_E_FORMAT,
+    CLX_CHECK(low <= high || r->unit[0].is_phi, CLAST_E_FORMAT,
               "%s:%lld: the size low, %s %s, is above high, %s %s", r->name, (long long)r->line,
-              r->word[r->low], r->unit[0], r->word[r->high], r->unit[1]);
+              r->word[r->low], unit_name(&r->unit[0]), r->word[r->high], unit_name(&r->unit[1]));
     if (r->count >= 0) {
         CLX_TRY(count_at(r, &count));
     }
@@ -562,6 +532,13 @@ done:
     return status;
 }
 
+static clast_status read_asked(const char *unit, clx_length_unit *asked)
+{
+    *asked = (clx_length_unit){.is_phi = strcmp(unit, "phi") == 0};
+    (void)snprintf(asked->unit, sizeof asked->unit, "%s", asked->is_phi ? "mm" : unit);
+    return unit[0] != '\0' ? clast_unit_factor(asked->unit, "m", &asked->metre) : CLAST_OK;
+}
+
 static clast_status parse(const clx_sizes_use *use, const char *name, const char *text,
                           const char *const column_unit[2], clx_sizes_columns *columns,
                           clast_sizes *sizes)
@@ -572,7 +549,7 @@ static clast_status parse(const clx_sizes_use *use, const char *name, const char
     CLX_TRY(clx_alloc(&r, 1, sizeof *r));
     r->use = use;
     r->name = name;
-    r->asked = column_unit[1];
+    CLX_TRY(read_asked(column_unit[1], &r->asked));
     CLX_TRY(read_lines(r, text + (marked ? 3 : 0), column_unit[0]));
     CLX_CHECK(r->sizes.n > 0, CLAST_E_FORMAT, "%s: no sizes in it", name);
     *sizes = r->sizes;

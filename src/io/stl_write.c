@@ -123,6 +123,15 @@ done:
 clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
                            clx_file *file)
 {
-    const clast_status status = clx_stl_begin(options, (uint32_t)clx_stl_count(mesh), file);
-    return status == CLAST_OK ? clx_stl_append(mesh, file) : status;
+    clast_status status = CLAST_OK;
+    CLX_TRY(check_single(mesh));
+    const int64_t n = clx_stl_count(mesh);
+    CLX_CHECK(n > 0 || mesh->n_tri == 0, CLAST_E_GEOMETRY,
+              "all %d triangles have two corners that are one in the 24 bits of STL; scale the "
+              "surface or write PLY",
+              mesh->n_tri);
+    CLX_TRY(clx_stl_begin(options, (uint32_t)n, file));
+    CLX_TRY(clx_stl_append(mesh, file));
+done:
+    return status;
 }

@@ -156,7 +156,7 @@ clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
     char cure[400];
     char faults[200];
     CLX_TRY(clast_mesh_check(mesh, &found));
-    const int32_t n_flat = clx_count_flat(&found);
+    const int32_t n_flat = found.n_flat;
     if (found.closed && found.oriented && n_flat == 0) {
         goto done;
     }
@@ -164,11 +164,13 @@ clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
               "%s is flat: its %d vertices lie in one plane, and what has no thickness is no solid",
               path, found.n_vertex);
     list_faults(&found, n_flat, faults, sizeof faults);
+    const char *aim = !found.closed     ? "close it: "
+                      : !found.oriented ? "turn it outward: "
+                                        : "drop what has no volume: ";
     CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
-    status = clx_fail(
-        CLAST_E_GEOMETRY, "%s is not a closed, outward surface: %s; %s%s%s%s", path, faults,
-        otherwise != NULL ? otherwise : "", otherwise != NULL ? ", or " : "",
-        cure[0] != '\0' ? "close it: " : "draw it anew: clast mesh repair fails on it", cure);
+    status = clx_fail(CLAST_E_GEOMETRY, "%s is not a closed, outward surface: %s; %s%s%s%s", path,
+                      faults, otherwise != NULL ? otherwise : "", otherwise != NULL ? ", or " : "",
+                      cure[0] != '\0' ? aim : "draw it anew: clast mesh repair fails on it", cure);
 done:
     clast_mesh_check_free(&found);
     return status;

@@ -40,8 +40,10 @@ void clx_bootstrap_rows(const clast_bootstrap *bootstrap, int64_t b, int64_t n, 
     }
 }
 
-clast_status clx_bootstrap_interval(const clast_bootstrap *bootstrap, double *value, double *low,
-                                    double *high)
+/// The two percentiles of n_resample values (sorted in place; values that are not finite are left
+/// out); NaN when none is finite.
+static clast_status interval(const clast_bootstrap *bootstrap, double *value, double *low,
+                             double *high)
 {
     int64_t n = 0;
     for (int64_t b = 0; b < bootstrap->n_resample; ++b) {
@@ -102,9 +104,8 @@ clast_status clx_bootstrap_moments(const clast_bootstrap *bootstrap, const doubl
     CLX_TRY(clx_alloc(&w.mean, bootstrap->n_resample, sizeof *w.mean));
     CLX_TRY(clx_alloc(&w.deviation, bootstrap->n_resample, sizeof *w.deviation));
     clx_parallel_for(bootstrap->n_resample, 16, resample, &w);
-    CLX_TRY(clx_bootstrap_interval(bootstrap, w.mean, &summary->mean_low, &summary->mean_high));
-    CLX_TRY(clx_bootstrap_interval(bootstrap, w.deviation, &summary->deviation_low,
-                                   &summary->deviation_high));
+    CLX_TRY(interval(bootstrap, w.mean, &summary->mean_low, &summary->mean_high));
+    CLX_TRY(interval(bootstrap, w.deviation, &summary->deviation_low, &summary->deviation_high));
 done:
     clx_free(w.mean);
     clx_free(w.deviation);

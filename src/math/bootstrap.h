@@ -13,11 +13,6 @@ clast_status clx_bootstrap_check(const clast_bootstrap *bootstrap);
 /// Row numbers of resample b of n rows: draws from (seed, CLX_STREAM_RESAMPLE, b).
 void clx_bootstrap_rows(const clast_bootstrap *bootstrap, int64_t b, int64_t n, int64_t *row);
 
-/// The two percentiles of n_resample values (sorted in place; values that are not finite are left
-/// out); NaN when none is finite.
-clast_status clx_bootstrap_interval(const clast_bootstrap *bootstrap, double *value, double *low,
-                                    double *high);
-
 /// Intervals of mean and deviation of a sample without gaps.
 clast_status clx_bootstrap_moments(const clast_bootstrap *bootstrap, const double *x, int64_t n,
                                    clast_sample_summary *summary);

@@ -6,6 +6,16 @@
 #include <math.h>
 #include <stdint.h>
 
+/// A power of two that lets n numbers of at most 1 be added in 62 bits.
+static inline double clx_fixed_unit(int64_t n)
+{
+    int bits = 0;
+    while (n >> bits > 0) {
+        ++bits;
+    }
+    return ldexp(1.0, 62 - bits);
+}
+
 /// Sum of numbers in 0 .. 1, in units of 2^-bits and 2^(-2 bits).
 typedef struct clx_fixed_sum {
     int64_t word[2];

@@ -15,6 +15,12 @@
 
 static const double unit_roundoff = 0x1p-53;
 static const double splitter = 0x1p27 + 1.0;
+static _Thread_local int64_t exact_work = 0;
+
+int64_t clx_exact_work(void)
+{
+    return exact_work;
+}
 
 /// x + y = a + b exactly, x the rounded sum.
 static inline void two_sum(double a, double b, double *x, double *y)
@@ -180,6 +186,7 @@ static double orient3d_exact(const double a[3], const double b[3], const double 
         const int n_two = minor(&m[j][0], &m[k][1], &m[j][1], &m[k][0], two);
         const int n_term = multiply(n_two, two, m[i][2].n, m[i][2].e, term);
         n = add_expansions(n, total, n_term, term, total);
+        exact_work += 1 + (int64_t)n_two * n_two + (int64_t)n_term * n;
         CLAST_ASSERT(n <= 192);
     }
     return n > 0 ? total[n - 1] : 0.0;
@@ -217,5 +224,6 @@ double clx_orient2d(const double a[2], const double b[2], const double c[2])
     r.n = difference(a[1], c[1], r.e);
     s.n = difference(b[0], c[0], s.e);
     const int n = minor(&p, &q, &r, &s, out);
+    exact_work += 16;
     return n > 0 ? out[n - 1] : 0.0;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Geometric questions whose answer is a sign, answered exactly for any doubles.
+#include <stdint.h>
 
 /// Which side of the plane (a, b, c) is d on? Exact sign of
 ///
@@ -12,3 +13,7 @@ double clx_orient3d(const double a[3], const double b[3], const double c[3], con
 
 /// Exact sign of the doubled area of the plane triangle (a, b, c): positive when counter-clockwise.
 double clx_orient2d(const double a[2], const double b[2], const double c[2]);
+
+/// Steps of exact arithmetic, of some nanoseconds each, that these took in this thread so far: a
+/// measure of time that is the same on any machine.
+int64_t clx_exact_work(void);

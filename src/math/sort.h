@@ -18,6 +18,14 @@ clast_status clx_sort_keys(uint64_t *key, int64_t n);
 /// Sorts by key, ascending and stable; O(n), one scratch array of n.
 clast_status clx_sort_keyed(clx_keyed *entry, int64_t n);
 
+/// Few doubles in rising order, for qsort.
+static inline int clx_by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
 /// Whether n doubles never fall.
 static inline bool clx_is_rising(const double *value, int64_t n)
 {

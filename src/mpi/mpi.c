@@ -6,6 +6,7 @@
 // rank that waits long costs no core. MPI's own errors end the job, as is MPI's default.
 #include <clast/mpi.h>
 
+#include "base/status.h"
 #include "mpi/zoltan.h"
 #include <clast/machine.h>
 
@@ -30,6 +31,7 @@ typedef struct {
     int32_t rank, n_rank;
     MPI_Request *each;  ///< [2 n_rank] of an exchange
     const char *method; ///< of partitions, Zoltan's name
+    bool has_begun;     ///< MPI, which ends with it
 } ranks;
 
 /// Seconds of a clock that only goes on.
@@ -272,22 +274,33 @@ static const char *find_method(void)
 
 // NOLINTEND(clang-analyzer-optin.mpi.MPI-Checker)
 
+/// Between MPI_Init and MPI_Finalize, outside of which most calls end the program.
+static bool is_running(void)
+{
+    int has_begun = 0;
+    int has_ended = 0;
+    (void)MPI_Initialized(&has_begun);
+    (void)MPI_Finalized(&has_ended);
+    return has_begun && !has_ended;
+}
+
 clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
 {
-    int runs = 0;
+    CLX_ARGUMENTS(comm);
     int rank = 0;
     int n_rank = 1;
     const char *method = find_method();
-    (void)MPI_Initialized(&runs);
-    if (!runs) {
-        return CLAST_E_USAGE;
+    if (!is_running()) {
+        return clx_fail(CLAST_E_USAGE, "MPI does not run: it begins with MPI_Init or "
+                                       "clast_mpi_begin and ends with MPI_Finalize");
     }
     if (method == NULL) {
-        return CLAST_E_CONFIG;
+        return clx_fail(CLAST_E_CONFIG, "CLAST_PARTITION '%s': rcb, hsfc (with Zoltan) or own",
+                        getenv("CLAST_PARTITION")); // NOLINT(concurrency-mt-unsafe)
     }
     ranks *made = calloc(1, sizeof *made); // the other library's heap wrapper is hidden from here
     if (made == NULL) {
-        return CLAST_E_MEMORY;
+        return clx_fail(CLAST_E_MEMORY, "out of memory");
     }
     (void)MPI_Comm_dup(MPI_Comm_f2c(communicator), &made->comm);
     (void)MPI_Comm_rank(made->comm, &rank);
@@ -299,7 +312,7 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
     if (made->each == NULL) {
         (void)MPI_Comm_free(&made->comm);
         free(made);
-        return CLAST_E_MEMORY;
+        return clx_fail(CLAST_E_MEMORY, "out of memory");
     }
     for (int k = 0; k < SLOT; ++k) {
         made->request[k] = MPI_REQUEST_NULL;
@@ -320,12 +333,17 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
 
 void clast_mpi_destroy(clast_comm *comm)
 {
+    if (comm == NULL) {
+        return;
+    }
     ranks *r = comm->context;
-    if (r != NULL) {
+    if (r != NULL && is_running()) {
         for (int k = 0; k < SLOT; ++k) {
             await(&r->request[k]);
         }
         (void)MPI_Comm_free(&r->comm);
+    }
+    if (r != NULL) {
         free(r->each);
         free(r);
     }
@@ -334,15 +352,18 @@ void clast_mpi_destroy(clast_comm *comm)
 
 clast_status clast_mpi_begin(clast_comm *comm)
 {
-    int runs = 0;
+    CLX_ARGUMENTS(comm);
+    int has_begun = 0;
     int level = 0;
-    (void)MPI_Initialized(&runs);
-    if (runs) {
-        return CLAST_E_USAGE;
+    (void)MPI_Initialized(&has_begun);
+    if (has_begun) {
+        return clx_fail(CLAST_E_USAGE,
+                        is_running() ? "MPI runs already: clast_mpi_create takes its communicator"
+                                     : "MPI has ended, and a program begins it once");
     }
     // All MPI calls come from the one thread that calls the library.
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS) {
-        return CLAST_E_IO;
+        return clx_fail(CLAST_E_IO, "MPI does not start");
     }
     const clast_status status = clast_mpi_create(MPI_Comm_c2f(MPI_COMM_WORLD), comm);
     if (status != CLAST_OK) {
@@ -350,12 +371,19 @@ clast_status clast_mpi_begin(clast_comm *comm)
         (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         (void)MPI_Finalize();
         *comm = (clast_comm){.rank = rank};
+        return status;
     }
-    return status;
+    ranks *made = comm->context;
+    made->has_begun = true;
+    return CLAST_OK;
 }
 
 void clast_mpi_end(clast_comm *comm)
 {
+    const ranks *r = comm != NULL ? comm->context : NULL;
+    const bool has_begun = r != NULL && r->has_begun;
     clast_mpi_destroy(comm);
-    (void)MPI_Finalize();
+    if (has_begun && is_running()) {
+        (void)MPI_Finalize();
+    }
 }

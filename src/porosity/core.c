@@ -22,13 +22,6 @@ enum { POINTS = 512, BLOCK = 32, BED_POINTS = 20000 };
 
 static const double TOUCH = 1e-3; ///< of a grain's reach: so far it passes a wall unseen
 
-static double volume_of(const clast_assembly *a, int32_t i)
-{
-    CLAST_ASSERT(i >= 0 && i < a->n_grain);
-    const double s = a->scale[i];
-    return s * s * s * a->shape[a->shape_id[i]].volume;
-}
-
 clast_bed_walls clast_bed_side_walls(const clast_bed *bed, const clast_assembly *assembly)
 {
     clast_bed_walls walls = {(double)NAN, (double)NAN, (double)NAN};
@@ -38,7 +31,7 @@ clast_bed_walls clast_bed_side_walls(const clast_bed *bed, const clast_assembly 
     double volume = 0.0;
     double size = 0.0;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        const double v = volume_of(assembly, i);
+        const double v = clx_grain_volume(assembly, i);
         volume += v;
         size += v * cbrt(6.0 / CLAST_PI * v);
     }
@@ -79,7 +72,7 @@ static clx_touch_body body_of(const clast_assembly *a, const clx_touch_set *set,
         return *clx_touch_scene_body(set->scene, i);
     }
     const double upright[4] = {1.0, 0.0, 0.0, 0.0};
-    clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume_of(a, i)));
+    clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * clx_grain_volume(a, i)));
     clx_touch_body_place(&ball, a->position[i], upright, 1.0);
     return ball;
 }
@@ -197,7 +190,7 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         made.n += s.share[i] > 0.0 ? 1 : 0;
         made.depth = fmax(made.depth, s.depth[i]);
-        made.solid += s.share[i] * volume_of(assembly, i);
+        made.solid += s.share[i] * clx_grain_volume(assembly, i);
     }
     *beyond = made;
 done:
@@ -315,7 +308,7 @@ static void add_cut(core_sum *c, int32_t i)
 {
     CLAST_ASSERT(i >= 0 && i < c->assembly->n_grain);
     const clast_assembly *a = c->assembly;
-    const double volume = volume_of(a, i);
+    const double volume = clx_grain_volume(a, i);
     double variance = 0.0;
     const clx_touch_body body = body_of(a, c->set, c->method, i);
     c->solid += mean_weight(c, &body, &variance) * volume;
@@ -326,7 +319,7 @@ static clast_status add_grain(core_sum *c, int32_t i)
 {
     const clast_assembly *a = c->assembly;
     const double radius = c->method == CLAST_POROSITY_SPHERES
-                              ? cbrt(0.75 / CLAST_PI * volume_of(a, i))
+                              ? cbrt(0.75 / CLAST_PI * clx_grain_volume(a, i))
                               : a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
     const double inside = distance(c->bed, a->position[i]) - c->depth;
     const double reach = radius + 0.5 * c->ramp;

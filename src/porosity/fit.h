@@ -69,6 +69,3 @@ void clx_fit_validity_free(clx_fit_validity *validity);
 
 /// Share of values that reach x, counting x itself: (1 + count) / (1 + n); NaN for n = 0.
 double clx_fit_share(const double *value, int32_t n, double x);
-
-/// Model and tables of the chosen features.
-clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_porosity_fit *out);

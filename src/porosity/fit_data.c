@@ -41,8 +41,8 @@ const clast_field clast_porosity_fit_fields[] = {
      "nested|published", .common = true},
     {FIELD(CLAST_FIELD_I32, n_permutation), 199, 0, 1e6, "-",
      "permutations of the porosities among the beds for p-values (0: none)", NULL},
-    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8e19, "-", "random numbers of folds and permutations",
-     NULL, .common = true},
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8446744073709552e19, "-",
+     "random numbers of folds and permutations", NULL, .common = true},
     {0}};
 
 void clast_fit_data_free(clast_fit_data *data)

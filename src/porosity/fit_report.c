@@ -244,7 +244,8 @@ done:
     return status;
 }
 
-clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_porosity_fit *out)
+/// Model and tables of the chosen features.
+static clast_status report(clx_fit *fit, const clast_fit_data *data, clast_porosity_fit *out)
 {
     clast_status status = CLAST_OK;
     clx_least_squares ls = {0};
@@ -301,7 +302,7 @@ clast_status clast_porosity_fit_data(const clast_fit_data *data, const char *nam
     f.trials = &out.trials;
     CLX_TRY(clx_fit_select(&f));
     CLX_TRY(clx_model_room(name, source, f.n_chosen, f.n_chosen + 2, true, &out.model));
-    CLX_TRY(clx_fit_report(&f, data, &out));
+    CLX_TRY(report(&f, data, &out));
     *fit = out;
     out = (clast_porosity_fit){0};
 done:

@@ -17,7 +17,7 @@
 enum { POINTS = 512, BLOCK = 32 };
 
 static const double OVERLAP = 1e-2; ///< of the smaller grain's reach: so deep are contacts at most
-static const double MOST_SOLID = 1.01; ///< of the room: contacts overlap
+static const double MOST_SOLID = 1.01; ///< of the volume: contacts overlap
 
 typedef struct {
     const clast_assembly *grains; ///< in the first image, or as they lay
@@ -135,25 +135,26 @@ static void count_images(image_search *s)
     s->most[0] += s->bed->shift != 0.0 ? 1 : 0;
 }
 
-/// Grains that take more than the room lie on a heap, whose pairs are those of all with all.
-static clast_status check_room(const clast_bed *bed, const clast_assembly *assembly)
+/// Grains that take more than the volume lie on a heap, whose pairs are those of all with all.
+static clast_status check_volume(const clast_bed *bed, const clast_assembly *assembly)
 {
     const char *unit = strcmp(assembly->unit, "m") == 0 ? "m" : "-";
     double low[3];
     double high[3];
-    double room = 0.0;
+    double volume = 0.0;
     clast_assembly_bounds(assembly, low, high);
     const bool is_endless = bed->kind == CLAST_BED_PERIODIC_3D;
     const double edge[2] = {is_endless ? bed->floor : fmin(bed->floor, low[2]),
                             is_endless ? bed->ceiling : high[2]};
-    clast_bed_volumes(bed, 1, edge, &room);
+    clast_bed_volumes(bed, 1, edge, &volume);
     const double solid = clast_assembly_volume(assembly);
-    return solid <= MOST_SOLID * room
+    return solid <= MOST_SOLID * volume
                ? CLAST_OK
                : clx_fail(CLAST_E_GEOMETRY,
-                          "grains take %.4g times the room of one period between z = %s and %s: "
+                          "grains take %.4g times the volume of one period between z = %s and %s: "
                           "the bed's period is not theirs, or in another unit",
-                          solid / room, clx_unit_text(edge[0], unit), clx_unit_text(edge[1], unit));
+                          solid / volume, clx_unit_text(edge[0], unit),
+                          clx_unit_text(edge[1], unit));
 }
 
 clast_status clx_images_measure(const clast_bed *bed, const clast_assembly *assembly,
@@ -166,7 +167,7 @@ clast_status clx_images_measure(const clast_bed *bed, const clast_assembly *asse
     clast_bed_beyond own = {0};
     const size_t row = sizeof *wrapped.position;
     wrapped.position = NULL;
-    CLX_TRY(check_room(bed, assembly));
+    CLX_TRY(check_volume(bed, assembly));
     CLX_TRY(clx_alloc(&wrapped.position, assembly->n_grain, row));
     CLX_TRY(clx_alloc(&s.moved, assembly->n_grain, row));
     CLX_TRY(clx_alloc(&s.share, assembly->n_grain, sizeof *s.share));

@@ -16,11 +16,3 @@ clast_status clx_model_room(const char *name, const char *source, int32_t n_term
 /// CLAST_E_LIMIT.
 clast_status clx_porosity_model_apply(const clast_porosity_model *model, const double *value,
                                       const double *range_value, clast_prediction *prediction);
-
-/// Values of a model's terms and ranges from inputs, by feature name.
-///
-/// @param value  [n_term] of the terms; range_value [n_range] of the ranged features
-/// @return CLAST_E_FORMAT names the feature that the inputs do not hold
-clast_status clx_porosity_model_values(const clast_porosity_model *model,
-                                       const clast_form_inputs *inputs, double *value,
-                                       double *range_value);

@@ -49,9 +49,12 @@ done:
     return status;
 }
 
-clast_status clx_porosity_model_values(const clast_porosity_model *model,
-                                       const clast_form_inputs *inputs, double *value,
-                                       double *range_value)
+/// Values of a model's terms and ranges from inputs, by feature name.
+///
+/// @param value  [n_term] of the terms; range_value [n_range] of the ranged features
+/// @return CLAST_E_FORMAT names the feature that the inputs do not hold
+static clast_status model_values(const clast_porosity_model *model, const clast_form_inputs *inputs,
+                                 double *value, double *range_value)
 {
     CLX_ARGUMENTS(model, inputs, value, range_value);
     CLX_WHOLE(porosity_model, model);
@@ -145,7 +148,7 @@ static clast_status predict(const clast_porosity_model *model, const clast_form_
     clast_status status = CLAST_OK;
     double *value = NULL;
     CLX_TRY(clx_alloc(&value, (int64_t)model->n_term + model->n_range, sizeof *value));
-    CLX_TRY(clx_porosity_model_values(model, inputs, value, value + model->n_term));
+    CLX_TRY(model_values(model, inputs, value, value + model->n_term));
     CLX_TRY(clx_porosity_model_apply(model, value, value + model->n_term, prediction));
     prediction->sampling_error = NAN;
 done:

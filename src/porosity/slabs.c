@@ -13,6 +13,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/quadrature.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include "porosity/discs.h"
 #include "porosity/slabs.h"
@@ -165,13 +166,6 @@ typedef struct {
     clx_disc *disc;
 } world_clump;
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /// Area of the clump's section at height z.
 static clast_status section(const world_clump *c, double z, double *area)
 {
@@ -249,7 +243,7 @@ static clast_status place_clump(const clast_spheres *spheres, const double posit
             add_crossing(c, j, i);
         }
     }
-    qsort(c->knot, (size_t)c->n_knot, sizeof *c->knot, by_value);
+    qsort(c->knot, (size_t)c->n_knot, sizeof *c->knot, clx_by_value);
 done:
     return status;
 }

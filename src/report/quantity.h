@@ -24,9 +24,6 @@ typedef struct clx_quantity {
 ///               does not tell it
 clx_quantity clx_quantity_of(const char *key, const char *place);
 
-/// True when the name of a column ends in its unit: "size_m".
-bool clx_quantity_names_unit(const char *key);
-
 /// The unit of a run whose lengths are in the unit of a file that does not tell it: "m^3" ->
 /// "model units^3"; others as they are.
 const char *clx_quantity_model_unit(const char *si_unit);

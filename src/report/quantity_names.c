@@ -202,7 +202,8 @@ static const char *cut_unit(name *key)
     return NULL;
 }
 
-bool clx_quantity_names_unit(const char *key)
+/// True when the name of a column ends in its unit: "size_m".
+static bool names_unit(const char *key)
 {
     name whole = {key, strlen(key)};
     return cut_unit(&whole) != NULL;
@@ -229,7 +230,7 @@ clx_quantity clx_quantity_of(const char *key, const char *place)
     name whole = {key, strlen(key)};
     if (place != NULL && strncmp(place, CLX_MODEL_UNITS, n) == 0) {
         q = clx_quantity_of(key, place[n] != '\0' ? place + n : NULL);
-        q.unit = clx_quantity_names_unit(key) ? q.unit : clx_quantity_model_unit(q.unit);
+        q.unit = names_unit(key) ? q.unit : clx_quantity_model_unit(q.unit);
         return q;
     }
     if (find_plain(whole, place, &q) || find_part(whole, place, &q)) {
@@ -260,7 +261,7 @@ void clx_quantity_put_name(clx_file *file, const char *key)
 {
     char unit[CLX_UNIT_SIZE];
     clx_quantity_put_label(file, key, NULL);
-    if (clx_quantity_names_unit(key)) {
+    if (names_unit(key)) {
         clx_quantity_show_unit(clx_quantity_of(key, NULL).unit, unit);
         (void)clx_file_print(file, " (");
         clx_page_text(file, unit);

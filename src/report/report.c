@@ -15,7 +15,9 @@
 #include "report/summary.h"
 #include "report/tables.h"
 #include "report/view3d.h"
+#include "run/run.h"
 #include <clast/state.h>
+#include <clast/study.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -130,15 +132,40 @@ done:
 
 enum { MAX_CODE = 8 };
 
-/// What became of a study's runs, by results.csv: those without an exit code are open.
+/// What became of a study's runs.
 typedef struct {
-    int64_t n_run, n_done, n_unconverged, n_failed;
+    clast_study_outcomes n;
     double code[MAX_CODE]; ///< [n_code] of runs that failed, the first few that differ
     int n_code;
     bool is_under_way; ///< a process is at one of them, now
 } outcomes;
 
-static void count_failed(outcomes *o, double code)
+static const double *codes_of(const clast_table *results)
+{
+    return clast_table_numbers(results, "exit_code"); // NULL: none has ended
+}
+
+static bool is_failure(double code)
+{
+    return isfinite(code) && !(fabs(code) < 256.0 && clx_run_is_answer((int)code));
+}
+
+clast_status clast_study_count(const clast_table *results, clast_study_outcomes *count)
+{
+    CLX_ARGUMENTS(results, count);
+    CLX_WHOLE(table, results);
+    const double *code = codes_of(results);
+    clast_study_outcomes n = {.n_run = results->n_row};
+    for (int64_t i = 0; code != NULL && i < n.n_run; ++i) {
+        n.n_failed += is_failure(code[i]);
+        n.n_done += isfinite(code[i]) && !is_failure(code[i]);
+        n.n_unconverged += code[i] == 5.0;
+    }
+    *count = n;
+    return CLAST_OK;
+}
+
+static void note_code(outcomes *o, double code)
 {
     int k = 0;
     while (k < o->n_code && o->code[k] != code) {
@@ -147,7 +174,6 @@ static void count_failed(outcomes *o, double code)
     if (k == o->n_code && k < MAX_CODE) {
         o->code[o->n_code++] = code;
     }
-    ++o->n_failed;
 }
 
 /// Whether a clast study holds the lock of the run in this row.
@@ -161,19 +187,14 @@ static bool is_taken(const clx_run *run, int64_t row)
 
 static outcomes count_outcomes(const clx_run *run, const clast_table *results)
 {
-    const double *code = clast_table_numbers(results, "exit_code"); // NULL: none has ended
-    outcomes o = {.n_run = results->n_row};
-    for (int64_t i = 0; code != NULL && i < o.n_run; ++i) {
-        if (code[i] == 0.0 || code[i] == 1.0) {
-            ++o.n_done;
-        } else if (code[i] == 5.0) {
-            ++o.n_unconverged;
-        } else if (isfinite(code[i])) {
-            count_failed(&o, code[i]);
+    outcomes o = {0};
+    (void)clast_study_count(results, &o.n);
+    for (int64_t i = 0; o.n.n_failed > 0 && i < o.n.n_run; ++i) {
+        if (is_failure(codes_of(results)[i])) {
+            note_code(&o, codes_of(results)[i]);
         }
     }
-    const bool is_over = o.n_done + o.n_unconverged == o.n_run;
-    for (int64_t i = 0; !is_over && !o.is_under_way && i < o.n_run; ++i) {
+    for (int64_t i = 0; o.n.n_done < o.n.n_run && !o.is_under_way && i < o.n.n_run; ++i) {
         o.is_under_way = is_taken(run, i);
     }
     return o;
@@ -183,7 +204,7 @@ static void put_failed(clx_file *file, const outcomes *o)
 {
     (void)clx_file_print(file,
                          "<p class=\"note\">%" PRId64 " of %" PRId64 " runs failed (exit code%s",
-                         o->n_failed, o->n_run, o->n_code > 1 ? "s" : "");
+                         o->n.n_failed, o->n.n_run, o->n_code > 1 ? "s" : "");
     for (int k = 0; k < o->n_code; ++k) {
         (void)clx_file_print(file, "%s %g", k > 0 ? "," : "", o->code[k]);
     }
@@ -199,19 +220,21 @@ static void put_outcomes(clx_file *file, const clx_run *run)
         return;
     }
     const outcomes o = count_outcomes(run, results);
-    const bool is_open = o.n_done + o.n_unconverged + o.n_failed < o.n_run;
-    if (o.n_failed > 0) {
+    const clast_study_outcomes n = o.n;
+    const bool is_open = n.n_done + n.n_failed < n.n_run;
+    if (n.n_failed > 0) {
         put_failed(file, &o);
     }
-    if (o.n_unconverged > 0) {
+    if (n.n_unconverged > 0) {
         (void)clx_file_print(file,
                              "<p class=\"note\">%" PRId64 " of %" PRId64
                              " runs ended without converging (exit code 5)</p>\n",
-                             o.n_unconverged, o.n_run);
+                             n.n_unconverged, n.n_run);
     }
     if (is_open || o.is_under_way) {
         (void)clx_file_print(file, "<p class=\"note\">%s: %" PRId64 " of %" PRId64 " runs %s</p>\n",
-                             o.is_under_way ? "under way" : "stopped", o.n_done, o.n_run,
+                             o.is_under_way ? "under way" : "stopped", n.n_done - n.n_unconverged,
+                             n.n_run,
                              o.is_under_way ? "were done when results.csv was written"
                                             : "are done; the same clast study command goes on "
                                               "with the rest");

@@ -1,9 +1,10 @@
 // Whether ranks read the same: machines may have copies of their own, one of them an old one, and
 // what the ranks then make is the result of neither.
-#include <clast/run_folder.h>
+#include "run/run.h"
 
 #include "base/alloc.h"
 #include "base/comm.h"
+#include "io/config_files.h"
 #include <clast/field.h>
 #include <clast/machine.h>
 #include <jansson.h>
@@ -108,5 +109,24 @@ clast_status clast_run_inputs_agree(const clast_comm *comm, const clast_field *f
 done:
     clx_gathered_free(&first);
     clx_free(own.bytes);
+    return status;
+}
+
+clast_status clx_run_check_ranks(const clast_comm *comm, const clx_run_inputs *inputs)
+{
+    clast_status status = CLAST_OK;
+    const char **file = NULL;
+    const char *role = NULL;
+    int32_t n = 0;
+    while (inputs->file(inputs->config, n, &role) != NULL) {
+        ++n;
+    }
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&file, n, sizeof *file), NULL));
+    for (int32_t i = 0; i < n; ++i) {
+        file[i] = inputs->file(inputs->config, i, &role);
+    }
+    CLX_TRY(clast_run_inputs_agree(comm, inputs->fields, inputs->config, n, file));
+done:
+    clx_free((void *)file);
     return status;
 }

@@ -4,7 +4,10 @@
 #include <clast/run_folder.h>
 #include <jansson.h>
 
+typedef struct clast_grading clast_grading;
 typedef struct clast_grading_list clast_grading_list;
+typedef struct clast_table clast_table;
+typedef struct clx_run_inputs clx_run_inputs;
 
 /// What a folder holds. Texts are borrowed from the manifest, "" where not known.
 typedef struct clx_run_state {
@@ -30,6 +33,12 @@ enum { CLX_RUN_LINE = 1024 };
 CLX_SHARED void clx_run_state_line(const char *folder, const clx_run_state *state,
                                    char line[CLX_RUN_LINE]);
 
+/// Exit codes with which a run has an answer: done, answered no, did not converge.
+static inline bool clx_run_is_answer(int exit_code)
+{
+    return exit_code == 0 || exit_code == 1 || exit_code == 5;
+}
+
 /// True for an entry of the run's folder that the run wrote.
 bool clx_run_owns(const clx_run_state *state, const char *name);
 
@@ -47,6 +56,14 @@ CLX_SHARED clast_status clx_run_folder_seal(clast_run_folder *run);
 /// The folder that was asked for: where the run will be once it has ended. Borrowed.
 CLX_SHARED const char *clx_run_folder_place(const clast_run_folder *run);
 
+/// FOLDER/NAME of a table.
+CLX_SHARED clast_status clx_run_write_table(const char *folder, const char *name,
+                                            const clast_table *table);
+
+/// FOLDER/summary.json, as clast_run_folder_summary, of a text that a function of this status made;
+/// frees it.
+CLX_SHARED clast_status clx_run_write_summary(const char *folder, clast_status made, char *text);
+
 /// Tells what the rows of a list of sizes count: the monitor in a line, and the manifest, as its
 /// note "sizes". One that holds sizes alone leaves nothing to tell.
 ///
@@ -55,6 +72,16 @@ CLX_SHARED const char *clx_run_folder_place(const clast_run_folder *run);
 CLX_SHARED clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monitor,
                                           const char *sizes, bool by_mass,
                                           const clast_grading_list *list);
+
+/// The same of an option `curve`, "list:FILE" or "masses:FILE", whose curve is `grading`.
+CLX_SHARED clast_status clx_run_tell_curve(clast_run_folder *run, const clast_monitor *monitor,
+                                           const char *curve, const clast_grading *grading);
+
+/// Gives the manifest configuration and seed, and what the files are.
+CLX_SHARED clast_status clx_run_note_inputs(clast_run_folder *run, const clx_run_inputs *inputs);
+
+/// Refuses ranks that read other options or files than rank 0. Called by all ranks.
+CLX_SHARED clast_status clx_run_check_ranks(const clast_comm *comm, const clx_run_inputs *inputs);
 
 /// Keeps in the manifest how much of the run is done (0 to 1); to be called beside a checkpoint.
 CLX_SHARED clast_status clx_run_folder_progress(clast_run_folder *run, double share);

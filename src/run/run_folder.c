@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/folder.h"
-#include <clast/grading.h>
+#include <clast/table.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -75,6 +75,33 @@ clast_status clast_run_folder_file(const clast_run_folder *run, const char *name
 {
     CLX_ARGUMENTS(run, name, path);
     return clx_path_join(path, run->path, name);
+}
+
+static clast_status write_summary(const char *folder, const char *text)
+{
+    char path[CLX_PATH_LIMIT];
+    const clast_status status = clx_path_join(path, folder, "summary.json");
+    return status == CLAST_OK ? clx_file_write_line(path, text) : status;
+}
+
+clast_status clast_run_folder_summary(const clast_run_folder *run, const char *text)
+{
+    CLX_ARGUMENTS(run, text);
+    return write_summary(run->path, text);
+}
+
+clast_status clx_run_write_summary(const char *folder, clast_status made, char *text)
+{
+    const clast_status status = made == CLAST_OK ? write_summary(folder, text) : made;
+    clast_text_free(text);
+    return status;
+}
+
+clast_status clx_run_write_table(const char *folder, const char *name, const clast_table *table)
+{
+    char path[CLX_PATH_LIMIT];
+    const clast_status status = clx_path_join(path, folder, name);
+    return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
 static clast_status copy_path(const char *path, char **copy)
@@ -295,22 +322,6 @@ done:
     free(file); // the system's, both
     free(folder);
     return status;
-}
-
-clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monitor,
-                               const char *sizes, bool by_mass, const clast_grading_list *list)
-{
-    char words[1536];
-    char text[sizeof words + CLX_PATH_LIMIT];
-    if (list->column[0] == '\0' && list->ignored[0] == '\0') {
-        return CLAST_OK;
-    }
-    (void)snprintf(text, sizeof text, "%s: %s", sizes,
-                   clast_grading_list_text(list, by_mass, sizeof words, words));
-    if (monitor != NULL && monitor->note != NULL) {
-        monitor->note(monitor->context, text);
-    }
-    return run != NULL ? clast_manifest_note(run->manifest, "sizes", words) : CLAST_OK;
 }
 
 static clast_status write_manifest(const clast_run_folder *run, const char *outcome)

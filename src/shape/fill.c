@@ -55,7 +55,7 @@ const clast_field clast_fill_fields[] = {
            .common = true),
     FLAG(allow_open, 0, "accept a surface with large holes; they are capped", .common = true,
          .group = "input, random numbers and output"),
-    COUNT(U64, seed, 1, 0, 1.8e19, "seed of the random draws", .common = true),
+    COUNT(U64, seed, 1, 0, 1.8446744073709552e19, "seed of the random draws", .common = true),
     {FIELD(TEXT, name), 0, 0, 0, "-", "name of the sphere set; none: the input file's", ""},
     {FIELD(TEXT, history), 0, 0, 0, CLAST_UNIT_OUTPUT,
      "write the errors after each sphere to this CSV", "", .common = true},

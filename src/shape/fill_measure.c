@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/status.h"
 #include "geom/whole.h"
+#include "math/sort.h"
 #include "shape/shape.h"
 #include "shape/whole.h"
 #include <clast/table.h>
@@ -229,13 +230,6 @@ done:
     return status;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static clast_status measure_radii(const clast_spheres *s, clast_fill_report *report)
 {
     double *sorted = NULL;
@@ -244,7 +238,7 @@ static clast_status measure_radii(const clast_spheres *s, clast_fill_report *rep
         for (int32_t i = 0; i < s->n; ++i) {
             sorted[i] = s->radius[i];
         }
-        qsort(sorted, (size_t)s->n, sizeof *sorted, compare_numbers);
+        qsort(sorted, (size_t)s->n, sizeof *sorted, clx_by_value);
         report->radius_min = sorted[0];
         report->radius_max = sorted[s->n - 1];
         report->radius_median = 0.5 * (sorted[(s->n - 1) / 2] + sorted[s->n / 2]);

@@ -12,16 +12,7 @@
 #include "base/alloc.h"
 #include "geom/delaunay.h"
 #include "geom/hull.h"
-
-static int32_t root_of(int32_t *root, int32_t i)
-{
-    CLAST_ASSERT(i >= 0);
-    while (root[i] != i) {
-        root[i] = root[root[i]];
-        i = root[i];
-    }
-    return i;
-}
+#include "geom/union_find.h"
 
 /// Number of tetrahedra, by rising radius, that the critical alpha shape holds: one region, all
 /// points. `is_met` [n], zeroed, and `root` [n_tet] are scratch.
@@ -29,13 +20,13 @@ static int32_t critical(const clx_delaunay *c, int32_t n, bool *is_met, int32_t 
 {
     int32_t regions = 0;
     int32_t left = n;
+    clx_sets_init(root, c->n_tet);
     for (int32_t i = 0; i < c->n_tet; ++i) {
-        root[i] = i;
         ++regions;
         for (int k = 0; k < 4; ++k) {
             const int32_t other = c->neighbour[i][k];
-            if (other >= 0 && other < i && root_of(root, other) != root_of(root, i)) {
-                root[root_of(root, other)] = root_of(root, i);
+            if (other >= 0 && other < i && clx_sets_find(root, other) != clx_sets_find(root, i)) {
+                clx_sets_join(root, other, i);
                 --regions;
             }
             left -= !is_met[c->tet[i].corner[k]];

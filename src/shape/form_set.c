@@ -133,7 +133,7 @@ static bool known_roles(const clast_table *table, roles *r)
 bool clast_form_set_named(const clast_table *table)
 {
     roles r;
-    return known_roles(table, &r);
+    return table != NULL && clx_table_fault(table) == NULL && known_roles(table, &r);
 }
 
 /// Lengths of one row may be in different units; all three columns say theirs, or none does.

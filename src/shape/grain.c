@@ -46,6 +46,8 @@ void clast_grain_scale(clast_grain *grain, double factor)
     const double square = factor * factor;
     const double cube = square * factor;
     grain->volume *= cube;
+    grain->pore_volume *= cube;
+    grain->pore_area *= square;
     grain->hull_volume *= cube;
     grain->area *= square;
     grain->hull_area *= square;
@@ -304,16 +306,11 @@ done:
     return status;
 }
 
-static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
+/// Volume, area, centroid and moments.
+static clast_status measure_mass(const clast_mesh *mesh, clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     clast_mass mass = {0};
-    clast_mesh used = {0};
-    double lying[3];
-    double low[3];
-    double high[3];
-    clast_mesh_bounds(mesh, low, high);
-    CLX_TRY(check_thick(clast_mesh_volume(mesh), v3_distance(low, high)));
     CLX_TRY(clast_mesh_mass(mesh, &mass));
     grain->volume = mass.volume;
     grain->area = clast_mesh_area(mesh);
@@ -322,11 +319,53 @@ static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
         v3_copy(grain->inertia[k], mass.inertia[k]);
     }
     CLX_TRY(clx_grain_inertia(grain));
+done:
+    return status;
+}
+
+/// What is said of the outer surface: all of it is of the grain with its pores filled.
+static clast_status measure_outer(const clast_mesh *mesh, const double lying[3], clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh outer = {0};
+    clast_grain filled = *grain;
+    CLX_TRY(clx_grain_outer(mesh, &outer));
+    const clast_mesh *surface = outer.n_tri > 0 ? &outer : mesh;
+    if (outer.n_tri > 0) {
+        CLX_TRY(measure_mass(&outer, &filled));
+        grain->pore_volume = filled.volume - grain->volume;
+        grain->pore_area = grain->area - filled.area;
+    }
+    clx_grain_ratios(&filled);
+    clx_grain_surface_means(surface, &filled);
+    CLX_TRY(clx_grain_roundness(surface, lying, &filled));
+    grain->area = filled.area;
+    grain->sphericity = filled.sphericity;
+    grain->convexity = filled.convexity;
+    grain->hull_volume_added = grain->hull_volume / grain->volume - 1.0; // to the solid
+    grain->normal_roundness = filled.normal_roundness;
+    grain->angularity = filled.angularity;
+    grain->roundness = filled.roundness;
+    grain->roundness_deviation = filled.roundness_deviation;
+    grain->n_outline = filled.n_outline;
+done:
+    clast_mesh_free(&outer);
+    return status;
+}
+
+static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh used = {0};
+    double lying[3];
+    double low[3];
+    double high[3];
+    clast_mesh_bounds(mesh, low, high);
+    CLX_TRY(check_thick(clast_mesh_volume(mesh), v3_distance(low, high)));
+    CLX_TRY(measure_mass(mesh, grain));
     CLX_TRY(used_vertices(mesh, &used));
     CLX_TRY(clx_grain_hull(used.n_vert > 0 ? &used : mesh, grain, lying));
-    clx_grain_ratios(grain);
-    clx_grain_surface_means(mesh, grain);
-    CLX_TRY(clx_grain_roundness(mesh, lying, grain));
+    CLX_TRY(measure_outer(mesh, lying, grain));
 done:
     clast_mesh_free(&used);
     return status;

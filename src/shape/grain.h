@@ -3,6 +3,7 @@
 #include <clast/status.h>
 
 typedef struct clast_axes clast_axes;
+typedef struct clast_mesh clast_mesh;
 typedef struct clast_grain clast_grain;
 
 /// Principal moments, the mass-equivalent ellipsoid and the principal frame from volume, centroid
@@ -18,6 +19,9 @@ void clx_grain_sort_axes(clast_axes *axes);
 
 /// Sphericity, convexity: the ratios of what is in the grain.
 void clx_grain_ratios(clast_grain *grain);
+
+/// The surface without closed pores and what floats in them; empty where it has no pore.
+clast_status clx_grain_outer(const clast_mesh *mesh, clast_mesh *outer);
 
 /// Normal roundness and angularity of a surface whose centroid, area and ellipsoid are in the
 /// grain.

@@ -54,6 +54,8 @@ static void leave_out(clast_grain *grain)
     }
     grain->axes[CLAST_AXES_FITTED].lis[0] = grain->longest;
     grain->axes[CLAST_AXES_FERET].lis[0] = grain->longest;
+    grain->pore_volume = NAN; // a union may enclose some, and its area then has their walls
+    grain->pore_area = NAN;
     grain->shortest = NAN;
     grain->hull_area = NAN;
     grain->projected_mean = NAN;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "geom/topology.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <stdlib.h>
@@ -262,13 +263,6 @@ static double depth(const clx_outline *outline, const double c[2])
     return is_inside ? sqrt(least) : -sqrt(least);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /// The direction that leads away from all points nearer than `limit`, as far as there is one: the
 /// middle of the arc that the directions away from them span. False when they span a half turn.
 static bool way_out(const clx_outline *outline, const double c[2], double limit, double way[2])
@@ -284,7 +278,7 @@ static bool way_out(const clx_outline *outline, const double c[2], double limit,
     if (n == 0) {
         return false;
     }
-    qsort(angle, (size_t)n, sizeof *angle, compare_numbers);
+    qsort(angle, (size_t)n, sizeof *angle, clx_by_value);
     double gap = 2.0 * CLAST_PI - (angle[n - 1] - angle[0]);
     int after = 0; // the arc begins here
     for (int i = 1; i < n; ++i) {

@@ -50,8 +50,8 @@ const clast_field clast_synthesize_fields[] = {
      "greatest degree of the spherical harmonics", NULL},
     {FIELD(faces), CLAST_FIELD_I32, 300, 8, 100000, "-", "at most so many triangles", NULL,
      .common = true},
-    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of form and roughness", NULL,
-     .common = true},
+    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8446744073709552e19, "-", "seed of form and roughness",
+     NULL, .common = true},
     {0}};
 #undef FIELD
 #undef FORM

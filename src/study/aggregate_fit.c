@@ -3,10 +3,9 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
-#include "base/file.h"
-#include "base/path.h"
 #include "io/config_files.h"
 #include "io/json.h"
+#include "run/run.h"
 #include "study/aggregate_fit_chart.h"
 #include <clast/run_folder.h>
 #include <clast/table.h>
@@ -105,35 +104,16 @@ done:
     return status;
 }
 
-static clast_status note_inputs(const clast_aggregate_config *config, clast_run_folder *run)
-{
-    clast_status status = CLAST_OK;
-    clast_manifest *manifest = clast_run_folder_manifest(run);
-    CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
-    clast_manifest_seed(manifest, config->params.seed);
-    for (int32_t i = 0; i < clx_aggregate_n_file(config); ++i) {
-        const char *role = NULL;
-        const char *path = clx_aggregate_file(config, i, &role);
-        CLX_TRY(clast_run_folder_input(run, role, path));
-    }
-done:
-    return status;
-}
-
 static clast_status write_results(const char *folder, const clast_aggregate_fit *fit,
                                   const clast_table *nodes)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PATH_LIMIT];
     char *text = NULL;
-    CLX_TRY(clx_path_join(path, folder, "fit.csv"));
-    CLX_TRY(clast_table_write_csv(nodes, path));
+    CLX_TRY(clx_run_write_table(folder, "fit.csv", nodes));
     CLX_TRY(clx_fit_chart_write(folder, fit, nodes));
-    CLX_TRY(clast_aggregate_fit_json(fit, &text));
-    CLX_TRY(clx_path_join(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_line(path, text));
+    status = clast_aggregate_fit_json(fit, &text);
+    CLX_TRY(clx_run_write_summary(folder, status, text));
 done:
-    clast_text_free(text);
     return status;
 }
 
@@ -152,7 +132,8 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
     }
     CLX_TRY(clast_aggregate_load(config, &source));
     if (folder != NULL) {
-        CLX_TRY(note_inputs(config, run));
+        const clx_run_inputs inputs = clx_aggregate_inputs(config);
+        CLX_TRY(clx_run_note_inputs(run, &inputs));
     }
     CLX_TRY(clast_aggregate_fit_run(config, &source.input, monitor, fit, &nodes));
     if (folder != NULL) {

@@ -1,16 +1,12 @@
 // Files of an aggregation's run folder.
 #include "study/aggregate_folder.h"
 
-#include "base/alloc.h"
-#include "base/file.h"
 #include "base/path.h"
-#include "io/state.h"
+#include "run/run.h"
 #include <clast/assembly.h>
 #include <clast/mesh.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { RADIAL_BINS = 20 };
@@ -50,22 +46,9 @@ done:
 
 static clast_status write_summary(const char *folder, const clast_aggregate_report *report)
 {
-    clast_status status = CLAST_OK;
-    char path[CLX_PATH_LIMIT];
     char *text = NULL;
-    CLX_TRY(clast_aggregate_report_json(report, false, &text));
-    CLX_TRY(clx_path_join(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_line(path, text));
-done:
-    clast_text_free(text);
-    return status;
-}
-
-static clast_status write_table(const char *folder, const char *name, const clast_table *table)
-{
-    char path[CLX_PATH_LIMIT];
-    const clast_status status = clx_path_join(path, folder, name);
-    return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
+    const clast_status made = clast_aggregate_report_json(report, false, &text);
+    return clx_run_write_summary(folder, made, text);
 }
 
 /// structure.csv and radial.csv of the first repeat, in cluster mode of its largest cluster.
@@ -84,10 +67,10 @@ static clast_status write_structure(const char *folder, const clx_folder_results
         options.alpha = options.alpha || strcmp(r->config->params.envelope.item[k], alpha) == 0;
     }
     CLX_TRY(clast_structure(r->body, &options, &table));
-    CLX_TRY(write_table(folder, "structure.csv", &table));
+    CLX_TRY(clx_run_write_table(folder, "structure.csv", &table));
     clast_table_free(&table);
     CLX_TRY(clast_assembly_radial_profile(r->body, NULL, RADIAL_BINS, &table));
-    CLX_TRY(write_table(folder, "radial.csv", &table));
+    CLX_TRY(clx_run_write_table(folder, "radial.csv", &table));
 done:
     clast_table_free(&table);
     return status;
@@ -100,7 +83,7 @@ static clast_status write_sizes(const char *folder, const clx_folder_results *r)
     clast_table table = {0};
     if (r->config->params.mode == CLAST_AGGREGATE_CORE) {
         CLX_TRY(clast_aggregate_achieved(&r->config->params, r->sizes, r->history, &table));
-        CLX_TRY(write_table(folder, "sizes.csv", &table));
+        CLX_TRY(clx_run_write_table(folder, "sizes.csv", &table));
     }
 done:
     clast_table_free(&table);
@@ -111,10 +94,10 @@ clast_status clx_folder_write_results(const char *folder, const clx_folder_resul
 {
     clast_status status = CLAST_OK;
     clast_table band = {0};
-    CLX_TRY(write_table(folder, "history.csv", r->history));
+    CLX_TRY(clx_run_write_table(folder, "history.csv", r->history));
     if (r->report->n > 1) {
         CLX_TRY(clast_aggregate_band(r->history, r->report->confidence, &band));
-        CLX_TRY(write_table(folder, "history_band.csv", &band));
+        CLX_TRY(clx_run_write_table(folder, "history_band.csv", &band));
     }
     CLX_TRY(write_sizes(folder, r));
     CLX_TRY(write_structure(folder, r));

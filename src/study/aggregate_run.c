@@ -230,18 +230,11 @@ static clast_status grow_all(run *r)
 static clast_status note_inputs(run *r)
 {
     clast_status status = CLAST_OK;
-    const clast_aggregate_config *c = r->config;
-    clast_manifest *manifest = clast_run_folder_manifest(r->own);
+    const clx_run_inputs inputs = clx_aggregate_inputs(r->config);
     char ranks[32];
-    CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, c));
-    clast_manifest_seed(manifest, c->params.seed);
-    for (int32_t i = 0; i < clx_aggregate_n_file(c); ++i) {
-        const char *role = NULL;
-        const char *path = clx_aggregate_file(c, i, &role);
-        CLX_TRY(clast_run_folder_input(r->own, role, path));
-    }
+    CLX_TRY(clx_run_note_inputs(r->own, &inputs));
     (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
-    CLX_TRY(clast_manifest_note(manifest, "ranks", ranks));
+    CLX_TRY(clast_manifest_note(clast_run_folder_manifest(r->own), "ranks", ranks));
 done:
     return status;
 }
@@ -362,21 +355,10 @@ static clast_status finish(run *r, clast_status status)
     return status;
 }
 
-/// Refuses ranks that read other options or files than rank 0.
 static clast_status check_ranks(const run *r)
 {
-    clast_status status = CLAST_OK;
-    const int32_t n = clx_aggregate_n_file(r->config);
-    const char **file = NULL;
-    CLX_TRY(clast_comm_agree(r->comm, clx_alloc(&file, n, sizeof *file), NULL));
-    for (int32_t i = 0; i < n; ++i) {
-        const char *role = NULL;
-        file[i] = clx_aggregate_file(r->config, i, &role);
-    }
-    CLX_TRY(clast_run_inputs_agree(r->comm, clast_aggregate_fields, r->config, n, file));
-done:
-    clx_free((void *)file);
-    return status;
+    const clx_run_inputs inputs = clx_aggregate_inputs(r->config);
+    return clx_run_check_ranks(r->comm, &inputs);
 }
 
 /// What the rows of a file of sizes count.

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "io/state.h"
 #include "run/checkpoint.h"
+#include "run/run.h"
 #include <clast/assembly.h>
 #include <clast/run_folder.h>
 #include <clast/state.h>
@@ -23,11 +24,9 @@ static clast_status write_tables(const char *folder, const clast_evolve *evolve)
                                                                "particles.csv"};
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    char path[CLX_PATH_LIMIT];
     for (int k = 0; k < CLAST_N_EVOLVE_TABLE; ++k) {
         CLX_TRY(clast_evolve_table(evolve, (clast_evolve_table_kind)k, &table));
-        CLX_TRY(clx_path_join(path, folder, name[k]));
-        CLX_TRY(clast_table_write_csv(&table, path));
+        CLX_TRY(clx_run_write_table(folder, name[k], &table));
         clast_table_free(&table);
     }
 done:
@@ -42,7 +41,6 @@ static clast_status write_sizes(const char *folder, const clast_evolve *evolve)
     clast_status status = CLAST_OK;
     clast_table deposit = {0};
     clast_table sizes = {0};
-    char path[CLX_PATH_LIMIT];
     double *diameter = NULL;
     double *count = NULL;
     CLX_TRY(clast_evolve_table(evolve, CLAST_EVOLVE_DEPOSIT, &deposit));
@@ -55,8 +53,7 @@ static clast_status write_sizes(const char *folder, const clast_evolve *evolve)
         diameter[i] = cbrt(6.0 * clast_table_numbers(&deposit, "solid_m3")[i] / CLAST_PI);
         count[i] = 1.0;
     }
-    CLX_TRY(clx_path_join(path, folder, "deposit_sizes.csv"));
-    CLX_TRY(clast_table_write_csv(&sizes, path));
+    CLX_TRY(clx_run_write_table(folder, "deposit_sizes.csv", &sizes));
 done:
     clast_table_free(&deposit);
     clast_table_free(&sizes);
@@ -109,15 +106,9 @@ done:
 
 static clast_status write_summary(const char *folder, const clast_evolve_result *result)
 {
-    clast_status status = CLAST_OK;
-    char path[CLX_PATH_LIMIT];
     char *text = NULL;
-    CLX_TRY(clast_evolve_result_json(result, false, &text));
-    CLX_TRY(clx_path_join(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_line(path, text));
-done:
-    clast_text_free(text);
-    return status;
+    const clast_status made = clast_evolve_result_json(result, false, &text);
+    return clx_run_write_summary(folder, made, text);
 }
 
 clast_status clx_evolve_write_results(const char *folder, const char *config,

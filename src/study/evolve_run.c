@@ -39,29 +39,6 @@ static void free_run(run *r)
     clast_text_free(r->text);
 }
 
-static clast_status note_inputs(run *r)
-{
-    clast_status status = CLAST_OK;
-    clast_manifest *manifest = clast_run_folder_manifest(r->own);
-    CLX_TRY(clast_manifest_config(manifest, clast_evolve_fields, r->config));
-    clast_manifest_seed(manifest, r->config->seed);
-    for (int32_t i = 0; i < clx_evolve_n_file(r->config); ++i) {
-        const char *role = NULL;
-        const char *path = clx_evolve_file(r->config, i, &role);
-        CLX_TRY(clast_run_folder_input(r->own, role, path));
-    }
-done:
-    return status;
-}
-
-/// What the rows of a list of sizes count.
-static clast_status tell_list(const run *r)
-{
-    const clast_grading_list list = clast_grading_list_of(r->source.grading);
-    const bool by_mass = strncmp(r->config->curve, "masses:", 7) == 0;
-    return clx_run_tell_list(r->own, r->monitor, r->config->curve, by_mass, &list);
-}
-
 /// Loads all that can be wrong before anything is written.
 static clast_status prepare(run *r, bool goes_on)
 {
@@ -72,9 +49,10 @@ static clast_status prepare(run *r, bool goes_on)
     CLX_TRY((goes_on ? clx_evolve_create_again : clast_evolve_create)(r->config, &r->source.input,
                                                                       &r->evolve));
     if (r->folder != NULL) {
-        CLX_TRY(note_inputs(r));
+        const clx_run_inputs inputs = clx_evolve_inputs(r->config);
+        CLX_TRY(clx_run_note_inputs(r->own, &inputs));
     }
-    CLX_TRY(tell_list(r));
+    CLX_TRY(clx_run_tell_curve(r->own, r->monitor, r->config->curve, r->source.grading));
 done:
     return status;
 }

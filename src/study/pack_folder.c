@@ -3,8 +3,10 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
+#include "run/run.h"
 #include <clast/assembly.h>
 #include <clast/chart.h>
 #include <clast/form.h>
@@ -16,30 +18,11 @@
 #include <string.h>
 #include <unistd.h>
 
-clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name)
-{
-    const int n = snprintf(path, CLX_PACK_PATH, "%s/%s", folder, name);
-    return n > 0 && n < CLX_PACK_PATH
-               ? CLAST_OK
-               : clx_fail(CLAST_E_USAGE, "the path %.60s... is longer than %d bytes", folder,
-                          CLX_PACK_PATH);
-}
-
-static clast_status write_table(const char *folder, const char *name, const clast_table *table)
-{
-    clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
-    CLX_TRY(clx_pack_path(path, folder, name));
-    CLX_TRY(clast_table_write_csv(table, path));
-done:
-    return status;
-}
-
 static clast_status write_profile(const char *folder, const clast_pack *pack,
                                   const clast_pack_config *c, const clast_pack_result *r)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     clast_assembly a = {0};
     clast_table profile = {0};
     const clast_bed bed = clast_pack_bed(pack);
@@ -47,9 +30,9 @@ static clast_status write_profile(const char *folder, const clast_pack *pack,
     clast_porosity_bulk bulk = {.porosity = r->porosity, .z_low = r->z_low, .z_high = r->z_high};
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
-    CLX_TRY(write_table(folder, "profile.csv", &profile));
+    CLX_TRY(clx_run_write_table(folder, "profile.csv", &profile));
     if (isfinite(r->porosity)) {
-        CLX_TRY(clx_pack_path(path, folder, "profile.svg"));
+        CLX_TRY(clx_path_join(path, folder, "profile.svg"));
         CLX_TRY(clast_chart_porosity(&profile, &bulk, "m", path));
     }
 done:
@@ -61,7 +44,7 @@ done:
 static clast_status draw_energy(const char *folder, const clast_table *series)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     static const char *const name[3] = {"kinetic_energy_J", "elastic_energy_J",
                                         "potential_energy_J"};
     static const char *const label[3] = {"kinetic", "elastic", "potential"};
@@ -87,7 +70,7 @@ static clast_status draw_energy(const char *folder, const clast_table *series)
     if (series->n_row < 2 || !is_any) {
         return CLAST_OK;
     }
-    CLX_TRY(clx_pack_path(path, folder, "energy.svg"));
+    CLX_TRY(clx_path_join(path, folder, "energy.svg"));
     CLX_TRY(clast_chart_write(&chart, path));
 done:
     return status;
@@ -201,18 +184,18 @@ static clast_status write_load(const char *folder, const clast_pack *pack)
                                              {"stress_zz_Pa", "zz"},
                                              {"stress_xz_Pa", "xz"}};
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     const clast_table *load = clast_pack_load_table(pack);
     if (load == NULL) {
         return CLAST_OK;
     }
-    CLX_TRY(write_table(folder, "load.csv", load));
+    CLX_TRY(clx_run_write_table(folder, "load.csv", load));
     if (load->n_row > 1 && clast_table_numbers(load, stress[0][0]) != NULL) {
-        CLX_TRY(clx_pack_path(path, folder, "load.svg"));
+        CLX_TRY(clx_path_join(path, folder, "load.svg"));
         CLX_TRY(draw_lines(path, load, "Stress, pressure above 0", "stress (Pa)", 4, stress));
     }
     if (load->n_row > 1 && clast_table_numbers(load, energy_kind[0][1]) != NULL) {
-        CLX_TRY(clx_pack_path(path, folder, "energy_book.svg"));
+        CLX_TRY(clx_path_join(path, folder, "energy_book.svg"));
         CLX_TRY(draw_energy_book(path, load));
     }
 done:
@@ -225,7 +208,7 @@ static clast_status draw_walls(const char *folder, const clast_table *walls)
     static const char ending[] = "_force_z_N";
     enum { MOST = 8, NAME = 48 };
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     char label[MOST][NAME];
     const char *name[MOST][2];
     char title[2 * NAME];
@@ -251,7 +234,7 @@ static clast_status draw_walls(const char *folder, const clast_table *walls)
             (void)snprintf(title, sizeof title,
                            "Vertical force of grains on walls (the first %d of %d)", n, n_wall);
         }
-        CLX_TRY(clx_pack_path(path, folder, "walls.svg"));
+        CLX_TRY(clx_path_join(path, folder, "walls.svg"));
         CLX_TRY(draw_lines(path, walls, title, "force (N)", n, (const char *const(*)[2])name));
     }
 done:
@@ -263,17 +246,17 @@ static clast_status write_walls(const char *folder, const clast_pack *pack)
 {
     static const char *const mass[2][2] = {{"mass_kg", "inside"}, {"mass_left_kg", "left"}};
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     const clast_table *walls = clast_pack_wall_table(pack);
     if (walls == NULL) {
         return CLAST_OK;
     }
-    CLX_TRY(write_table(folder, "walls.csv", walls));
+    CLX_TRY(clx_run_write_table(folder, "walls.csv", walls));
     if (walls->n_row > 1) {
         CLX_TRY(draw_walls(folder, walls));
     }
     if (walls->n_row > 1 && clast_table_numbers(walls, "mass_left_kg")[walls->n_row - 1] > 0.0) {
-        CLX_TRY(clx_pack_path(path, folder, "outflow.svg"));
+        CLX_TRY(clx_path_join(path, folder, "outflow.svg"));
         CLX_TRY(draw_lines(path, walls, "Grains that leave", "mass (kg)", 2, mass));
     }
 done:
@@ -283,15 +266,15 @@ done:
 static clast_status write_achieved(const char *folder, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     clast_table achieved = {0};
     status = clast_pack_achieved(pack, &achieved);
     if (status == CLAST_E_USAGE) {
         return CLAST_OK; // sizes follow no sieve curve
     }
     if (status == CLAST_OK) {
-        CLX_TRY(write_table(folder, "achieved.csv", &achieved));
-        CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
+        CLX_TRY(clx_run_write_table(folder, "achieved.csv", &achieved));
+        CLX_TRY(clx_path_join(path, folder, "achieved.svg"));
         CLX_TRY(clast_chart_grading(&achieved, path));
     }
 done:
@@ -348,7 +331,7 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
         put_pose(&a, i, &table, 5);
         size[i] = clast_form_sieve_size(2.0 * a.scale[i] * s[1], 2.0 * a.scale[i] * s[2]);
     }
-    CLX_TRY(write_table(folder, "grains.csv", &table));
+    CLX_TRY(clx_run_write_table(folder, "grains.csv", &table));
 done:
     clast_table_free(&table);
     clast_assembly_free(&a);
@@ -357,25 +340,19 @@ done:
 
 static clast_status write_summary(const char *folder, const clast_pack_result *result)
 {
-    clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
     char *text = NULL;
-    CLX_TRY(clast_pack_result_json(result, false, &text));
-    CLX_TRY(clx_pack_path(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_line(path, text));
-done:
-    clast_text_free(text);
-    return status;
+    const clast_status made = clast_pack_result_json(result, false, &text);
+    return clx_run_write_summary(folder, made, text);
 }
 
 /// The bed as it is, and how it came there.
 static clast_status write_bed(const char *folder, const char *config, clast_pack *pack)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
-    CLX_TRY(clx_pack_path(path, folder, "state.h5"));
+    char path[CLX_PATH_LIMIT];
+    CLX_TRY(clx_path_join(path, folder, "state.h5"));
     CLX_TRY(clx_pack_state_write(path, config, pack));
-    CLX_TRY(write_table(folder, "series.csv", clast_pack_series(pack)));
+    CLX_TRY(clx_run_write_table(folder, "series.csv", clast_pack_series(pack)));
     CLX_TRY(draw_energy(folder, clast_pack_series(pack)));
     CLX_TRY(write_load(folder, pack));
     CLX_TRY(write_walls(folder, pack));
@@ -422,14 +399,14 @@ static void frame_name(char name[64], int64_t index)
 clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     char name[64];
     clast_assembly a = {0};
     const clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1};
-    CLX_TRY(clx_pack_path(path, folder, "frames"));
+    CLX_TRY(clx_path_join(path, folder, "frames"));
     CLX_TRY(clx_folder_make(path));
     frame_name(name, index);
-    CLX_TRY(clx_pack_path(path, folder, name));
+    CLX_TRY(clx_path_join(path, folder, name));
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_assembly_write(&a, path, &options, NULL));
 done:
@@ -441,7 +418,7 @@ clast_status clx_pack_write_collection(const char *folder, int64_t last, double 
                                        int64_t *n_frame)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     double *time = NULL;
     char **file = NULL;
     int64_t n = 0;
@@ -450,7 +427,7 @@ clast_status clx_pack_write_collection(const char *folder, int64_t last, double 
     for (int64_t i = 1; i <= last; ++i) {
         char name[64];
         frame_name(name, i);
-        CLX_TRY(clx_pack_path(path, folder, name));
+        CLX_TRY(clx_path_join(path, folder, name));
         if (access(path, F_OK) == 0) { // none while there was no grain
             time[n] = (double)i * interval;
             CLX_TRY(clx_alloc_text(&file[n], name));
@@ -458,7 +435,7 @@ clast_status clx_pack_write_collection(const char *folder, int64_t last, double 
         }
     }
     if (n > 0) {
-        CLX_TRY(clx_pack_path(path, folder, "frames.pvd"));
+        CLX_TRY(clx_path_join(path, folder, "frames.pvd"));
         CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
     }
     *n_frame = n;

@@ -20,6 +20,3 @@ clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast
 /// `interval` [s]; no file without a frame.
 clast_status clx_pack_write_collection(const char *folder, int64_t last, double interval,
                                        int64_t *n_frame);
-
-enum { CLX_PACK_PATH = 4096 };
-clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name);

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/comm.h"
 #include "base/monitor.h"
+#include "base/path.h"
 #include "io/config_files.h"
 #include "io/h5.h"
 #include "io/start_file.h"
@@ -51,21 +52,6 @@ static void free_run(run *r)
     clast_pack_unload(&r->source);
     clast_run_folder_destroy(r->own);
     clast_text_free(r->text);
-}
-
-static clast_status note_inputs(run *r)
-{
-    clast_status status = CLAST_OK;
-    clast_manifest *manifest = clast_run_folder_manifest(r->own);
-    CLX_TRY(clast_manifest_config(manifest, clast_pack_fields, r->config));
-    clast_manifest_seed(manifest, r->config->seed);
-    for (int32_t i = 0; i < clx_pack_n_file(r->config); ++i) {
-        const char *role = NULL;
-        const char *path = clx_pack_file(r->config, i, &role);
-        CLX_TRY(clast_run_folder_input(r->own, role, path));
-    }
-done:
-    return status;
 }
 
 /// What the user reads while it runs: phase, simulated microseconds, rate, time left.
@@ -266,29 +252,10 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
     return status;
 }
 
-/// Refuses ranks that read other options or files than rank 0.
 static clast_status check_ranks(const run *r)
 {
-    clast_status status = CLAST_OK;
-    const int32_t n = clx_pack_n_file(r->config);
-    const char **file = NULL;
-    CLX_TRY(clast_comm_agree(r->comm, clx_alloc(&file, n, sizeof *file), NULL));
-    for (int32_t i = 0; i < n; ++i) {
-        const char *role = NULL;
-        file[i] = clx_pack_file(r->config, i, &role);
-    }
-    CLX_TRY(clast_run_inputs_agree(r->comm, clast_pack_fields, r->config, n, file));
-done:
-    clx_free((void *)file);
-    return status;
-}
-
-/// What the rows of a list of sizes count.
-static clast_status tell_list(const run *r)
-{
-    const clast_grading_list list = clast_grading_list_of(r->source.grading);
-    const bool by_mass = strncmp(r->config->curve, "masses:", 7) == 0;
-    return clx_run_tell_list(r->own, r->monitor, r->config->curve, by_mass, &list);
+    const clx_run_inputs inputs = clx_pack_inputs(r->config);
+    return clx_run_check_ranks(r->comm, &inputs);
 }
 
 /// Loads all that can be wrong before anything is written.
@@ -302,10 +269,11 @@ static clast_status prepare(run *r, bool goes_on)
                                                                   &r->pack));
     CLX_TRY(clx_pack_share(r->pack, r->comm));
     if (r->folder != NULL) {
-        CLX_TRY(note_inputs(r));
+        const clx_run_inputs inputs = clx_pack_inputs(r->config);
+        CLX_TRY(clx_run_note_inputs(r->own, &inputs));
     }
     if (is_first(r)) {
-        CLX_TRY(tell_list(r));
+        CLX_TRY(clx_run_tell_curve(r->own, r->monitor, r->config->curve, r->source.grading));
     }
 done:
     return status;
@@ -373,9 +341,9 @@ done:
 static clast_status find(const char *folder, clx_pack_checkpoint *found, bool *is_end)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
+    char path[CLX_PATH_LIMIT];
     *is_end = false;
-    CLX_TRY(clx_pack_path(path, folder, "state.h5"));
+    CLX_TRY(clx_path_join(path, folder, "state.h5"));
     status = clx_pack_checkpoint_find(folder, found);
     if (status == CLAST_E_IO && found->n_damaged == 0 && access(path, F_OK) == 0) {
         *is_end = true;

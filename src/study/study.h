@@ -9,11 +9,11 @@ enum { CLX_STUDY_PATH = 4096 };
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
                                   char path[CLX_STUDY_PATH]);
 
+/// Sets a seed of -1: to that of the configuration, as its command reads it, or to 1.
+clast_status clx_study_find_seed(clast_study_config *config);
+
 /// True when the row's run is whole: its folder was renamed from .part.
 bool clx_study_is_done(const char *folder, int64_t row);
-
-/// Exit codes with which a run has an answer: done, answered no, did not converge.
-bool clx_study_is_answer(int exit_code);
 
 /// What a study is now, and study.json as it was.
 typedef struct clx_study_record {

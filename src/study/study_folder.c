@@ -37,11 +37,6 @@ bool clx_study_is_done(const char *folder, int64_t row)
     return clx_study_run_folder(folder, row, "", path) == CLAST_OK && stat(path, &found) == 0;
 }
 
-bool clx_study_is_answer(int exit_code)
-{
-    return exit_code == 0 || exit_code == 1 || exit_code == 5;
-}
-
 clast_status clx_study_write_exit(const char *run_folder, int exit_code)
 {
     clast_status status = CLAST_OK;

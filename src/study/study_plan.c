@@ -33,8 +33,10 @@ const clast_field clast_study_fields[] = {
      "CSV with a run a row, a key a column", ""},
     {"seeds", .offset = offsetof(clast_study_config, seeds), CLAST_FIELD_I32, 1, 1, 1e6, "-",
      "realisations of each", NULL},
-    {"seed", .offset = offsetof(clast_study_config, seed), CLAST_FIELD_U64, 1, 0,
-     9007199254740992.0, "-", "seed of the first realisation, then one more each", NULL},
+    {"seed", .offset = offsetof(clast_study_config, seed), CLAST_FIELD_I64, -1, -1,
+     9007199253740992.0, "-",
+     "seed of the first realisation (-1: that of the configuration, or 1), then one more each",
+     NULL},
     {"keep", .offset = offsetof(clast_study_config, keep), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
      "result to tabulate, a.b for b within a; none: every number but those of longer lists", ""},
     {"shard", .offset = offsetof(clast_study_config, shard), CLAST_FIELD_TEXT, 0, 0, 0, "-",
@@ -42,6 +44,18 @@ const clast_field clast_study_fields[] = {
     {0}};
 
 enum { RUN_LIMIT = 1000000, KEY_LIMIT = 256 };
+
+clast_status clx_study_find_seed(clast_study_config *config)
+{
+    clast_field seed[2] = {*clast_fields_find(clast_study_fields, "seed"), {0}};
+    if (config->seed >= 0) {
+        return CLAST_OK;
+    }
+    config->seed = 1; // as of each command
+    seed[0].low = 0.0;
+    return config->config[0] == '\0' ? CLAST_OK
+                                     : clx_fields_read_part(config->config, seed, config);
+}
 
 /// Values of some keys: columns of a text table.
 typedef struct {
@@ -368,7 +382,7 @@ static clast_status fill_plan(const clast_study_config *config, const axes *all,
     if (find_key(all, "seed") == NULL) {
         CLX_TRY(clast_table_add_number(plan, "seed", "-", &seed));
         for (int64_t r = 0; r < plan->n_row; ++r) {
-            seed[r] = (double)(config->seed + (uint64_t)(r % config->seeds));
+            seed[r] = (double)(config->seed + r % config->seeds);
         }
     }
 done:
@@ -383,6 +397,8 @@ clast_status clast_study_plan(const clast_study_config *config, clast_table *pla
     axes all = {0};
     clast_table made = {0};
     int64_t n_run = config->seeds;
+    clast_study_config seeded = *config;
+    CLX_TRY(clx_study_find_seed(&seeded));
     CLX_CHECK(config->run[0] != '\0', CLAST_E_CONFIG,
               "run is not set: name the command, such as run: aggregate");
     CLX_TRY(find_axes(config, &all));
@@ -392,7 +408,7 @@ clast_status clast_study_plan(const clast_study_config *config, clast_table *pla
         CLX_CHECK(n_run <= RUN_LIMIT, CLAST_E_LIMIT, "more than %d runs", RUN_LIMIT);
     }
     CLX_TRY(clast_table_init(&made, "plan", n_run));
-    CLX_TRY(fill_plan(config, &all, &made));
+    CLX_TRY(fill_plan(&seeded, &all, &made));
     *plan = made;
     made = (clast_table){0};
 done:

@@ -210,13 +210,13 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
     char part[CLX_STUDY_PATH];
     char whole[CLX_STUDY_PATH];
     int64_t code = CUT_OFF;
-    if (stopping && !clx_study_is_answer(exit_code)) {
+    if (stopping && !clx_run_is_answer(exit_code)) {
         goto done;
     }
     CLX_TRY(clx_study_run_folder(s->folder, row, ".part", part));
     CLX_TRY(clx_study_run_folder(s->folder, row, "", whole));
     CLX_TRY(clx_study_write_exit(part, exit_code));
-    if (clx_study_is_answer(exit_code)) {
+    if (clx_run_is_answer(exit_code)) {
         CLX_TRY(clx_study_make_whole(part, whole));
     } else {
         CLX_TRY(clx_study_note_signal(part, exit_code));
@@ -247,7 +247,7 @@ static void count_end(void *context, int64_t item, int64_t code)
         report->n_other += code == ELSEWHERE;
         return;
     }
-    if (clx_study_is_answer((int)code)) {
+    if (clx_run_is_answer((int)code)) {
         ++report->n_done;
     } else {
         const bool first = report->n_failed++ == 0 || number < report->first_failed;
@@ -347,7 +347,8 @@ static clast_status prepare(scheduler *s, const clast_comm *comm, clast_table *p
         count(s);
         tell(s);
     }
-    const int64_t n = (plan->n_row - s->shard + s->n_shard - 1) / s->n_shard;
+    const int64_t behind = plan->n_row - 1 - s->shard; // rows after this shard's first
+    const int64_t n = behind < 0 ? 0 : behind / s->n_shard + 1;
     s->queue = clx_queue_begin(comm, n, (clx_queue_owner){is_open, count_end, s});
 done:
     return status;
@@ -371,7 +372,8 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
     clast_status status = CLAST_OK;
     clast_table plan = {0};
     clast_study_report made = {0};
-    scheduler s = {.config = config,
+    clast_study_config seeded = *config; // study.json holds the seed
+    scheduler s = {.config = &seeded,
                    .folder = folder,
                    .worker = worker,
                    .monitor = monitor,
@@ -380,6 +382,7 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
                    .n_shard = 1};
     const clast_comm *all = clx_comm_or_one(comm);
     CLX_TRY(clx_study_check_ranks(config, all));
+    CLX_TRY(clast_comm_agree(all, clx_study_find_seed(&seeded), NULL));
     CLX_TRY(clast_comm_agree(all, prepare(&s, all, &plan), NULL));
     status = clast_comm_agree(all, work(&s, clast_parallel_threads()), NULL);
     if (all->rank == 0) {

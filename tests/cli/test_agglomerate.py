@@ -88,6 +88,14 @@ class Agglomerate(Case):
         self.assertAlmostEqual(r["events"][-1], n0 - r["n_particle"][-1], places=9)
         self.assertAlmostEqual(r["exact"]["n_particle"][-1], mean, delta=1e-3 * mean)  # it was that of infinitely many, 25
 
+    def test_a_seed_beyond_the_integers_of_json_is_told_as_it_is(self):
+        """The largest was -1 in --json and summary.json."""
+        cloud = (UNIFORM, "--domain", CUBE, "-o", self.folder / "out", "--force", "--json", "--seed")
+        for words in (("agglomerate", "--constant", "0.01"), ("decompose", "--sizes", 2)):
+            for seed, told in ((2 ** 64 - 1, str(2 ** 64 - 1)), (2 ** 63 - 1, 2 ** 63 - 1)):
+                done = clast(*words, *cloud, seed)
+                self.assertEqual((done.code, done.json["seed"]), (0, told), done.err)
+
     def test_exact_numbers_are_those_of_so_many_particles(self):
         """One particle stays one (it was 0.995), two are 1 + exp(-t): against the chance of every state of the cloud, solved as a Markov chain."""
         rates = {"constant": lambda i, j: 1, "additive": lambda i, j: i + j, "product": lambda i, j: i * j}

@@ -612,6 +612,10 @@ class BadInput(Case):
         self.assertEqual(made.code, 0, made.err)
         self.assert_fails(2, *self.sizes("d_mm\n0.02\n"), "--size-unit", "um", says=("'d_mm' is in mm by its name", "asked for is um"))
         self.assertEqual(clast(*self.sizes("d_mm\n0.02\n"), "--size-unit", "mm").code, 0)
+        for name in ("size_ft", "size (inches)", "size (m/s)"):  # 305 times the size, with exit code 0
+            self.assert_fails(3, *self.sizes(f"{name}\n0.02\n"), "--size-unit", "mm", says=(f"column '{name}' is in no unit of length that is read here",))
+        self.assertEqual(clast(*self.sizes("size [ mm ]\n0.02\n"), "--size-unit", "mm").code, 0)
+        self.assert_fails(2, *self.sizes("size [ mm ]\n0.02\n"), "--size-unit", "phi", says=("is in mm by its name", "asked for is phi"))
         self.assertEqual(clast(*self.sizes("grain_id,size_mm\n7,0.02\n")).code, 0)
         self.assert_fails(2, *self.sizes("gloss,size_mm\n7,0.02\n"), says=("'gloss' is not understood",))
         self.assertEqual(clast(*self.sizes("gloss,size_mm\n7,0.02\n"), "--size-column", "size_mm").code, 0)

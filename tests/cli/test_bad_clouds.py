@@ -131,6 +131,56 @@ class BadClouds(Case):
         self.assert_fails(2, "decompose", path, "--domain", CUBE, "--radius-column", "x", "--diameter-column", "y",
                           says=["not both"])
 
+    def test_rows_of_several_times_are_no_cloud(self):
+        """A history of 10 times was one cloud, of which particles met themselves: 113 times the events, "the lower bound alone holds"."""
+        rng = random.Random(5)
+        rows = [[rng.random() for _ in range(3)] for _ in range(60)]
+        ask = ("--domain", CUBE)
+        for name in ("time", "TIME", "Time (s)", "time_ms", "t", "T [s]", "t_s", "step", "TimeStep", "time_step", "iteration", "frame"):
+            path = self.write("hist.csv", [[k % 3] + p for k, p in enumerate(rows)], f"{name},x,y,z")
+            for command in (("decompose",), ("agglomerate", "--constant", "1e-9")):
+                self.assert_fails(3, command[0], path, *ask, *command[1:], says=[f"hist.csv: column '{name}' holds 3 times", "give the rows of one time"])
+        self.assert_fails(3, "evolve", "--points", path, *ask, says=["points: ", "column 'frame' holds 3 times"])
+        many = self.write("many.csv", [[k, *rows[k % 60]] for k in range(1200)], "step,x,y,z")
+        self.assert_fails(3, "decompose", many, *ask, says=["holds at least 1000 times"])
+        for name, options in (("T", ()), ("T_C", ()), ("t_m", ()), ("timer", ()), ("time_constant", ()), ("time", ("--variable-column", "time"))):
+            path = self.write("one.csv", [[k % 3] + p for k, p in enumerate(rows)], f"{name},x,y,z")
+            self.assertEqual(clast("decompose", path, *ask, *options).code, 0, name)
+        one = self.write("one.csv", [[0.5] + p for p in rows], "time,x,y,z")
+        self.assertEqual(clast("decompose", one, *ask).code, 0)
+        bodies = self.write("deposit.csv", [[k, k % 7] + p for k, p in enumerate(rows)], "node,time_s,x_m,y_m,z_m")
+        self.assertEqual(clast("decompose", bodies, *ask).code, 0)
+
+    def test_weights_that_no_option_names_are_told(self):
+        """2000 parcels of weight 1000 gave a millionth of their events, with an interval and "resolved"."""
+        rng = random.Random(6)
+        rows = [[rng.random() for _ in range(3)] for _ in range(60)]
+        line = "column '{0}' is not looked at: each row is one particle (--weight-column {0})"
+        steps = ("agglomerate", "--constant", "1e-9")
+        for name in ("weight", "stat_weight", "Statistical_Weight", "parcel_weight", "n_real", "multiplicity"):
+            path = self.write("parcels.csv", [p + [1000] for p in rows], f"x,y,z,{name}")
+            for command in (("decompose",), steps):
+                r = clast(command[0], path, "--domain", CUBE, *command[1:])
+                self.assertEqual((r.code, r.err.count(line.format(name)), r.err.count("\n")), (0, 1, 1), r.err)
+                self.assertNotIn("not looked at", clast(command[0], path, "--domain", CUBE, "--weight-column", name, *command[1:]).err)
+        ones = self.write("ones.csv", [p + [1, 1] for p in rows], "x,y,z,weight,monomers")
+        self.assertEqual(clast("decompose", ones, "--domain", CUBE).err, "")
+        left = self.write("particles.csv", [[k, *p, 1 + k % 3, 0, 1] for k, p in enumerate(rows)], "particle,x_m,y_m,z_m,monomers,cell,weight")
+        line = "column 'monomers' is not looked at: each particle is one monomer (--monomers-column monomers)"
+        self.assertIn(line, clast(steps[0], left, "--domain", CUBE, *steps[1:]).err)
+        for options in ((*steps, "--monomers-column", "monomers"), ("decompose",)):
+            self.assertEqual(clast(options[0], left, "--domain", CUBE, *options[1:]).err, "")
+        self.assertEqual(clast(steps[0], ones, "--domain", CUBE, *steps[1:]).err, "")
+
+    def test_files_of_other_codes_say_so(self):
+        """particles.geo was "not a text: byte 8 is 0", a positions file "has FoamFile (texts)"."""
+        foam = "/*---------------------------------*- C++ -*----*/\nFoamFile\n{\n    version 2.0;\n    class Cloud<passiveParticle>;\n}\n(\n(0.1 0.2 0.3) 5\n)\n"
+        for name, content, code in (("positions", foam.encode(), "OpenFOAM"), ("particles.case", b"FORMAT\ntype: ensight gold\n\nGEOMETRY\n", "EnSight"),
+                                    ("particles.geo", b"C Binary".ljust(80, b"\0") + b"EnSight Geo".ljust(80, b"\0"), "EnSight")):
+            path = self.folder / name
+            path.write_bytes(content)
+            self.assert_fails(3, "decompose", path, "--domain", CUBE, says=[f"{name} is a file of {code}, which is not read", ".csv"])
+
 
 if __name__ == "__main__":
     unittest.main()

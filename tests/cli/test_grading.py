@@ -40,7 +40,7 @@ class Grading(Case):
 
     def test_columns_of_masses_and_counts_are_known_by_name_and_unit(self):
         rows = "10,10\n20,40\n40,80\n"
-        for name in ("mass", "mass_g", "Mass (kg)", "retained_g", "mass [mg]", "weight", "frequency", "wt%", "mass_fraction"):
+        for name in ("mass", "mass_g", "Mass (kg)", "retained_g", "mass [mg]", "mass [ g ]", "weight", "frequency", "wt%", "mass_fraction"):
             got = clast(*self.grades("masses", f"size_um,{name}\n{rows}"))
             self.assertEqual(got.code, 0, got.err)
             self.assertAlmostEqual(got.json["drawn_by_mass"]["d10"] / 20e-6, 1, 12, name)
@@ -52,6 +52,27 @@ class Grading(Case):
         both = "size_um,count,mass_g\n10,1,8\n20,1,1\n"
         self.assertAlmostEqual(clast(*self.grades("masses", both)).json["drawn_by_mass"]["d50"] / 10e-6, 1, 12)
         self.assertAlmostEqual(clast(*self.grades("list", both)).json["drawn_by_number"]["d90"] / 20e-6, 1, 12)
+
+    def test_sizes_of_lists_and_curves_have_the_units_of_their_names(self):
+        """size_ft and "size (inches)" were no units of a list, sieve_in none of a curve, "size [ mm ]" none of either."""
+        def d50(name, passing=(0, 1)):
+            curve = self.folder / "curve.csv"
+            curve.write_text(f"{name},passing\n1,{passing[0]}\n2,{passing[1]}\n")
+            got = clast(*self.grades("list", f"{name},count\n1,1\n2,1\n")), clast("grading", curve, "--json")
+            self.assertEqual([g.code for g in got], [0, 0], (name, got[0].err, got[1].err))
+            return got[0].json["drawn_by_number"]["d50"], got[1].json["curve_by_mass"]["d50"]
+
+        wanted = d50("size_mm")
+        for name, metre in (("size [ mm ]", 1e-3), ("sieve_in", 0.0254), ("Sieve (in)", 0.0254), ("size_um:0", 1e-6), ("diameter (mm) mean", 1e-3),
+                            ("Size (mean) (mm)", 1e-3), ("phi_mm", 1e-3)):
+            for a, b in zip(d50(name), wanted):
+                self.assertAlmostEqual(a / b / (metre / 1e-3), 1, 12, name)
+        self.assertEqual(d50("Phi", (1, 0)), d50("size [phi]", (1, 0)))
+        for name in ("size_ft", "size (inches)", "sieve (ft)", "Size (MM)", "size (m/s)", "diameter ft"):
+            file = self.folder / "curve.csv"
+            file.write_text(f"{name},passing\n1,0\n2,1\n")
+            for command in (("grading", file), self.grades("list", f"{name},frequency\n1,1\n2,1\n"), self.grades("masses", f"{name},frequency\n1,1\n2,1\n")):
+                self.assert_fails(3, *command, says=(f"column '{name}' is in no unit of length that is read here", "convert or rename it"))
 
     def test_masses_are_no_counts_and_counts_no_masses(self):
         rows = "10,10\n20,40\n"

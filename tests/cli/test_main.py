@@ -24,6 +24,7 @@ class Frame(Case):
     def test_version_names_the_build(self):
         """Builds of one release with different results had one name; HDF5 was there or not without a word."""
         told = clast("--version").out
+        self.assertEqual(told.split()[1], (ROOT / "VERSION").read_text().strip())
         self.assertRegex(told, r"^clast \d+\.\d+\.\d+\nsource (unknown|[0-9a-f]{12}(-dirty)?)\nwith .+\n(without .+\n)?$")
         parts = set(told.replace("without", "with").split("with ", 1)[1].replace("with ", "").replace("\n", ", ").split(", ")) - {""}
         self.assertEqual(parts, {"threads", "HDF5", "TIFF", "SUNDIALS"})

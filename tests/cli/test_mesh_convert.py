@@ -118,6 +118,28 @@ class Convert(Case):
         for ending in ("stl", "obj", "3mf"):
             self.assertEqual(clast("mesh", "convert", cube, "--unit", "mm", "--name", "die", "-o", self.folder / f"a.{ending}").code, 0)
 
+    def test_the_unit_of_our_own_header_is_read(self):
+        """shape --unit mm took a file of micrometres whose header says so: a volume 1e9 off, without a word."""
+        cube, out = BROKEN / "trimesh/unit_cube.STL", self.folder / "o.ply"
+        volume = clast("shape", cube, "--unit", "mm", "--json").json["grains"][0]["volume"]
+        for ending in ("stl", "obj", "ply", "off"):
+            path = self.folder / f"um.{ending}"
+            self.assertEqual(clast("mesh", "convert", cube, "--unit", "mm", "--out-unit", "um", "-o", path).code, 0)
+            found = clast("shape", path, "--json").json
+            self.assertEqual(found["unit"], "m")
+            self.assertAlmostEqual(found["grains"][0]["volume"] / volume, 1, places=6)
+            self.assertEqual(clast("shape", path, "--unit", "um").code, 0)
+            self.assert_fails(2, "shape", path, "--unit", "mm", says=("says its unit of length, 1e-06 m",))
+            self.assert_fails(2, "mesh", "convert", path, "--unit", "mm", "-o", out, says=("it is in um, not in mm",))
+            self.assert_fails(2, "aggregate", "--core", path, "--unit", "mm", "--coat", "sphere", "--size", "3um", "--replicate", 2,
+                              says=("it is in um, not in mm",))
+            self.assertEqual(clast("mesh", "convert", path, "--out-unit", "mm", "-o", out, "--json").json["factor"], 1e-6 / 1e-3)
+            for command in (("repair",), ("hull",), ("form", "--flatness", 0.6), ("simplify", "--faces", 8)):
+                self.assertIn(clast("mesh", command[0], path, *command[1:], "-o", out).code, (0, 5))
+                self.assertIn(b", unit um\n", out.read_bytes()[:99])
+        path.write_text(path.read_text().replace("# clast", "# clask"))
+        self.assertEqual(clast("shape", path, "--json").json["unit"], "model")
+
     def test_bad_use_and_bad_input_are_one_line(self):
         cube = BROKEN / "trimesh/unit_cube.STL"
         self.assert_fails(2, "mesh", "convert", cube, says=["-o NAME.stl"])
@@ -132,6 +154,8 @@ class Convert(Case):
                           says=["8 points and no triangles"])
         self.assert_fails(3, "mesh", "convert", self.folder / "none.stl", "-o", self.folder / "a.stl", says=["none.stl"])
         self.assert_fails(4, "mesh", "convert", cube, "-o", self.folder / "no/a.stl", says=["no folder"])
+        # an STL of no triangles, with code 0
+        self.assert_fails(3, "mesh", "convert", cube, "--scale", 1e-50, "-o", self.folder / "a.stl", says=["all 12 triangles have two corners that are one"])
         self.assertEqual(list(self.folder.iterdir()), [])
 
 

@@ -96,6 +96,33 @@ class Nested(Case):
         kept = clast("mesh", "repair", self.doubled, "--no-unite", "-o", out, "--json")
         self.assertEqual((kept.code, kept.json["volume"], kept.json["changes"]["n_part_dropped"]), (0, 72, 0))
 
+    def test_the_largest_body_has_its_own_cavities_alone(self):
+        """A hollow island left its cavity in the cavity (424 for 488); a thin shell won over the solid in it, as a ball of walls over a solid one."""
+        out = self.folder / "out.off"
+        for parts, volume in ((((10, 0, 1), (8, 1, -1), (6, 2, 1), (4, 3, -1)), 488), (((10, 0, 1), (9.8, 0.1, -1), (8, 1, 1)), 512),
+                              (((5, 0, 1), (4.5, 0.25, -1), (4, 9, 1)), 64)):
+            done = clast("mesh", "repair", boxes(self.folder / "in.off", *parts), "--keep", "largest", "-o", out, "--json")
+            self.assertAlmostEqual(done.json["volume"], volume, places=9)
+            self.assertEqual(done.code, 0)
+
+    def test_a_body_that_its_cavity_takes_all_of_is_no_solid(self):
+        """A cube and the same inside out: volume 0, "a solid"; an island that fills its cavity had a wall of area 12 around it."""
+        both, out = boxes(self.folder / "both.off", (2, 0, 1), (2, 0, -1)), self.folder / "out.off"
+        found = clast("mesh", "check", both, "--json")
+        self.assertEqual((found.code, [one["code"] for one in found.json["faults"] if one["blocking"]]), (1, ["flat"]))
+        self.assert_fails(3, "mesh", "repair", both, "-o", out, says=("nothing is left", "2 parts had no volume"))
+        island = boxes(self.folder / "filled.off", (3, 0, 1), (1, 1, -1), (1, 1, 1))
+        done = clast("mesh", "repair", island, "-o", out, "--json")
+        self.assertEqual((done.code, done.json["n_part"], done.json["volume"], done.json["area"]), (0, 1, 27, 54))
+        tiny = boxes(self.folder / "tiny.off", (1e-100, 0, 1))
+        self.assertEqual(clast("mesh", "check", tiny).code, 1)
+        self.assert_fails(3, "mesh", "hull", boxes(self.folder / "tiny.off", (1e-150, 0, 1)), "-o", out, says=("too small for a volume",))
+
+    def test_a_cavity_whose_wall_lies_in_the_outer_one_stays_a_cavity(self):
+        """A cube cut out of a corner was turned over: volume 28 for 26."""
+        done = clast("mesh", "repair", boxes(self.folder / "corner.off", (3, 0, 1), (1, 0, -1)), "-o", self.folder / "out.off", "--json")
+        self.assertEqual((done.code, done.json["volume"], done.json["changes"]["n_turned"]), (0, 26, 0))
+
     def test_repair_leaves_parts_that_cut_each_other(self):
         """A part that pokes out of another is not within it, whatever three of its triangles say."""
         bar = boxes(self.folder / "cut.off", (4, 0, 1), (2, 1, 1), (2, 3, 1))
@@ -183,6 +210,51 @@ class Nested(Case):
         island = clast("shape", self.island).err  # counted once, but a body of its own
         self.assertEqual((island.count("\n"), "2 bodies that do not hang together" in island), (1, True), island)
 
+    def test_closed_pores_are_no_form(self):
+        """A ball with 2 % of pores had sphericity 0.88 and angularity 0.13: their walls counted, without a word."""
+        names = [self.folder / name for name in ("ball.off", "hollow.off", "island.off")]
+        sphere(names[0], (1.0, 1))
+        sphere(names[1], (1.0, 1), (0.8, -1))
+        sphere(names[2], (1.0, 1), (0.8, -1), (0.2, 1))
+        ball, hollow, island = clast("shape", *names, "--json").json["grains"]
+        for grain in (hollow, island):
+            for key in ("area", "sphericity", "convexity", "roundness", "normal_roundness", "angularity", "feret_max"):
+                self.assertAlmostEqual(grain[key], ball[key], 12, key)
+            self.assertAlmostEqual(grain["volume"] + grain["pore_volume"], ball["volume"], places=12)
+            self.assertGreater(grain["hull_volume_added"], 0.9)
+        self.assertEqual((ball["pore_volume"], ball["pore_area"]), (0, 0))
+        self.assertAlmostEqual(hollow["pore_volume"], 0.512 * ball["volume"], places=12)
+        self.assertAlmostEqual(hollow["pore_area"], 0.64 * ball["area"], places=12)
+        self.assertAlmostEqual(island["pore_volume"], (0.512 - 0.008) * ball["volume"], places=12)
+        self.assertIn("closed pores", clast("shape", names[1]).out)
+        self.assertNotIn("closed pores", clast("shape", names[0]).out)
+        table = self.folder / "t.csv"
+        self.assertEqual(clast("shape", names[1], "--unit", "mm", "-o", table).code, 0)
+        self.assertIn("pore_volume_m3,pore_area_m2", table.read_text().splitlines()[0])
+
+    def test_bodies_in_a_file_that_cuts_itself_are_told(self):
+        """Two overlapping cubes and one 50 away: L = 59.7, with a line on the cuts alone."""
+        path = boxes(self.folder / "far.off", (2, 0, 1), (2, 1, 1), (1, 50, 1))
+        err = clast("shape", path).err
+        self.assertIn("at least 2 bodies that do not hang together", err)
+        self.assertIn("cuts itself at 6 pairs", err)
+        self.assertNotIn("hang together", clast("shape", self.overlap).err)
+
+    def test_a_weld_that_moves_vertices_is_told(self):
+        """Volume 1 of a box with its lid a hundredth above it, without a word."""
+        path = boxes(self.folder / "lid.off", (1, 0, 1))
+        lines = path.read_text().split("\n")
+        lines[1] = "12 12 0"
+        lifted = [line[:-1] + "1.01" for line in lines[2:10] if line.endswith(" 1")]
+        lid = [k for k, line in enumerate(lines) if line.startswith("3 ") and {int(i) for i in line.split()[1:]} <= {1, 3, 5, 7}]
+        for k in lid:
+            lines[k] = "3 " + " ".join(str({1: 8, 3: 9, 5: 10, 7: 11}[int(i)]) for i in lines[k].split()[1:])
+        lines[10:10] = lifted
+        path.write_text("\n".join(lines))
+        result = clast("shape", path, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("4 vertices of open edges merged with others within 0.01 ", result.json["warnings"][0]["text"])
+
     def test_shape_looks_at_seams_as_it_measures_them(self):
         """Each facet has corners of its own: parts show only once they are merged."""
         vertices, facets = [], []
@@ -243,7 +315,7 @@ class Nested(Case):
         result = clast("mesh", "simplify", shell, "--faces", 60, "-o", out, "--json")
         self.assertEqual((result.code, result.json["is_solid"], result.err.count("\n")), (0, True, 1), result.err)
         self.assertGreater(result.json["n_intersection"], 0)
-        self.assertIn(f"now cuts itself at {result.json['n_intersection']} pairs of triangles", result.err)
+        self.assertIn(f"now it cuts itself at {result.json['n_intersection']} pairs of triangles", result.err)
         fine = clast("mesh", "simplify", shell, "--faces", 1000, "-o", out, "--json")
         self.assertEqual((fine.code, fine.err, fine.json["is_solid"], fine.json["n_intersection"]), (0, "", True, 0))
 
@@ -284,6 +356,7 @@ class TwoSided(Case):
         self.assertEqual(found.code, 1)
         self.assertIn("1 of 2 parts has no volume", {fault["code"]: fault["text"] for fault in found.json["faults"]}["flat_parts"])
         self.assertIn("1 of its 2 parts has no volume (the two sides of a sheet)", clast("shape", sheet).err)
+        self.assertIn("1 of its 2 parts has no volume (the two sides of a sheet)", clast("fill", sheet, "--spheres", 1).err)
         closed = self.folder / "closed.ply"
         self.assertEqual(clast("mesh", "repair", sheet, "-o", closed).code, 0)
         found = clast("mesh", "check", closed, "--json").json
@@ -316,6 +389,10 @@ class TwoSided(Case):
         edge.write_text("\n".join(lines))
         self.assert_fails(3, *grain, edge, says=("2 bodies that do not hang together",))
         self.assertEqual(clast(*grain, quads(self.folder / "wall.off", 12, *cube(0), *cube(1))).code, 0)
+        self.assertIn("2 bodies that do not hang together", clast("shape", edge).err)  # L of both, without a word
+        self.assertIn("2 bodies that do not hang together", clast("mesh", "form", edge, "--flatness", 0.6, "-o", self.folder / "o.ply").err)
+        found = clast("mesh", "check", edge, "--json").json
+        self.assertEqual((found["n_part"], found["n_body"]), (1, 2))
 
     def test_a_body_too_small_for_a_volume_is_not_called_flat(self):
         tiny = boxes(self.folder / "tiny.off", (1e-120, 0, 1))

@@ -184,7 +184,7 @@ class Porosity(Case):
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 0.1, "--trim", 1, says=["leaves nothing"])
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 1e-9, says=["slices"])
         # a smaller bed than the grains lie in had a porosity of -1.13
-        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,1,1", "--layer", 0.1, says=["grains take 2.1", "times the room"])
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,1,1", "--layer", 0.1, says=["grains take 2.1", "times the volume of this bed"])
         self.assert_fails(3, "porosity", self.folder / "absent.csv", "--bed", "box:0,0,2,2", says=["absent.csv"])
         empty = self.folder / "empty.csv"
         empty.write_text("x,y,z,radius\n")
@@ -408,7 +408,7 @@ class Porosity(Case):
                 self.assert_fails(3, "porosity", path, "--bed", bed, *more[:2], *pores, says=["--bed: its images lie on", "its period is not theirs"])
         big = self.lattice(22)  # one cell of a lattice had all pairs of all images looked at: minutes
         for bed in ("periodic:0,0,1,1", "periodic:0,0,0,1,1,1"):
-            self.assert_fails(3, "porosity", big, "--bed", bed, *more[:2], says=["times the room of one period", "the bed's period is not theirs"])
+            self.assert_fails(3, "porosity", big, "--bed", bed, *more[:2], says=["times the volume of one period", "the bed's period is not theirs"])
         path = self.lattice(6)
         for bed in ("periodic:0,0,6,6", "periodic:-1,2,5,8", "periodic:0,0,0,6,6,6,1"):
             self.assertEqual(clast("porosity", path, "--bed", bed, *more).code, 0, bed)

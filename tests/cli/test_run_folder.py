@@ -63,6 +63,18 @@ class RunFolder(Case):
             self.assertEqual(clast("report", run).code, 0)
             self.assertTrue((run / "report.html").is_file())
 
+    def test_a_summary_goes_through_no_file_of_the_users(self):
+        """It was written as summary.json.part, over a file of that name; what a kill left of it was taken for the user's for ever."""
+        for name, words, option, _ in self.commands():
+            with self.subTest(name):
+                run = self.folder / name.replace(" ", "")
+                run.mkdir()
+                (run / "summary.json.part").write_text("mine")
+                made = clast(*words, option, run)
+                self.assertEqual(made.code, 0, made.err)
+                self.assertEqual((run / "summary.json.part").read_text(), "mine")
+                self.assertTrue((run / "summary.json").is_file())
+
     def test_a_run_is_refused_replaced_and_named(self):
         for name, words, option, fails in self.commands():
             with self.subTest(name):

@@ -321,6 +321,28 @@ class Study(Case):
         self.assert_fails(2, *study, "-o", self.folder / "two", says=["holds another study (seed differs)"])
         config.write_text("strategy: random\n")
         self.assertEqual(seeds("four"), ["1"])
+        config.write_text("seed: 9007199254740993\n")
+        self.assert_fails(2, *study, "-o", self.folder / "five", says=["fill.yaml:1: seed: 9007199254740993", "is outside"])
+
+    def test_seeds_that_a_table_does_not_keep_are_refused(self):
+        """Three seeds were 12345678901234568: three times one bed, and an interval of width 0."""
+        study = ["study", "--run", "fill", "--argument", SURFACE, "--vary", "spheres=3", "--seeds", 3, "-q", "-o", self.folder / "out"]
+        for seed in (12345678901234567, 2 ** 53):
+            self.assert_fails(2, *study, "--seed", seed, says=[f"seed: {seed} is outside"])
+
+    def test_a_configuration_is_checked_with_a_seed_too(self):
+        """It was read where no seed was given alone; else each run failed by itself."""
+        config = self.folder / "fill.yaml"
+        config.write_text("strategie: random\n")
+        for words in ((), ("--seed", 3)):
+            self.assert_fails(2, "study", "--run", "fill", "--argument", SURFACE, "--config", config, "--vary", "spheres=3", *words,
+                              "-o", self.folder / "out", says=["unknown key 'strategie'; did you mean 'strategy'?"])
+
+    def test_a_shard_of_very_many(self):
+        """N was added to the number of runs: with the largest the first was never run."""
+        done = clast("study", "--run", "fill", "--argument", SURFACE, "--vary", "spheres=3|4", "--shard", f"1/{2 ** 63 - 1}", "-q", "--json",
+                     "-o", self.folder / "out")
+        self.assertEqual((done.code, done.json["n_done"], done.json["n_other"]), (0, 1, 1), done.err)
 
     def test_an_input_that_changed_between_shards_is_named(self):
         sizes = self.folder / "sizes.csv"

@@ -249,6 +249,24 @@ class Volumes(Case):
         floats = self.file("f.raw", struct.pack("<8f", *[0.5] * 8))
         self.assert_fails(3, "shape", floats, "--voxels", "2,2,2", "--voxel-type", "f32", says=("0.5, no label", "threshold"))
 
+    def test_a_closed_pore_is_no_form(self):
+        """Sphericity 0.88 for 1.00, angularity 0.13 for 0: the walls of pores in grey values counted, without a word."""
+        n, made = 32, []
+        for has_pore in (False, True):
+            values = bytearray()
+            for z, y, x in ((z - 15.5, y - 15.5, x - 15.5) for z in range(n) for y in range(n) for x in range(n)):
+                grey = 127.5 - 40 * (math.sqrt(x * x + y * y + z * z) - 12)
+                pore = 127.5 + 40 * (math.sqrt((x - 4) ** 2 + y * y + z * z) - 4)
+                values.append(int(min(max(min(grey, pore) if has_pore else grey, 0), 255)))
+            path = self.folder / f"{has_pore}.raw"
+            path.write_bytes(values)
+            made.append(clast("shape", path, "--kind", "voxels", "--voxels", f"{n},{n},{n}", "--threshold", 127, "--json").json["grains"][0])
+        ball, grain = made
+        for key in ("area", "sphericity", "convexity", "roundness", "normal_roundness", "angularity"):
+            self.assertAlmostEqual(grain[key], ball[key], 9, key)
+        self.assertAlmostEqual(grain["volume"] + grain["pore_volume"], ball["volume"], 6)
+        self.assertAlmostEqual(grain["pore_volume"] / (4 / 3 * math.pi * 4 ** 3), 1, delta=0.04)
+
 
 if __name__ == "__main__":
     unittest.main()

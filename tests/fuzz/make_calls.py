@@ -38,7 +38,7 @@ CHANGED = {
     "clast_assembly_find_contacts.assembly", "clast_assembly_find_contacts_periodic.assembly", "clast_table_add_number.table",
     "clast_table_add_text.table", "clast_table_set_text.table", "clast_table_resize.table", "clast_collide.population",
     "clast_workspace_collide.particles", "clast_statistics_limit_pca.statistics", "clast_volume_fill.volume",
-    "clast_volume_parts.volume", "clast_bed_wrap.assembly", "clast_grain_scale.grain", "clast_grains_to_metres.grains",
+    "clast_volume_parts.volume", "clast_bed_wrap.assembly", "clast_bed_measure.assembly", "clast_grain_scale.grain", "clast_grains_to_metres.grains",
     "clast_workspace_collide.population", "clast_bed_read.surface", "clast_bed_load.surface"}
 # Objects of these types are made anew for each call (calls.h); others are NULL.
 LIVE = {"clast_aggregate", "clast_bvh", "clast_dem", "clast_grading", "clast_manifest", "clast_workspace"}

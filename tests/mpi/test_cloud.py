@@ -117,6 +117,18 @@ class Cloud(Case):
         self.assertEqual(alone.code, 0, alone.err)
         self.assertEqual(tables, {(self.folder / "alone/events_by_n.csv").read_bytes()})
 
+    def test_rows_of_several_times_are_refused_alike(self):
+        """Each rank reads a stretch that may hold one time alone: all ranks' times count together."""
+        points = cloud(300, 21)
+        for order in (lambda k: k // 101, lambda k: k % 4):
+            text = "time,x,y,z\n" + "".join(f"{order(k)},{row}\n" for k, row in enumerate(rows(points).split()))
+            path = self.write("hist.csv", text)
+            alone = clast("decompose", path, *BOX)
+            self.assertIn("column 'time' holds 4 times", alone.err)
+            for n in (2, 4):
+                code, _, err = ranks(n, "decompose", path, *BOX)
+                self.assertEqual((code, own_lines(err)), (alone.code, own_lines(alone.err)))
+
     def test_a_closed_surface_is_the_same_bytes(self):
         surface = self.write("octahedron.obj", octahedron())
         path = self.write("around.csv", "x,y,z\n" + rows(cloud(2500, 11)))

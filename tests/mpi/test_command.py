@@ -98,6 +98,12 @@ class Ranks(Case):
             _, err = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 143, err)
 
+    def test_a_partition_that_is_not_known_is_named_once(self):
+        """It said which words there are, not the one that it found; the library left no line."""
+        code, _, err = ranks(2, "--version", partition="metis")
+        self.assertEqual(code, 2)
+        self.assertEqual(own_lines(err), ["clast-mpi: CLAST_PARTITION 'metis': rcb, hsfc (with Zoltan) or own"])
+
     def test_what_cannot_be_shared_says_so_once(self):
         for arguments, code, says in (
                 (("mesh", "check", SURFACE), 2, "without mpirun"),

@@ -180,7 +180,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(clast.porosity(grains, bed=bed, trim="2mm", layer="1mm", at_slice=True).porosity, found.porosity)
         self.assertTrue(np.array_equal(grains.positions, before))
         # a window of the packing counted the solid beyond its sides
-        with self.assertRaisesRegex(clast.Error, "^bed: 96 of 128 grains reach beyond its sides, by up to 0.0005"):
+        with self.assertRaisesRegex(clast.Error, "^bed: 96 of 128 grains reach beyond its sides, by up to 500 um"):
             clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm")
         with self.assertWarnsRegex(UserWarning, "^bed: 96 of 128 grains reach beyond its sides"):
             window = clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm", pores=500)
@@ -191,7 +191,7 @@ class Numbers(unittest.TestCase):
         with self.assertWarns(UserWarning):  # the last ring held what lies beyond it, of porosity -2.6
             rings = clast.porosity(path, bed="cylinder:1.5mm,2mm,2mm", layer="0.2mm", pores=500, rings=3).radial
         self.assertTrue(np.all((rings["porosity"] > 0.2) & (rings["porosity"] < 0.8)))
-        with self.assertWarns(UserWarning), self.assertRaisesRegex(clast.Error, "a part of a packing has no side walls"):
+        with self.assertRaisesRegex(clast.Error, "a part of a packing has no side walls"):
             clast.porosity(path, bed="box:0mm,0mm,3mm,3mm", layer="0.2mm", pores=500, core=1)
         self.assertEqual(found.n_beyond, -1)
         with self.assertRaisesRegex(clast.Error, "^bed: its images lie on .* of 128 grains"):  # 0.2772 for 0.4408
@@ -336,7 +336,7 @@ class Lives(unittest.TestCase):
         env = {k: v for k, v in os.environ.items() if k not in ("CLAST_LIBRARY", "LD_LIBRARY_PATH")}
         done = subprocess.run([sys.executable, "-c", "import clast"], env=env, stderr=subprocess.PIPE, text=True)
         if done.returncode:  # no library installed beside this build
-            self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*pip install.*libclast-view0")
+            self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*pip install.*libclast-view0[.]2")
 
     def test_errors_go_between_processes(self):
         error = pickle.loads(pickle.dumps(clast.Error("CLAST_E_IO", "no such file")))

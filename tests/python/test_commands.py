@@ -237,6 +237,16 @@ class Commands(unittest.TestCase):
         keys = dict(run="fill", argument=MENGER, config=config, vary="spheres=3", seeds=2)
         self.assertEqual(list(clast.study(**keys, output=self.folder / "one").plan["seed"]), [42, 43])
         self.assertEqual(list(clast.study(**keys, seed=1, output=self.folder / "two").plan["seed"]), [1, 2])
+        for k, (text, seed) in enumerate((("{strategy: random, seed: 42}", 42), ("seed: 010", 10), ("seed: 0x10", 16), ("? seed\n: 7", 7))):
+            config.write_text(text if k == 0 else text + "\nstrategy: random")  # were 1, 10, 0 and 1, and others for the command
+            self.assertEqual(list(clast.study(**keys, output=self.folder / f"as-{k}").plan["seed"]), [seed, seed + 1])
+            command("study", "--run", "fill", "--argument", MENGER, "--config", config, "--vary", "spheres=3", "--seeds", 2, "-o", self.folder / f"as-{k}")
+
+    def test_a_study_without_an_answer_opens(self):
+        """Stopped before its first run ended: its results have no exit code, and it could not be opened."""
+        for name, text in (("study.json", "{}"), ("plan.csv", "run,seed\n1,1\n2,1\n"), ("results.csv", "run,seed\n1,1\n2,1\n")):
+            (self.folder / name).write_text(text)
+        self.assertEqual(clast.open(self.folder).summary, {"n_run": 2, "n_done": 0, "n_failed": 0})
 
     def test_a_run_that_fails_is_told(self):
         with self.assertWarnsRegex(UserWarning, "1 of 2 runs failed; the first says why in .*000002"):
@@ -338,7 +348,7 @@ class Commands(unittest.TestCase):
         mesh = clast.Mesh.read(GRAIN)
         with self.assertWarnsRegex(UserWarning, "^the surface has 3 open edges; their holes were capped"):
             clast.fill(clast.Mesh(mesh.vertices, mesh.triangles[1:]), spheres=3, allow_open=True)
-        with self.assertWarnsRegex(UserWarning, "^the surface cuts itself at .* pairs"):
+        with self.assertWarnsRegex(UserWarning, "^the surface: it cuts itself at .* pairs"):
             clast.fill(clast.Mesh(np.concatenate([mesh.vertices, mesh.vertices + 0.1]), np.concatenate([mesh.triangles, mesh.triangles + len(mesh.vertices)])),
                        spheres=3)
         with self.assertWarnsRegex(UserWarning, "points a bin .under 10.*compare mesh='tree'"):

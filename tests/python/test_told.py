@@ -58,7 +58,7 @@ class Surfaces(Case):
         twice = clast.Mesh(CUBE, FACETS + FACETS)
         found = twice.check()
         self.assertEqual((found.n_repeated, found.n_body), (12, 1))
-        self.assertRegex("; ".join(self.heard(twice.shape)), "^the surface has 12 triangles that repeat another")
+        self.assertRegex("; ".join(self.heard(twice.shape)), "^the surface: 12 of its triangles repeat another, wound alike; .*; mesh_repair drops")
         self.assertTrue(np.isnan(clast.mesh_hull(twice).added_volume))
 
     def test_several_bodies(self):
@@ -69,6 +69,27 @@ class Surfaces(Case):
         self.assertEqual(len(self.heard(lambda: clast.shape(path))), 1)
         self.assertIn("clast mesh repair --keep largest keeps one", self.heard(lambda: clast.shapes(path))[0])  # as it is typed
 
+    def test_closed_pores_are_no_form(self):
+        """Their walls counted in area and sphericity."""
+        ball = clast.Mesh.ellipsoid((1, 1, 1))
+        n = len(ball.vertices)
+        grain = clast.Mesh(np.vstack([ball.vertices, 0.8 * ball.vertices]), np.vstack([ball.triangles, n + ball.triangles[:, ::-1]])).shape()
+        self.assertAlmostEqual(grain.sphericity, ball.shape().sphericity, places=12)
+        self.assertAlmostEqual(grain.pore_volume / ball.volume, 0.512, places=12)
+        self.assertAlmostEqual(grain.volume + grain.pore_volume, ball.volume, places=12)
+
+    def test_a_sheet_is_told(self):
+        """Of `clast shape` alone."""
+        sheet = clast.Mesh(CUBE + [[3, 0, 0], [4, 0, 0], [3, 1, 0]], FACETS + [[8, 9, 10], [10, 9, 8]])
+        self.assertRegex("; ".join(self.heard(sheet.shape)), r"1 of its 2 parts has no volume \(the two sides of a sheet\)")
+
+    def test_a_file_of_ours_says_its_unit(self):
+        """unit="mm" took a file of micrometres for millimetres."""
+        path, out = pathlib.Path(FOLDER.name, "um.ply"), pathlib.Path(FOLDER.name, "mm.ply")
+        clast.mesh_convert(clast.Mesh(CUBE, FACETS), path, unit="um")
+        self.refused("it is in um, not in mm", lambda: clast.mesh_convert(path, out, unit="mm"))
+        self.assertEqual(clast.mesh_convert(path, out, out_unit="mm").factor, 1e-6 / 1e-3)
+
     def test_cuts_that_were_not_looked_for(self):
         """Two lenses of 20000 triangles that cut each other: n_intersection 0, and no word."""
         n, k = 5000, np.arange(5000)
@@ -77,7 +98,7 @@ class Surfaces(Case):
         facets = np.vstack([np.column_stack([k, after, 0 * k + n]), np.column_stack([after, k, 0 * k + n + 1])])
         dense = clast.Mesh(np.vstack([lens, lens + [0, 0, 0.1]]), np.vstack([facets, facets + n + 2])).check()
         self.assertEqual((dense.n_intersection, dense.intersection_complete), (0, False))
-        self.assertIn("cuts were not looked for", dense.doubles)
+        self.assertIn("was not looked for", dense.doubles)
 
     def test_a_vertex_that_strays(self):
         """The centroid went with it: "is vertex 0 at (0, 0, 0) an error?", it was asked."""
@@ -90,6 +111,11 @@ class Porosity(Case):
     def test_a_run_knows_its_contacts(self):
         """Coordination came of the pairs within `gap`, directions of the run's own contacts: two sets in one table."""
         self.refused("^gap: .*knows its contacts", lambda: clast.porosity(BED, cut=0.95, gap="0.1mm"))
+
+    def test_what_cannot_be_is_refused_before_the_work(self):
+        """Chains were refused when all else had been measured, and so told of the bed first, as contacts of a sheared box still were."""
+        self.refused("^chains: .*this bed knows none", lambda: clast.porosity(LATTICE, bed="cylinder:0.01mm", chains=True))
+        self.refused("^bed: contacts across .* leave out gap", lambda: clast.porosity(LATTICE, bed="periodic:0mm,0mm,0mm,1mm,1mm,1mm,0.5mm", gap="1um"))
 
     def test_a_run_knows_its_floor(self):
         self.refused("^floor: .*bed", lambda: clast.porosity(BED, cut=0.95, floor="1mm"))
@@ -350,6 +376,23 @@ class Results(Case):
         heard = [str(one.message) for one in caught]
         self.assertEqual(heard[-1], "1 particle repeats the place of an earlier one; each such pair counts as two particles that meet")
         self.assertFalse([line for line in heard if "too few" in line])
+
+    def test_a_table_says_what_its_rows_are(self):
+        """Ten times in one table were one cloud of 113 times the events; weights that nothing names were one each, without a word."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "parcels.csv")
+            for name, value, keys in (("weight", 1000, {}), ("time_s", 2, {}), ("weight", 1, {}), ("n_real", 7, dict(weight_column="n_real"))):
+                np.savetxt(path, np.column_stack([X, np.where(np.arange(len(X)) % 2, value, 1)]), delimiter=",", header=f"x,y,z,{name}", comments="")
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    if name == "time_s":
+                        with self.assertRaisesRegex(clast.Error, "parcels.csv: column 'time_s' holds 2 times"):
+                            clast.Cloud.read(path)
+                    else:
+                        self.assertEqual(len(clast.Cloud.read(path, **keys)), len(X))
+                told = [str(one.message) for one in caught]
+                wanted = [f"{path}: column 'weight' is not looked at: each row is one particle (weight_column='weight')"]
+                self.assertEqual(told, wanted if value == 1000 else [])
 
     def test_particles_that_are_left_go_on(self):
         with warnings.catch_warnings():

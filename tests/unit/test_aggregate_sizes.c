@@ -7,6 +7,7 @@
 #include <clast/aggregate_run.h>
 #include <clast/grain.h>
 #include <clast/mesh.h>
+#include <stdio.h>
 #include <string.h>
 
 static void default_config(clast_aggregate_config *config)
@@ -93,6 +94,33 @@ static void a_lone_name_holds_its_unit_in_brackets(void **state)
         assert_int_equal(sizes.n, 2);
         CHECK_REL(sizes.low[0], list[k].size, 1e-12);
         CHECK_REL(sizes.count[0], list[k].count, 1e-15);
+        clast_sizes_free(&sizes);
+    }
+}
+
+/* "density [g/cm3]" and "density mean (kg/m3)" were unknown units. */
+static void densities_have_the_unit_of_their_name(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double factor; // 0: refused
+    } list[] = {{"density", 1.0},         {"density_g/cm3", 1e3},    {"density (g/cm3)", 1e3},
+                {"density [g/cm3]", 1e3}, {"density g/cm3", 1e3},    {"density mean (kg/m3)", 1.0},
+                {"density_mean", 1.0},    {"density (lb/ft3)", 0.0}, {"density lb/ft3", 0.0},
+                {"density (mm)", 0.0}};
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        clast_sizes sizes = {0};
+        char text[80];
+        (void)snprintf(text, sizeof text, "size_mm,%s\n1,2.5\n", list[k].name);
+        if (list[k].factor > 0.0) {
+            CHECK_OK(clast_sizes_parse("list", text, "", "", &sizes));
+            CHECK_REL(sizes.density[0], 2.5 * list[k].factor, 1e-15);
+        } else {
+            CHECK_STATUS(clast_sizes_parse("list", text, "", "", &sizes), CLAST_E_CONFIG);
+            assert_non_null(strstr(clast_error_detail(), list[k].name));
+            assert_non_null(strstr(clast_error_detail(), "known here: kg/m^3"));
+        }
         clast_sizes_free(&sizes);
     }
 }
@@ -349,6 +377,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lone_name_holds_its_unit_in_brackets),
+        cmocka_unit_test(densities_have_the_unit_of_their_name),
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
         cmocka_unit_test(sizes_of_a_caller_must_be_above_0),

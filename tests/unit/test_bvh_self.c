@@ -136,13 +136,15 @@ static void count_agrees_with_brute_force(void **state)
     CHECK_OK(clast_bvh_create(&soup, &bvh));
     const int64_t expected = brute_crossing_pairs(&soup);
     assert_true(expected > 300);
-    CHECK_OK(clx_bvh_self_intersections(bvh, 0, NULL, &n));
+    CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, 0, NULL, &n));
     assert_int_equal(n, expected);
-    CHECK_OK(clx_bvh_self_intersections(bvh, 10, few, &n));
+    CHECK_OK(clx_bvh_self_intersections(bvh, 1000, 0, NULL, &n));
+    assert_int_equal(n, -1); /* its work used up */
+    CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, 10, few, &n));
     assert_int_equal(n, expected);
     int32_t(*all)[2] = calloc((size_t)n + 1, sizeof *all);
     assert_non_null(all);
-    CHECK_OK(clx_bvh_self_intersections(bvh, n + 1, all, &n));
+    CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, n + 1, all, &n));
     for (int64_t i = 0; i < n; ++i) {
         assert_true(all[i][0] < all[i][1]);
         assert_true(i == 0 || all[i - 1][0] < all[i][0] ||
@@ -153,7 +155,7 @@ static void count_agrees_with_brute_force(void **state)
     for (int32_t threads = 2; threads <= 4; threads += 2) {
         int32_t again[10][2];
         clast_parallel_set_threads(threads);
-        CHECK_OK(clx_bvh_self_intersections(bvh, 10, again, &n));
+        CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, 10, again, &n));
         assert_memory_equal(again, few, sizeof few);
     }
     clast_parallel_set_threads(0);
@@ -183,7 +185,7 @@ static void crowded_blocks_lose_nothing(void **state)
         }
     }
     CHECK_OK(clast_bvh_create(&fan, &bvh));
-    CHECK_OK(clx_bvh_self_intersections(bvh, N * (N - 1) / 2, pair, &n));
+    CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, N * (N - 1) / 2, pair, &n));
     assert_int_equal(n, N * (N - 1) / 2);
     for (int32_t i = 0, at = 0; i < N; ++i) {
         for (int32_t j = i + 1; j < N; ++j, ++at) {
@@ -207,7 +209,7 @@ static void sound_surfaces_have_none(void **state)
     CHECK_OK(clast_mesh_ellipsoid(axes, 3, &mesh));
     clast_mesh_transform(&mesh, 1.0, turn, shift);
     CHECK_OK(clast_bvh_create(&mesh, &bvh));
-    CHECK_OK(clx_bvh_self_intersections(bvh, 0, NULL, &n));
+    CHECK_OK(clx_bvh_self_intersections(bvh, INT64_MAX, 0, NULL, &n));
     assert_int_equal(n, 0);
     clast_bvh_destroy(bvh);
     clast_mesh_free(&mesh);
@@ -216,7 +218,7 @@ static void sound_surfaces_have_none(void **state)
 static clast_status find_pairs(void *context)
 {
     int64_t n = 0;
-    return clx_bvh_self_intersections(context, 0, NULL, &n);
+    return clx_bvh_self_intersections(context, INT64_MAX, 0, NULL, &n);
 }
 
 static void search_survives_refused_memory(void **state)

@@ -9,6 +9,8 @@ typedef struct {
     clast_text_list text;
     int32_t choice;
     char *word;
+    uint64_t bits;
+    int32_t few;
 } configuration;
 
 #define FIELD(type, name) #name, offsetof(configuration, name), type
@@ -17,6 +19,8 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT_LIST, text), 0.0, 0.0, 0.0, "-", "words", .text = ""},
     {FIELD(CLAST_FIELD_CHOICE, choice), 0.0, 0.0, 1.0, "-", "one", .text = "this|that"},
     {FIELD(CLAST_FIELD_TEXT, word), 0.0, 0.0, 0.0, "-", "a word", .text = "w"},
+    {FIELD(CLAST_FIELD_U64, bits), 1.0, 0.0, 9007199254740991.0, "-", "a seed", .text = NULL},
+    {FIELD(CLAST_FIELD_I32, few), 1.0, 0.0, 100.0, "-", "a number", .text = NULL},
     {0}};
 
 /* "-1" for none. */
@@ -74,11 +78,52 @@ static void keys_before_a_fault_are_set(void **state)
     clast_fields_free(fields, &c);
 }
 
+/* 010 was 8 and 1e6 refused where 64 bits are kept; 0x10 was refused where 32 are. */
+static void whole_numbers_are_read_alike(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int value;
+    } row[] = {{"010", 10}, {"0x10", 16}, {"0X1f", 31}, {"1e1", 10}, {"0", 0}, {"+7", 7}};
+    configuration c;
+    CHECK_OK(clast_fields_default(fields, &c));
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        CHECK_OK(clast_field_set(&fields[4], &c, row[k].text, false));
+        CHECK_OK(clast_field_set(&fields[5], &c, row[k].text, false));
+        assert_int_equal(c.bits, row[k].value);
+        assert_int_equal(c.few, row[k].value);
+    }
+    static const char *const bad[] = {"1.5", "-1", "0x", "few", "", "1e30", "99999999999999999999"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+        CHECK_STATUS(clast_field_set(&fields[4], &c, bad[k], false), CLAST_E_CONFIG);
+        CHECK_STATUS(clast_field_set(&fields[5], &c, bad[k], false), CLAST_E_CONFIG);
+    }
+    clast_fields_free(fields, &c);
+}
+
+/* The range of 64 bits was looked at by nobody. */
+static void seeds_have_a_range(void **state)
+{
+    (void)state;
+    configuration c;
+    CHECK_OK(clast_fields_default(fields, &c));
+    CHECK_OK(clast_field_set(&fields[4], &c, "9007199254740991", false));
+    CHECK_OK(clast_fields_check(fields, &c));
+    CHECK_STATUS(clast_field_set(&fields[4], &c, "9007199254740992", false), CLAST_E_CONFIG);
+    c.bits = UINT64_MAX;
+    CHECK_STATUS(clast_fields_check(fields, &c), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "bits"));
+    clast_fields_free(fields, &c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(items_that_there_are_not_have_no_text),
         cmocka_unit_test(keys_before_a_fault_are_set),
+        cmocka_unit_test(whole_numbers_are_read_alike),
+        cmocka_unit_test(seeds_have_a_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

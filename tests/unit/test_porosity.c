@@ -553,6 +553,62 @@ static clast_status measure_parts(void *context)
     return status;
 }
 
+/// A window of a lattice of which all is measured that grains alone can tell, as clast porosity
+/// does it.
+static clast_status measure_window(void *context)
+{
+    clast_bed bed;
+    clast_assembly grains = {0};
+    clast_bed_findings found = {0};
+    const clast_bed_known known = {.bed = &bed};
+    const clast_bed_options options = {
+        .porosity = {.cut = 1.0}, .gap = 1e-9, .local = true, .rings = 2, .pores = 50};
+    clast_status status = clast_bed_parse("cylinder:0.8,1,1", &bed);
+    if (status == CLAST_OK) {
+        status = clast_assembly_copy(context, &grains);
+    }
+    if (status == CLAST_OK) {
+        status = clast_bed_measure(&grains, &known, &options, &found);
+    }
+    clast_bed_findings_free(&found);
+    clast_assembly_free(&grains);
+    return status;
+}
+
+static void a_bed_is_measured_whole_or_not(void **state)
+{
+    (void)state;
+    clast_bed bed;
+    clast_assembly a = {0};
+    clast_assembly none = {.unit = "model"};
+    clast_bed_findings found = {0};
+    const clast_bed_known known = {.bed = &bed};
+    clast_bed_options options = {.porosity = clast_porosity_options_default(), .gap = 1e-9};
+    lattice(&a, 3);
+    (void)strcpy(a.unit, "model");
+    CHECK_OK(clast_bed_parse("box:0,0,3,3", &bed));
+    options.porosity.layer = 0.0; // a tenth of the diameter
+    CHECK_OK(clast_bed_measure(&a, &known, &options, &found));
+    CHECK_ABS(found.options.porosity.layer, 0.1, 1e-12);
+    CHECK_ABS(found.mean_coordination, 4.0, 0.0);
+    assert_int_equal(found.beyond.n, 0);
+    assert_true(isnan(found.core.porosity) && isnan(found.outside) && found.local.n_column == 0);
+    clast_bed_findings_free(&found);
+    // of no grain a mean diameter was 1, or of 1 mm
+    CHECK_STATUS(clast_bed_measure(&none, &known, &options, &found), CLAST_E_USAGE);
+    options.gap = (double)NAN;
+    CHECK_STATUS(clast_bed_measure(&a, &known, &options, &found), CLAST_E_ARGUMENT);
+    options.gap = 0.0;
+    options.chains = true;
+    CHECK_STATUS(clast_bed_measure(&a, &known, &options, &found), CLAST_E_USAGE);
+    options.chains = false;
+    CHECK_OK(clast_bed_parse("box:1,1,2,2", &bed));
+    CHECK_STATUS(clast_bed_measure(&a, &known, &options, &found), CLAST_E_GEOMETRY);
+    assert_int_equal(found.profile.n_column, 0);
+    support_refuse_each_allocation(measure_window, &a);
+    clast_assembly_free(&a);
+}
+
 static void profile_survives_refused_memory(void **state)
 {
     (void)state;
@@ -591,6 +647,7 @@ int main(void)
         cmocka_unit_test(options_that_cannot_be_are_refused),
         cmocka_unit_test(slabs_that_cannot_be_are_refused),
         cmocka_unit_test(pores_of_periods_that_cannot_be_are_refused),
+        cmocka_unit_test(a_bed_is_measured_whole_or_not),
         cmocka_unit_test(profile_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include <clast/aggregate_run.h>
+#include <clast/fill.h>
 #include <clast/run_folder.h>
 #include <clast/study.h>
 #include <stdio.h>
@@ -249,7 +250,7 @@ static void stopped_repeats_go_on_with_other_ranks(void **state)
 /// What ranks read, rank 2 in a way of its own.
 typedef struct {
     const char *seed[2];
-    int32_t seeds[2];
+    int32_t spheres[2];
     char path[2][512];
     int32_t n_file;
     const char *says; ///< NULL: they agree
@@ -260,14 +261,14 @@ static int read_inputs(const clast_comm *comm, void *context)
     const reading *r = context;
     const int own = comm->rank == 2;
     const char *const file[2] = {r->path[own], "absent"};
-    clast_study_config config;
-    RANK_CHECK(clast_fields_default(clast_study_fields, &config) == CLAST_OK);
-    RANK_CHECK(clast_field_set(clast_fields_find(clast_study_fields, "seed"), &config, r->seed[own],
+    clast_fill_config config;
+    RANK_CHECK(clast_fields_default(clast_fill_fields, &config) == CLAST_OK);
+    RANK_CHECK(clast_field_set(clast_fields_find(clast_fill_fields, "seed"), &config, r->seed[own],
                                false) == CLAST_OK);
-    config.seeds = r->seeds[own];
+    config.spheres = r->spheres[own];
     const clast_status status =
-        clast_run_inputs_agree(comm, clast_study_fields, &config, r->n_file, file);
-    clast_fields_free(clast_study_fields, &config);
+        clast_run_inputs_agree(comm, clast_fill_fields, &config, r->n_file, file);
+    clast_fields_free(clast_fill_fields, &config);
     RANK_CHECK(status == (r->says != NULL ? CLAST_E_FORMAT : CLAST_OK));
     RANK_CHECK(r->says == NULL || strstr(clast_error_detail(), r->says) != NULL);
     return 0;
@@ -290,10 +291,10 @@ static void ranks_that_read_other_things_are_refused(void **state)
     r.says = NULL; // whoever opens it says so
     support_run_ranks(3, read_inputs, &r);
     r.n_file = 0;
-    r.seeds[1] = 4;
-    r.says = "rank 2: reads another configuration than rank 0 (seeds differs)";
+    r.spheres[1] = 4;
+    r.says = "rank 2: reads another configuration than rank 0 (spheres differs)";
     support_run_ranks(3, read_inputs, &r);
-    r.seeds[1] = 3;
+    r.spheres[1] = 3;
     r.seed[0] = "18446744073709551614"; // one number, where JSON's are doubles
     r.seed[1] = "18446744073709551615";
     r.says = "rank 2: reads another configuration than rank 0 (the seed differs)";

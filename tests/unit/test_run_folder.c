@@ -20,8 +20,7 @@ static clast_status make_run(const char *folder, bool force, const char *summary
     CLX_TRY(clast_run_folder_open(run));
     CLX_TRY(clast_run_folder_file(run, file, path));
     CLX_TRY(clx_file_write_all(path, summary, strlen(summary)));
-    CLX_TRY(clast_run_folder_file(run, "summary.json", path));
-    CLX_TRY(clx_file_write_all(path, summary, strlen(summary)));
+    CLX_TRY(clast_run_folder_summary(run, summary));
 done:
     status = clast_run_folder_end(run, status);
     clast_run_folder_destroy(run);
@@ -43,7 +42,7 @@ static bool holds(const char *folder, const char *name, const char *text)
 static bool is_run(const char *folder, const char *which)
 {
     const bool is_new = strcmp(which, "new") == 0;
-    return holds(folder, "summary.json", which) &&
+    return holds(folder, "summary.json", is_new ? "new\n" : "old\n") &&
            holds(folder, "old.csv", is_new ? NULL : "old") &&
            holds(folder, "new.csv", is_new ? "new" : NULL) && holds(folder, "notes.txt", "mine") &&
            clast_run_folder_check(folder) == CLAST_OK;
@@ -83,7 +82,7 @@ static void every_refused_operation_leaves_a_whole_run(void **state)
         if (status == CLAST_OK) {
             assert_true(is_run(folder, "new"));
         } else {
-            assert_true(is_old || holds(folder, "summary.json", "new"));
+            assert_true(is_old || holds(folder, "summary.json", "new\n"));
         }
         /* what is left beside is no obstacle */
         CHECK_OK(make_run(folder, true, "new", "new.csv"));

@@ -45,6 +45,50 @@ static void grid_takes_all_combinations_last_fastest(void **state)
     clast_fields_free(clast_study_fields, &config);
 }
 
+/* A caller of the library, and Python for what its pattern did not find, got 1. */
+static void the_first_seed_is_as_the_command_reads_it(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double seed; // 0: refused
+    } row[] = {{"{mass: 1g, seed: 42}", 42},
+               {"? seed\n: 42", 42},
+               {"seed: !!int 42", 42},
+               {"a: &a 7\nseed: *a", 7},
+               {"seed: 010", 10},
+               {"seed: 0x10", 16},
+               {"seed: 1e3", 1000},
+               {"a: 2", 1},
+               {"seed: 9007199254740992", 0},
+               {"seed: -1", 0},
+               {"seed: few", 0},
+               {"seed: [1, 2]", 0}};
+    char path[512];
+    (void)snprintf(path, sizeof path, "%s/seeds.yaml", support_scratch());
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        clast_study_config config = fresh();
+        clast_table plan = {0};
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        (void)fputs(row[k].text, file);
+        (void)fclose(file);
+        set(&config, "run", "fill");
+        set(&config, "config", path);
+        const clast_status status = clast_study_plan(&config, &plan);
+        CHECK_STATUS(status, row[k].seed > 0 ? CLAST_OK : CLAST_E_CONFIG);
+        if (status == CLAST_OK) {
+            CHECK_ABS(clast_table_numbers(&plan, "seed")[0], row[k].seed, 0.0);
+        }
+        set(&config, "seed", "3");
+        clast_table_free(&plan);
+        CHECK_OK(clast_study_plan(&config, &plan));
+        CHECK_ABS(clast_table_numbers(&plan, "seed")[0], 3.0, 0.0);
+        clast_table_free(&plan);
+        clast_fields_free(clast_study_fields, &config);
+    }
+}
+
 static void zip_goes_through_lists_together(void **state)
 {
     (void)state;
@@ -313,6 +357,18 @@ static double result(const char *folder, const char *file, const char *column, i
     return value;
 }
 
+static void check_outcomes(const char *folder, clast_study_outcomes wanted)
+{
+    char path[600];
+    clast_table table = {0};
+    clast_study_outcomes n = {0};
+    (void)snprintf(path, sizeof path, "%s/results.csv", folder);
+    CHECK_OK(clast_table_read_csv(path, NULL, &table, NULL));
+    CHECK_OK(clast_study_count(&table, &n));
+    assert_memory_equal(&n, &wanted, sizeof n);
+    clast_table_free(&table);
+}
+
 static void failed_runs_are_noted_and_tried_again(void **state)
 {
     (void)state;
@@ -377,6 +433,7 @@ static void a_run_without_a_result_has_its_exit_code_alone(void **state)
     assert_int_equal(report.n_unconverged, 1);
     CHECK_ABS(result(folder, "results.csv", "exit_code", 0), 5.0, 0.0);
     CHECK_ABS(result(folder, "results.csv", "exit_code", 3), 1.0, 0.0);
+    check_outcomes(folder, (clast_study_outcomes){4, 3, 1, 1});
     assert_true(isnan(result(folder, "results.csv", "x.y", 0)));
     CHECK_ABS(result(folder, "results.csv", "x.y", 1), 10.0, 0.0);
     assert_true(isnan(result(folder, "times.csv", "wall_s", 0)));
@@ -635,6 +692,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(grid_takes_all_combinations_last_fastest),
+        cmocka_unit_test(the_first_seed_is_as_the_command_reads_it),
         cmocka_unit_test(zip_goes_through_lists_together),
         cmocka_unit_test(table_rows_are_runs_and_cross_with_lists),
         cmocka_unit_test(a_table_without_rows_is_refused),

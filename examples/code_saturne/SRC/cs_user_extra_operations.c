@@ -85,7 +85,7 @@ void cs_user_extra_operations_initialize(cs_domain_t *unused)
     const run_settings *s = settings();
     check(clast_domain_parse(s->domain, &domain));
     check(clast_fields_default(clast_decompose_fields, &config));
-    config.beta_dt = s->kernel * s->dt;
+    config.beta_dt = s->kernel * s->dt * (s->task == TASK_GROW ? s->every : 1);
     config.outside = CLAST_OUTSIDE_DROP; // a parcel on a wall may lie beyond it by a rounding error
     check(clast_workspace_create(&workspace));
 #ifdef HAVE_CLAST_MPI
@@ -303,13 +303,13 @@ static double grow(const clast_decomposition *cells, int64_t n, int64_t first)
 {
     const run_settings *s = settings();
     const int32_t n_cell = cells->cells.n;
-    clast_collide_config collide = {.alpha = 1.0,
-                                    .medium.constant = s->kernel,
-                                    .block = 1024,
-                                    .self_collisions = true,
-                                    .keep_positions = true,
-                                    .seed = 1};
+    clast_collide_config collide;
+    check(clast_collide_config_default(&collide));
     check(clast_kernel_parse("constant", &collide.kernel));
+    collide.medium.constant = s->kernel;
+    collide.self_collisions = true;
+    collide.keep_positions = true;
+    collide.seed = 1;
     clast_population p = population_of_records(n);
     double *volume, *events, stuck = 0.0;
     BFT_MALLOC(volume, n_cell + 1, double);

@@ -33,7 +33,8 @@ typedef struct run_settings {
     double weight[MAX_SETS];           ///< real particles of a parcel
     double diameter, particle_density; ///< of a particle [m], [kg/m3]
     double kernel;                     ///< beta, the same for all pairs [m3/s]
-    int every;                         ///< steps between two calls of clast
+    int every;                         ///< steps between two calls of clast; in events.csv events
+                                       ///< are of one step, with TASK_GROW of as many as stuck is
     int spare;                         ///< run_spare
     char domain[128];                  ///< as clast_domain_parse reads it
 } run_settings;

@@ -9,11 +9,11 @@ class Clast(CMakePackage):
     split into cells in which they are uniform. One C17 library, one command, and Python."""
 
     manual_download = True
-    url = f"file://{os.getcwd()}/clast-0.1.0.tar.gz"
+    url = f"file://{os.getcwd()}/clast-0.2.0.tar.gz"
 
     license("BSD-3-Clause")
 
-    version("0.1.0")
+    version("0.2.0")
 
     variant("view", default=True, description="libclast_view (charts, pictures, reports) and the command")
     variant("hdf5", default=True, description="states and checkpoints")
