@@ -10,6 +10,7 @@
 
 #include <clast/decompose.h>
 #include <clast/table.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -220,6 +221,19 @@ done:
     return status;
 }
 
+/// The tests alone: their one cell says nothing of events, least of all in a cloud just rejected.
+static void forget_events(clast_decomposition *r)
+{
+    for (int32_t c = 0; c < r->cells.n; ++c) {
+        r->cells.events[c] = (double)NAN;
+    }
+    r->events = r->events_low = r->events_high = (double)NAN;
+    r->points_needed = r->cells_bias = r->bias_estimate = r->smoothing_bias = (double)NAN;
+    r->events_cross = (double)NAN;
+    r->n_capped = 0;
+    r->resolved = r->keeps_apart = false;
+}
+
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
@@ -253,6 +267,9 @@ static clast_status run(const cli_common *common, void *values)
                            .pairs_radius = c->decompose.pairs_radius,
                            .has_drawn = result.has_drawn || c->n_size > 0,
                            .tests_alone = c->decompose.variant == CLAST_VARIANT_TEST};
+    if (j.tests_alone) {
+        forget_events(&result);
+    }
     CLI_TRY(report(common, c, &j, &f, folder));
 done:
     clast_run_folder_destroy(folder);

@@ -256,7 +256,7 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
             _warn_of_no_number(result, cloud)
     if result.n_pass > 0 and result.points_per_bin < 10:
         warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
-    return _decomposition(owner, cloud, parts)
+    return _decomposition(owner, cloud, parts, is_test)
 
 
 def _refuse_idle(names: list[str], config: Any, clouds: list[Cloud], n_size: int = 0) -> None:
@@ -363,8 +363,12 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), members, table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
-def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposition:
+def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None, is_test: bool) -> Decomposition:
     r, nan = owner.struct, float("nan")
+    if is_test:  # whose one cell says nothing of events, least of all in a cloud just rejected
+        r.events = r.events_low = r.events_high = r.events_cross = r.points_needed = nan
+        r.resolved = r.keeps_apart = False
+        view(owner, r.cells.events, (r.cells.n,), np.float64)[...] = nan
     is_bound = not math.isnan(r.events_low)
     given = tuple(v if math.isfinite(v) else nan for v in
                   (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
@@ -376,7 +380,7 @@ def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposi
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
                          pair_integral_low=pairs[1], pair_integral_high=pairs[2], events_cross=cross[0], pair_integral_cross=cross[1],
-                         cells_bias=r.cells_bias, bias_estimate=r.bias_estimate,
+                         cells_bias=nan if is_test else r.cells_bias, bias_estimate=nan if is_test else r.bias_estimate,
                          smoothing_bias=r.smoothing_bias if is_bound else nan, points_per_bin=r.points_per_bin if r.points_per_bin > 0 else nan,
                          n_repeated=cloud.n_repeated, resolved=r.resolved, keeps_apart=r.keeps_apart, sizes=sizes,
                          points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

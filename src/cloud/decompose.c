@@ -599,11 +599,8 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
         result->events_low = (double)NAN;
     }
     to_domain(sample->domain, &result->cells); // pairs within the cells are of its volumes
-    result->events_cross = (double)NAN;
-    if (config->variant == CLAST_VARIANT_TEST) {
-        goto done;
-    }
     CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &ladder, result));
+    result->events_cross = (double)NAN;
     if (config->crossfit) {
         CLX_TRY(crossfit(sample->comm, cloud, config, sample->domain, &result->events_cross));
     }

@@ -542,21 +542,6 @@ done:
     return status;
 }
 
-/// The tests alone: their one cell says nothing of events, least of all in a cloud just rejected.
-static void leave_out_events(const clast_cells *cells, clx_shown *cached, clast_decomposition *r)
-{
-    const double none = (double)NAN;
-    for (int32_t c = 0; c < cells->n; ++c) {
-        cells->events[c] = none;
-    }
-    r->events = r->events_low = r->events_high = r->events_cross = none;
-    r->points_needed = r->cells_bias = r->bias_estimate = r->smoothing_bias = none;
-    r->events_by_cells = r->events_by_pairs = (clast_estimate){none, none, none, false};
-    if (cached != NULL) {
-        cached->is_counted = false;
-    }
-}
-
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
                               const clx_sample *sample, clx_shown *cached, clx_ladder *ladder,
                               clast_decomposition *result)
@@ -575,10 +560,6 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
     CLX_TRY(clast_comm_agree(sample->comm, alloc_parts(&n), NULL));
     CLX_TRY(fill_parts(&n));
-    if (config->variant == CLAST_VARIANT_TEST) {
-        leave_out_events(n.cells, cached, result);
-        goto done;
-    }
     measure_halves(&n);
     CLX_TRY(find_shown(&n, cached, ladder, &shown, result));
     settle(&n, &shown.cells, result);

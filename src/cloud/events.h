@@ -20,8 +20,7 @@ typedef struct clx_shown {
     clx_counted counted;     ///< the last count
 } clx_shown;
 
-/// Fills weight and events of the cells, and the result's events, interval and biases, all NAN but
-/// the weight of the tests alone. Cells and
+/// Fills weight and events of the cells, and the result's events, interval and biases. Cells and
 /// their volumes are those of the unit cube; of a mesh domain the volumes are real ones.
 ///
 /// @param cached  NULL: what the pairs show is counted. Else it is taken from there where it is

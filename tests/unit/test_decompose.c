@@ -73,8 +73,7 @@ static void pairs_of_parcels_are_products_of_weights(void **state)
     clast_cloud cloud = {.n = 6, .dimension = 1, .x = x, .weight = w};
     clast_decompose_config c = config_of("box:0,2");
     clast_decomposition r = {0};
-    set(&c, "variant", "first");
-    set(&c, "level", "1e-6"); // one cell
+    set(&c, "variant", "test");
     set(&c, "beta_dt", "0.01");
     for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < i; ++j) {
@@ -97,8 +96,7 @@ static void interval_covers_as_stated(void **state)
     static double x[MOST];
     clast_decompose_config c = config_of("box:0,1");
     int n_covered = 0;
-    set(&c, "variant", "first");
-    set(&c, "level", "1e-6");      // one cell
+    set(&c, "variant", "test");
     set(&c, "tests", "symmetric"); // the vote does not matter here
     for (int r = 0; r < R; ++r) {
         clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)r);
@@ -276,8 +274,7 @@ static void paper_prints_what_the_paper_printed(void **state)
     clast_decompose_config c = config_of(square);
     clast_decomposition r = {0};
     set(&c, "paper", "true");
-    set(&c, "variant", "first");
-    set(&c, "votes", "5"); // Pearson does not reject: one cell
+    set(&c, "variant", "test");
     CHECK_OK(clast_decompose(&cloud, &c, &r));
     CHECK_REL(r.before.vote[0].p, oracle_value("f2_n500", "sym.p_one"), 1e-9);
     CHECK_REL(r.before.vote[3].p, oracle_value("f2_n500", "hz.p_paper_naive"), 1e-9);

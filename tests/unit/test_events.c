@@ -228,40 +228,6 @@ static clast_status decompose_once(void *context)
     return status;
 }
 
-/// A caller in C got events of the one cell of a cloud that the tests had just rejected.
-static void the_tests_alone_say_nothing_of_events(void **state)
-{
-    (void)state;
-    clast_decompose_config c;
-    clast_decomposition r = {0};
-    const clast_cloud cloud = corner(3);
-    CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
-    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c,
-                             "box:0,0,0,1,1,1", false));
-    c.variant = CLAST_VARIANT_TEST;
-    c.pairs = c.crossfit = true;
-    CHECK_OK(clast_decompose(&cloud, &c, &r));
-    assert_true(r.before.n_test == 5 && r.cells.n == 1 && r.pairs.n == 0);
-    assert_true(r.cells.weight[0] == (double)cloud.n);
-    const double none[] = {r.events,
-                           r.events_low,
-                           r.events_high,
-                           r.events_cross,
-                           r.points_needed,
-                           r.cells_bias,
-                           r.bias_estimate,
-                           r.cells.events[0],
-                           r.smoothing_bias,
-                           r.events_by_cells.value,
-                           r.events_by_pairs.value};
-    for (size_t k = 0; k < sizeof none / sizeof none[0]; ++k) {
-        assert_true(isnan(none[k]));
-    }
-    assert_false(r.resolved || r.keeps_apart);
-    clast_decomposition_free(&r);
-    clast_fields_free(clast_decompose_fields, &c);
-}
-
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
@@ -281,7 +247,6 @@ int main(void)
         cmocka_unit_test(extrapolated_events_equal_sums_over_pairs),
         cmocka_unit_test(cells_of_a_surface_are_extrapolated_with_their_real_halves),
         cmocka_unit_test(nothing_is_added_beyond_caps),
-        cmocka_unit_test(the_tests_alone_say_nothing_of_events),
         cmocka_unit_test(every_refused_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
