@@ -118,7 +118,8 @@ typedef enum {
     CLAST_VARIANT_FULL,  ///< tests before and after every pass
     CLAST_VARIANT_FIRST, ///< "1+2": test first, one pass
     CLAST_VARIANT_FAST,  ///< one pass, no test
-    CLAST_VARIANT_TEST   ///< the tests alone: one cell, whose events take it as uniform whatever they say
+    CLAST_VARIANT_TEST ///< the tests alone: one cell, whose events take it as uniform whatever they
+                       ///< say
 } clast_decompose_variant;
 
 typedef enum {
