@@ -17,6 +17,7 @@ esac
 mark="$(find tools/portable -type f -print0 | sort -z | xargs -0 cat | sha256sum | cut -c1-16) $flags"
 [ -f "$prefix/mark" ] && [ "$(cat "$prefix/mark")" = "$mark" ] && exit 0
 mkdir -p "$sources"
+exec 9> "$sources/.lock" && flock 9 # both machines may be made at once
 while read -r name path digest members; do
     file=$sources/$(basename "$path")
     if ! echo "$digest  $file" | sha256sum -c --status 2>/dev/null; then
@@ -31,6 +32,7 @@ while read -r name path digest members; do
         : > "$sources/$name/.whole"
     fi
 done < tools/portable/sources.txt
+exec 9>&-
 rm -rf "$prefix"
 build=build/portable/$machine-build
 log=build/portable/$machine.log
