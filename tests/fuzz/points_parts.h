@@ -1,6 +1,7 @@
 #pragma once
 // One text of points, read whole and by n ranks. The ranks are read one after another: what the
 // first ones said is replayed to the later ones, which is all that a reader asks of its comm.
+#include "io/points.h"
 #include <clast/cloud.h>
 #include <clast/machine.h>
 #include <clast/status.h>
@@ -121,7 +122,9 @@ static bool reads_alike(const char *path, const char *bytes, size_t n, int32_t n
     clast_table table = {0};
     clast_cloud whole = {0};
     static char x[] = "x";
-    const clast_status is_table = clast_table_parse_csv(path, bytes, n, NULL, &table, NULL);
+    const clast_status is_kind = clx_points_check_kind(path, bytes, n); // not of OpenFOAM, ...
+    const clast_status is_table =
+        is_kind != CLAST_OK ? is_kind : clast_table_parse_csv(path, bytes, n, NULL, &table, NULL);
     char *first = is_table == CLAST_OK ? number_column(&table, 0) : x;
     clast_text_list list = {.n = 1, .item = &first};
     const clast_cloud_columns columns = {.columns = list,
