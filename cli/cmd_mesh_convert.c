@@ -20,7 +20,7 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, out_unit), 0, 0, 0, "-",
      "unit of the output's coordinates; that of the input when not given", ""},
     {FIELD(CLAST_FIELD_F64, scale), 1.0, 1e-100, 1e100, "-", "factor on all lengths", NULL},
-    {FIELD(CLAST_FIELD_TEXT, name), 0, 0, 0, "-", "name of the part, told in an STL, OBJ or 3MF",
+    {FIELD(CLAST_FIELD_TEXT, name), 0, 0, 0, "-", "name of the part, written in an STL, OBJ or 3MF",
      ""},
     {0},
 };
@@ -34,19 +34,6 @@ typedef struct {
     clast_mesh_format out_format;
     double factor;
 } job;
-
-/// Refuses --unit where the file says another.
-static clast_status check_unit(const job *j, const char *own, const char *unit)
-{
-    double said = 0.0;
-    double given = 0.0;
-    CLI_GUARD(clast_unit_factor(unit, "m", &given));
-    if (own == NULL || (clast_unit_factor(own, "m", &said) == CLAST_OK && said == given)) {
-        return CLAST_OK;
-    }
-    return cli_fail(CLAST_E_CONFIG, "%s says that it is in %s, not in %s: leave out --unit",
-                    j->input, own, unit);
-}
 
 /// Output coordinates per input coordinate.
 static clast_status find_factor(const convert_config *config, job *j)
@@ -73,7 +60,7 @@ static clast_status find_factor(const convert_config *config, job *j)
         j->out_unit = "mm";
     }
     if (unit != NULL) {
-        CLI_GUARD(check_unit(j, own, unit));
+        CLI_GUARD(clast_mesh_require_unit(j->input, &j->report, unit));
         CLI_GUARD(clast_unit_factor(unit, "m", &in));
         CLI_GUARD(clast_unit_factor(j->out_unit, "m", &out));
         j->factor *= strcmp(unit, j->out_unit) == 0 ? 1.0 : in / out;

@@ -86,7 +86,7 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_I32, rings), 0, 0, 100000, "-",
      "porosity over the radius of a cylinder too, in this many rings", NULL, .common = true},
     {FIELD(CLAST_FIELD_I64, pores), 0, 0, 1e8, "-",
-     "sizes of pores too, from this many even points of the bed", NULL, .common = true},
+     "sizes of pores too, from this many quasi-random points of the bed", NULL, .common = true},
     {FIELD(CLAST_FIELD_TEXT, fields), 0, 0, 0, "-",
      "coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide "
      "(its standard deviation, as 3mm), in cells as wide; 0: not",
@@ -99,7 +99,7 @@ static const clast_field fields[] = {
      "over); none: by their names",
      ""},
     {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
-     "spheres: diameter of all, in place of the file's; 0: the file's", "0"},
+     "spheres: diameter of all, instead of the file's; 0: the file's", "0"},
     CLI_FORCE(porosity_config),
     {0},
 };
@@ -131,7 +131,7 @@ static clast_status read_input(const cli_common *common, const char *input,
         cli_packing_note(common, path, &s->report);
         if (s->assembly.no_density && strcmp(config->fields, "0") != 0) {
             (void)fprintf(stderr,
-                          "clast porosity: %s: it tells no densities; the field of density is that "
+                          "clast porosity: %s: it gives no densities; the field of density is that "
                           "of grains of 1 kg/m^3\n",
                           cli_name(path));
         }
@@ -223,7 +223,10 @@ static clast_status measure_run(const cli_common *common, const char *input,
                                    .own = s->has_own ? &s->own : NULL,
                                    .contacts = &s->contacts,
                                    .velocities = &s->velocities};
-    return clast_bed_measure(&s->assembly, &known, &options, &s->found);
+    const clast_status status = clast_bed_measure(&s->assembly, &known, &options, &s->found);
+    return status == CLAST_OK || common->n_argument == 1
+               ? status
+               : cli_fail(status, "%s: %s", input, clast_error_detail()); // which of them
 }
 
 /// The findings of run i join those of the runs before.

@@ -37,7 +37,8 @@ static const clast_field rows[] = {
     {"frame", .offset = offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
      "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
     {"domain_unit", .offset = offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
-     "unit of bare numbers in --domain and of mesh:FILE; none: --unit", ""},
+     "unit of bare numbers in --domain and of mesh:FILE; none: --unit, else what the file says",
+     ""},
     {0}};
 #undef TEXT
 
@@ -65,7 +66,11 @@ clast_status cli_domain_read(const char *text, const cli_points *points, clast_d
             "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
     }
     const bool is_own = points->domain_unit[0] != '\0';
-    return clast_domain_read(text, is_own ? points->domain_unit : points->columns.unit, domain);
+    const clast_status status =
+        clast_domain_read(text, is_own ? points->domain_unit : points->columns.unit, domain);
+    return status == CLAST_E_CONFIG && !is_own && cli_domain_file(text) != NULL
+               ? cli_fail(status, "%s (--domain-unit: of the domain alone)", clast_error_detail())
+               : status;
 }
 
 void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME])

@@ -208,9 +208,10 @@ CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, d
 
 /// As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).
 ///
-/// @param unit  of bare lengths and of the file's coordinates ("mm"); NULL or "": metres
-/// @return as clast_mesh_read and clast_domain_of_mesh, with the file's name; CLAST_E_CONFIG for an
-/// unknown unit
+/// @param unit  of bare lengths and of the file's coordinates ("mm"); NULL or "": that of a header
+///              by clast_mesh_write, else metres
+/// @return as clast_mesh_read, clast_mesh_require_unit and clast_domain_of_mesh, with the file's
+/// name; CLAST_E_CONFIG for an unknown unit
 CLAST_API clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain);
 
 CLAST_END

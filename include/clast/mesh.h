@@ -195,6 +195,15 @@ CLAST_API clast_status clast_mesh_read(const char *path, clast_mesh *mesh,
 CLAST_API clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                                         clast_mesh *mesh, clast_mesh_read_report *report);
 
+/// Refuses a unit for a surface whose file says another.
+///
+/// @param report  of clast_mesh_read
+/// @param unit    that was asked for; NULL or "": none
+/// @return CLAST_E_CONFIG with both, or for an unknown unit
+CLAST_API clast_status clast_mesh_require_unit(const char *path,
+                                               const clast_mesh_read_report *report,
+                                               const char *unit);
+
 typedef struct clast_mesh_write_options {
     clast_mesh_format format; ///< CLAST_MESH_ANY: by extension
     const char *unit; ///< unit of the coordinates ("um"), told in the file; NULL: not known. 3MF

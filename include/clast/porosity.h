@@ -225,8 +225,8 @@ CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembl
 /// @return CLAST_E_FORMAT when the file tells of none
 CLAST_API clast_status clast_bed_read(const char *path, clast_bed *bed, clast_mesh *surface);
 
-/// "mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse
-/// takes.
+/// "mesh:FILE,UNIT", the inside of a surface whose holes are covered (a file by clast_mesh_write
+/// that says its unit needs none here), or what clast_bed_parse takes.
 CLAST_API clast_status clast_bed_load(const char *text, clast_bed *bed, clast_mesh *surface);
 
 /// Porosity around each grain: its cell of the radical Voronoi diagram (power diagram) of the

@@ -17,7 +17,7 @@ Surface = Mesh | Path
 
 
 class SurfaceResult(Result):
-    """A surface that was made, `mesh`, and what the command tells of it: `result.volume`, `result["volume"]`."""
+    """A surface that was made, `mesh`, and what the command reports of it: `result.volume`, `result["volume"]`."""
 
     mesh: Mesh
 
@@ -42,7 +42,7 @@ def _keep(made: Mesh, values: dict[str, Any], output: Path | None) -> SurfaceRes
 
 
 def mesh_repair(surface: Surface, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
-    """Makes a surface closed, oriented and manifold where it can; tells each change, and in `check` what it is now."""
+    """Makes a surface closed, oriented and manifold where it can; reports each change, and in `check` what it is now."""
     made, report, given = c.clast_mesh(), c.clast_mesh_repair_report(), _read(surface, weld=False)
     with Config(c.clast_mesh_repair_config(), "clast_mesh_repair_fields", keys) as config:
         refuse_idle(config.changed(), "clast_mesh_repair_idle", ctypes.byref(config.struct))
@@ -80,7 +80,7 @@ def _solid_volume(mesh: Mesh) -> float:
 
 
 def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = None) -> SurfaceResult:
-    """Fewer triangles, same volume; tells how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`)."""
+    """Fewer triangles, same volume; reports how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`)."""
     wanted = settled("mesh simplify", dict(faces=faces))["faces"]
     struct, report, given = c.clast_mesh(), c.clast_mesh_simplify_report(), _read(surface)
     check(call("clast_mesh_simplify")(given._struct(), wanted, ctypes.byref(struct), ctypes.byref(report)))
@@ -141,7 +141,7 @@ def _require_solid(mesh: Mesh) -> None:
 
 
 def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
-    """The grain turned so that L, I and S lie along x, y and z, and these."""
+    """The grain rotated so that L, I and S lie along x, y and z, and these."""
     struct, axes = c.clast_mesh(), (ctypes.c_double * 3)()
     check(call("clast_reform_principal")(mesh._struct(), ctypes.byref(struct), axes))
     long, middle, least = axes
@@ -166,8 +166,7 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     if of_path == c.VALUES["CLAST_MESH_ANY"]:
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
     mesh = _read(surface, weld=False)
-    if unit and mesh._unit and _metres(unit) != _metres(mesh._unit):
-        raise refuse(f"unit: the surface says that it is in {mesh._unit}, not in {unit}: leave it out")
+    check(call("clast_mesh_require_unit")(b"the surface", ctypes.byref(c.clast_mesh_read_report(unit=mesh._unit.encode())), encoded("unit", unit)))
     unit = unit or mesh._unit
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):
         raise refuse(f"unit: is missing; {'out_unit needs it' if out_unit else '3MF is in millimetres'}")

@@ -62,7 +62,7 @@ static clast_status read_surface(const clast_aggregate_config *config, const cha
     char name[200];
     (void)snprintf(name, sizeof name, "%.*s", clx_path_stem_length(path), clx_path_name(path));
     CLX_TRY(clast_mesh_read(path, &mesh, &report));
-    CLX_TRY(clx_mesh_check_unit(path, &report, config->unit));
+    CLX_TRY(clast_mesh_require_unit(path, &report, config->unit));
     if (config->accept_faults) {
         CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
     } else {

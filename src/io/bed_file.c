@@ -100,16 +100,13 @@ clast_status clx_container_read(const char *path, const char *unit, clast_mesh *
     clast_mesh made = {0};
     clast_mesh_read_report report = {0};
     double factor = 1.0;
-    double own = 0.0;
-    CLX_CHECK(unit[0] != '\0', CLAST_E_USAGE,
-              "%s: a container's size counts, and surface files do not tell their unit; give it "
-              "(mm, m, ...)",
-              path);
-    CLX_TRY(clast_unit_factor(unit, "m", &factor));
     CLX_TRY(clast_mesh_read(path, &made, &report));
-    CLX_TRY(report.unit[0] != '\0' ? clast_unit_factor(report.unit, "m", &own) : CLAST_OK);
-    CLX_CHECK(own == 0.0 || own == factor, CLAST_E_CONFIG, "%s says that it is in %s, not in %s",
-              path, report.unit, unit);
+    CLX_TRY(clast_mesh_require_unit(path, &report, unit));
+    CLX_CHECK(unit[0] != '\0' || report.unit[0] != '\0', CLAST_E_USAGE,
+              "%s: a container's size counts, and the file does not say its unit; give it (mm, m, "
+              "...)",
+              path);
+    CLX_TRY(clast_unit_factor(unit[0] != '\0' ? unit : report.unit, "m", &factor));
     clast_mesh_transform(&made, factor, upright, still);
     *mesh = made;
     made = (clast_mesh){0};

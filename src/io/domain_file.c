@@ -10,11 +10,17 @@
 
 static const char prefix[] = "mesh:";
 
-static clast_status read_mesh(const char *path, double scale, clast_domain *domain)
+static clast_status read_mesh(const char *path, const char *unit, clast_domain *domain)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
-    CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
+    clast_mesh_read_report report = {0};
+    double scale = 1.0;
+    CLX_TRY(clast_mesh_read(path, &mesh, &report));
+    CLX_TRY(clast_mesh_require_unit(path, &report, unit));
+    unit = unit[0] != '\0' ? unit : report.unit;
+    CLX_TRY(unit[0] != '\0' ? clast_unit_factor(unit, "m", &scale) : CLAST_OK);
+    CLX_TRY(clast_mesh_weld_auto(&mesh, NULL));
     CLX_TRY(clast_mesh_require_solid(&mesh, path, NULL));
     status = clast_domain_of_mesh(&mesh, scale, domain);
     if (status != CLAST_OK) {
@@ -32,11 +38,10 @@ clast_status clast_domain_read(const char *text, const char *unit, clast_domain 
     CLX_ARGUMENTS(text, domain);
     clast_status status = CLAST_OK;
     double scale = 1.0;
-    if (unit != NULL && unit[0] != '\0') {
-        CLX_TRY(clast_unit_factor(unit, "m", &scale));
-    }
+    unit = unit != NULL ? unit : "";
+    CLX_TRY(unit[0] != '\0' ? clast_unit_factor(unit, "m", &scale) : CLAST_OK);
     status = strncmp(text, prefix, sizeof prefix - 1) == 0
-                 ? read_mesh(text + sizeof prefix - 1, scale, domain)
+                 ? read_mesh(text + sizeof prefix - 1, unit, domain)
                  : clast_domain_parse_in(text, scale, domain);
 done:
     return status;

@@ -109,23 +109,6 @@ static void find_unit(const char *bytes, size_t n, char unit[16])
     }
 }
 
-clast_status clx_mesh_check_unit(const char *path, const clast_mesh_read_report *report,
-                                 const char *given)
-{
-    clast_status status = CLAST_OK;
-    double own = 0.0;
-    double other = 0.0;
-    if (report->unit[0] == '\0' || given == NULL || given[0] == '\0') {
-        return CLAST_OK;
-    }
-    CLX_TRY(clast_unit_factor(report->unit, "m", &own));
-    CLX_TRY(clast_unit_factor(given, "m", &other));
-    CLX_CHECK(own == other, CLAST_E_CONFIG,
-              "%s says that it is in %s, not in %s: leave out the unit", path, report->unit, given);
-done:
-    return status;
-}
-
 clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                               clast_mesh *mesh, clast_mesh_read_report *report)
 {

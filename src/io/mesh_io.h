@@ -8,12 +8,6 @@ typedef struct clx_file clx_file;
 void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/// Refuses a unit that the user gave ("" or NULL: none) where the file says another.
-///
-/// @return CLAST_E_CONFIG
-clast_status clx_mesh_check_unit(const char *path, const clast_mesh_read_report *report,
-                                 const char *given);
-
 /// True when the size is that of a binary STL with the count at byte 80, to the byte.
 bool clx_stl_is_exact(const void *bytes, size_t n);
 

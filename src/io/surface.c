@@ -93,16 +93,16 @@ clast_status clast_mesh_cure(const clast_mesh *mesh, const char *path, size_t si
     CLX_ARGUMENTS(path, mesh, command);
     CLX_WHOLE(mesh, mesh);
     if (size == 0) {
-        return clx_fail(CLAST_E_ARGUMENT, "%s: no room for a command", __func__);
+        return clx_fail(CLAST_E_ARGUMENT, "%s: a buffer of 0 bytes for a command", __func__);
     }
-    enum { ROOM = 4200 };
+    enum { LONGEST = 4200 };
     clast_status status = CLAST_OK;
     clast_mesh repaired = {0};
     clast_mesh_repair_report report = {0};
     const char *extension = NULL;
-    char from[ROOM];
-    char to[ROOM];
-    char name[ROOM];
+    char from[LONGEST];
+    char to[LONGEST];
+    char name[LONGEST];
     command[0] = '\0';
     status = clast_mesh_repair(mesh, NULL, &repaired, &report);
     if (status == CLAST_E_GEOMETRY) { // nothing is left
@@ -146,6 +146,25 @@ static void list_faults(const clast_mesh_check_result *found, int32_t n_flat, ch
     }
 }
 
+clast_status clast_mesh_require_unit(const char *path, const clast_mesh_read_report *report,
+                                     const char *unit)
+{
+    CLX_ARGUMENTS(path, report);
+    clast_status status = CLAST_OK;
+    double own = 0.0;
+    double asked = 0.0;
+    if (report->unit[0] == '\0' || unit == NULL || unit[0] == '\0') {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_unit_factor(report->unit, "m", &own));
+    CLX_TRY(clast_unit_factor(unit, "m", &asked));
+    CLX_CHECK(own == asked, CLAST_E_CONFIG,
+              "%s says that it is in %s, not in %s: give %s, or no unit", path, report->unit, unit,
+              report->unit);
+done:
+    return status;
+}
+
 clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
                                       const char *otherwise)
 {
@@ -165,7 +184,7 @@ clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
               path, found.n_vertex);
     list_faults(&found, n_flat, faults, sizeof faults);
     const char *aim = !found.closed     ? "close it: "
-                      : !found.oriented ? "turn it outward: "
+                      : !found.oriented ? "orient it outward: "
                                         : "drop what has no volume: ";
     CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
     status = clx_fail(CLAST_E_GEOMETRY, "%s is not a closed, outward surface: %s; %s%s%s%s", path,

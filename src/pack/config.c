@@ -34,7 +34,7 @@ const clast_field clast_pack_fields[] = {
      "clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts, "
      "and with density 0 an aggregate's own density",
      "sphere", .common = true, .group = "shapes"},
-    {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
+    {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "probability of each shape; none: all equal",
      ""},
     TEXT(unit, "", "length unit of surface files; may be left out, since sizes come from the curve",
          .common = true),
@@ -59,9 +59,9 @@ const clast_field clast_pack_fields[] = {
            "one for each class of the sieve curve; list: column density of list:FILE or "
            "masses:FILE, in place of density"),
     {FIELD(F64_LIST, density_weight), 0, 0, DBL_MAX, "-",
-     "chance of each density (by number of grains) with density_of: chance; none: all equal", ""},
+     "probability of each density (by number of grains) with density_of: chance; none: all equal", ""},
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)", .common = true),
-    {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
+    {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, orientations, velocities",
      NULL, .common = true},
     {FIELD(TEXT_LIST, material), 0, 0, 0, "-",
      "name of the grains' material, one for all shapes or one for each, for contacts", "",
@@ -88,7 +88,8 @@ const clast_field clast_pack_fields[] = {
          "surface, closed or open, that holds the grains in place of domain, width, depth and "
          "height; grains are made inside of it",
          .group = "container"),
-    TEXT(container_unit, "", "length unit of its coordinates"),
+    TEXT(container_unit, "",
+         "length unit of its coordinates, where its header does not say (clast's does)"),
 
     CLX_DEM_FIELDS(clast_pack_config, dem.),
 
@@ -104,7 +105,7 @@ const clast_field clast_pack_fields[] = {
     NUMBER(first_low, -1, -1, 1, "-", "the same of the first fill; -1: as all (reference: 0.1)"),
     NUMBER(first_high, -1, -1, 1, "-", "and below this (reference: 0.9)"),
     NUMBER(initial_speed, 1, 0, 1e3, "m/s", "downwards (u_init); a tenth of it sideways at random"),
-    FLAG(random_turn, 1, "grains begin turned at random; off: as stored (reference program)"),
+    FLAG(random_turn, 1, "grains begin with random orientations; off: as stored (reference program)"),
 
     NUMBER(shake_amplitude, 3e-4, 0, 1e3, "m", "of shaking in x (A_s); 0: none",
            .group = "shaking and damping"),
@@ -114,16 +115,16 @@ const clast_field clast_pack_fields[] = {
     FLAG(shake_from_start, 1, "shake while grains are made, too"),
     NUMBER(damping, 1e-3, 1e-300, 1, "-", "velocities keep this share a second at the end (c_d)"),
 
-    CHOICE(rule, 0, "height|speed|either", "when the bed is still",
-           .group = "when the bed is still"),
+    CHOICE(rule, 0, "height|speed|either", "when the bed is at rest",
+           .group = "when the bed is at rest"),
     NUMBER(height_change, 1e-5, 0, 1e6, "m",
            "of the mean height in check_time; for grains below 1 mm a hundredth of their size"),
-    NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two looks at it"),
+    NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two checks of it"),
     NUMBER(still_speed, 1e-3, 0, 1e6, "m/s",
            "of the fastest grain; for grains below 1 mm their size a second or less"),
     {FIELD(I64, max_steps), 0, 0, 9e15, "-",
      "stop after so many time steps, finished or not; 0: never", NULL, .common = true},
-    NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
+    NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not at rest by then"),
 
     {FIELD(TEXT_LIST, wall), 0, 0, 0, "-",
      "walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, "
@@ -152,7 +153,7 @@ const clast_field clast_pack_fields[] = {
         load_rest, 1e-3, 1e-12, 1, "-",
         "a loaded bed rests when the mean force on a grain over that of a contact is below this"),
     NUMBER(max_load_time, 20, 0, 1e9, "s", "give up when a stage has not come to its end by then"),
-    FLAG(energy, 0, "book the work of all forces by kind: load.csv, energy_book.svg"),
+    FLAG(energy, 0, "record the work of all forces by kind: load.csv, energy_book.svg"),
 
     NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)",
            .group = "measures"),

@@ -179,7 +179,7 @@ class Decompose(Case):
             self.assertLess(abs(r["pair_integral"] / expected - 1.0), 0.02)
 
     def test_all_particles_are_the_cap_at_any_rate(self):
-        # the square of 1e300 is infinite: "no number of events: points lie closer together than cells of this domain can tell"
+        # the square of 1e300 is infinite: "no number of events: points lie closer together than cells of this domain can resolve"
         random.seed(1)
         points = self.folder / "even.csv"
         write_points(points, [[random.random() for _ in range(3)] for _ in range(800)])
@@ -284,6 +284,13 @@ class Decompose(Case):
         self.assertEqual(r.code, 0, r.err)
         self.assertEqual(r.json["moments"]["M1"][-1], 600)
         self.assertGreater(r.json["fixed"]["events"][-1], 0)
+        # a file by clast says its unit: taken where none is given, and another one is refused (1000 times off, without a word)
+        said = self.folder / "corner.ply"
+        self.assertEqual(clast("mesh", "convert", surface, "--unit", "mm", "-o", said).code, 0)
+        r = clast("decompose", self.folder / "corner.csv", "--domain", f"mesh:{said}", "--json")
+        self.assertEqual((r.code, r.json["n"]), (0, 600))
+        self.assert_fails(2, "decompose", self.folder / "corner.csv", "--domain", f"mesh:{said}", "--unit", "m",
+                          says=["corner.ply says that it is in mm, not in m", "--domain-unit"])
         surface.write_text("OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
         out = self.folder / "none"
         self.assert_fails(3, "decompose", self.folder / "corner.csv", "--domain", f"mesh:{surface}", "-o", out,
@@ -408,7 +415,7 @@ class Pairs(Case):
         words = clast(*command)
         self.assertEqual(words.code, 0, words.err)
         self.assertRegex(words.out, r"structure lies below the cells \(edge [0-9.]+ m\): \d+ pairs within [0-9.]+ mm are ")
-        self.assertRegex(words.out, r"its own g\(r\) .* may multiply the even cells' pair integral alone, [0-9.e+]+ 1/m\^3: .* counts twice")
+        self.assertRegex(words.out, r"its own g\(r\) .* may multiply the uniform cells' pair integral alone, [0-9.e+]+ 1/m\^3: .* counts twice")
         pairs = json.loads(clast(*command, "--json").out)["pairs"]
         self.assertTrue(pairs["structure_below_cells"])
         self.assertGreater(pairs["g_within_low"], 1e3)

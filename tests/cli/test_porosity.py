@@ -113,10 +113,19 @@ class Porosity(Case):
         faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7),
                  (1, 7, 5)]
         box.write_text("OFF\n8 12 0\n" + "".join("%g %g %g\n" % c for c in corners) + "".join("3 %d %d %d\n" % f for f in faces))
-        found = clast("porosity", path, "--bed", f"mesh:{box},m", "--layer", 0.1, "--force", "-o", two)
+        found = clast("porosity", path, "--bed", f"mesh:{box},m", "--layer", 0.1, "--force", "--json", "-o", two)
         self.assertEqual(found.code, 0, found.err)
         manifest = json.loads((two / "manifest.json").read_text())
         self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path)), ("bed", str(box))])
+        # a container by clast says its unit; of several runs the one that is refused is named
+        said = self.folder / "box.ply"
+        self.assertEqual(clast("mesh", "convert", box, "--unit", "m", "-o", said).code, 0)
+        again = clast("porosity", path, "--bed", f"mesh:{said}", "--layer", 0.1, "--json")
+        self.assertEqual((again.code, again.json["bulk"]), (0, found.json["bulk"]))
+        self.assert_fails(2, "porosity", path, "--bed", f"mesh:{said},mm", says=["box.ply says that it is in m, not in mm"])
+        self.assert_fails(2, "porosity", path, "--bed", f"mesh:{box}", says=["box.off", "does not say its unit"])
+        away = self.spheres([(20.0, 20.0, 20.0, 0.5)], "away.csv")
+        self.assert_fails(3, "porosity", path, away, *bed, says=["away.csv: "])
 
     def test_every_number_of_several_runs_has_its_mean(self):
         runs = []
