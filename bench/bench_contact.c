@@ -17,7 +17,7 @@ static const double D = 6.7e-3;
 
 typedef struct {
     clx_convex a, b;
-    double turn[N_POSE][2][9];
+    double rotation[N_POSE][2][9];
     double offset[N_POSE][3];
     clx_warm_start warm_start;
 } item;
@@ -39,19 +39,19 @@ static void row(const char *scene, double value, double reference)
     (void)fflush(stdout);
 }
 
-static void turn_of(const double q[4], double turn[9])
+static void rotation_of(const double q[4], double rotation[9])
 {
     double m[3][3];
     q_matrix(m, q);
-    memcpy(turn, m, sizeof m);
+    memcpy(rotation, m, sizeof m);
 }
 
 static clx_pair pair_of(const item *it, int pose)
 {
     return (clx_pair){&it->a,
                       &it->b,
-                      it->turn[pose][0],
-                      it->turn[pose][1],
+                      it->rotation[pose][0],
+                      it->rotation[pose][1],
                       {it->offset[pose][0], it->offset[pose][1], it->offset[pose][2]}};
 }
 
@@ -64,7 +64,7 @@ static void place(item *it, clx_rng *rng, double gap)
     double high = 4.0 * D;
     for (int k = 0; k < 2; ++k) {
         clx_rng_orientation(rng, q[k]);
-        turn_of(q[k], it->turn[0][k]);
+        rotation_of(q[k], it->rotation[0][k]);
     }
     clx_rng_direction(rng, line);
     for (int i = 0; i < 50; ++i) {
@@ -80,7 +80,7 @@ static void place(item *it, clx_rng *rng, double gap)
             q[k][i] += 5e-6 * clx_rng_normal(rng);
         }
         q_unit(q[k]);
-        turn_of(q[k], it->turn[1][k]);
+        rotation_of(q[k], it->rotation[1][k]);
     }
     clx_rng_direction(rng, line);
     v3_axpy(it->offset[1], it->offset[0], 1e-5 * D, line);
@@ -116,8 +116,8 @@ static double time_twin(int n)
             sink += ref_ellipsoid_gap(&pair);
             continue;
         }
-        ref_polytope a = ref_polytope_of(&items[i].a, items[i].turn[0][0], origin);
-        ref_polytope b = ref_polytope_of(&items[i].b, items[i].turn[0][1], items[i].offset[0]);
+        ref_polytope a = ref_polytope_of(&items[i].a, items[i].rotation[0][0], origin);
+        ref_polytope b = ref_polytope_of(&items[i].b, items[i].rotation[0][1], items[i].offset[0]);
         sink += ref_polytope_gap(&a, &b);
         ref_polytope_free(&a);
         ref_polytope_free(&b);
@@ -201,7 +201,7 @@ static void verify(int32_t n_vert, int n_track, int n_step)
         place(&it, &rng, gaps[i % 5] * D);
         for (int k = 0; k < 2; ++k) {
             double m[3][3];
-            memcpy(m, it.turn[0][k], sizeof m);
+            memcpy(m, it.rotation[0][k], sizeof m);
             q_from_matrix(q[k], m);
         }
         for (int step = 0; step < n_step; ++step) {
@@ -219,7 +219,7 @@ static void verify(int32_t n_vert, int n_track, int n_step)
                     q[k][c] += 0.5 * jump * clx_rng_normal(&rng);
                 }
                 q_unit(q[k]);
-                turn_of(q[k], it.turn[0][k]);
+                rotation_of(q[k], it.rotation[0][k]);
             }
         }
     }

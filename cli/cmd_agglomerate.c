@@ -301,15 +301,15 @@ static void print_doubts(int32_t n_snapshot, const clast_agglomeration *r, int64
     if (r->n_unresolved > 0) {
         (void)printf(
             "\nwarning: in %d of %d snapshot%s the particles did not show their own "
-            "structure (clast decompose tells more): collisions there are a best guess%s\n",
+            "structure (clast decompose reports more): collisions there are a best guess%s\n",
             r->n_unresolved, n_snapshot, cli_plural(n_snapshot),
             n_repeated > 0 ? "" : ", rather too few than too many");
     }
     if (n_repeated > 0) {
-        (void)printf("\nwarning: %lld particle%s%s repeat%s the place of an earlier one; each such "
+        (void)printf("\nwarning: %lld particle%s%s %s (coincident points); each such "
                      "pair counts as two particles that meet\n",
                      (long long)n_repeated, cli_plural(n_repeated),
-                     n_snapshot > 1 ? " of a snapshot" : "", n_repeated == 1 ? "s" : "");
+                     n_snapshot > 1 ? " of a snapshot" : "", n_repeated == 1 ? "is a duplicate" : "are duplicates");
     }
 }
 

@@ -31,12 +31,12 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-",
      "length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it", ""},
     {FIELD(CLAST_FIELD_F64, density), 0, 0, 1e6, "kg/m^3",
-     "of all grains of another program's file that tells none; 0: not known, left out", NULL},
+     "of all grains of another program's file that gives none; 0: not known, left out", NULL},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
      "spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names",
      ""},
     {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
-     "spheres of another program: diameter of all, in place of the file's; 0: the file's", "0"},
+     "spheres of another program: diameter of all, instead of the file's; 0: the file's", "0"},
     {0},
 };
 #undef FIELD
@@ -230,7 +230,7 @@ const cli_command cli_export = {
     .details =
         "RUN is a run's folder, its state.h5, or another program's packing as clast porosity "
         "reads\n"
-        "it. The output's name tells the format:\n"
+        "it. The output's name sets the format:\n"
         "  .3mf   for printers: names its unit, mm\n"
         "  .stl   binary, all grains; .obj a group a grain; .ply grain and colour a face: in mm,\n"
         "         or as --unit says; the unit stands in the file's header\n"
@@ -243,7 +243,7 @@ const cli_command cli_export = {
         "  .conf  Rockable: spheres and convex surfaces, whose shapes go into the .shp beside\n"
         "Other lengths are in the run's unit (m); --table NAME writes a table of the run. "
         "Densities\n"
-        "that a file of another program does not tell are left out, or given by --density.",
+        "that a file of another program does not give are left out, or given by --density.",
     .fields = fields,
     .config_size = sizeof(export_config),
     .n_min = 1,

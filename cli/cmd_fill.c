@@ -86,7 +86,7 @@ static void print_words(const char *file, const clast_fill_report *r)
     if (r->bound > 0.0) {
         (void)printf("  next radius      %.5g at most\n", r->bound);
     }
-    (void)printf("  time             %.3f s, %lld points looked at\n", r->wall_s,
+    (void)printf("  time             %.3f s, %lld points examined\n", r->wall_s,
                  (long long)r->n_tested);
 }
 

@@ -373,7 +373,7 @@ const cli_command cli_grading = {
         "masses:FILE a\n"
         "column mass, retained or mass_g; weight, frequency and fraction are either. Which column "
         "counts\n"
-        "and which are not looked at is told.\n"
+        "and which are ignored is reported.\n"
         "A draw depends on the seed and the grain's number alone.",
     .fields = grading_fields,
     .config_size = sizeof(grading_config),

@@ -106,7 +106,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
     }
     cli_check_words(common->argument[0], result);
     if (cure[0] != '\0') {
-        (void)printf("  to %s: %s\n", result->closed ? "turn it outward" : "close it", cure);
+        (void)printf("  to %s: %s\n", result->closed ? "orient it outward" : "close it", cure);
     }
     return CLAST_OK;
 }
@@ -140,7 +140,7 @@ const cli_command cli_mesh_check = {
                 "clast mesh check scan.stl --weld off"},
     .details = "Reads STL, OBJ, PLY or OFF and says in words and numbers what is wrong and what to "
                "run.\nVertices of open edges that rounding has parted are merged first, as in "
-               "every command that\nreads a surface; the distance is told. --weld off counts the "
+               "every command that\nreads a surface; the distance is reported. --weld off counts the "
                "file as it is.\nLengths, areas and volumes are in the file's own "
                "unit.\nExit code: 0 when "
                "the surface is closed, oriented and manifold, 1 when not, 3 when unreadable.",

@@ -46,7 +46,7 @@ static void print_changes(const clast_mesh_repair_report *r, bool keeps_all)
                  {r->n_duplicate, "superfluous triangles with equal corners dropped"},
                  {r->n_split, "triangles cut at T-junctions"},
                  {r->n_loose, "loose triangles dropped"},
-                 {r->n_turned, "triangles turned over"},
+                 {r->n_turned, "triangles flipped"},
                  {r->n_conflict, "edges of a one-sided surface left"},
                  {r->n_hole_filled, "holes filled"},
                  {r->n_fill_triangle, "triangles made for them"},
@@ -161,7 +161,7 @@ const cli_command cli_mesh_repair = {
                 "clast mesh repair scan.stl --weld within --weld-tolerance 1e-5 -o closed.stl"},
     .details =
         "Merges near vertices, drops triangles without area, repeated and loose ones, splits "
-        "edges at\nT-junctions, turns windings alike and outward, fills holes, parts "
+        "edges at\nT-junctions, orients windings consistently and outward, fills holes, parts "
         "surfaces that touch, drops parts in a\nsolid that are wound outward as it is (they would "
         "count twice); reports each change and the change of\nvolume, then checks the result. "
         "Vertices never move.\nExit code: 0 when the result, as its file "

@@ -244,7 +244,7 @@ const cli_command cli_mesh_synthesize = {
         "the "
         "amplitude until the finished grain measures\n--rough within --tolerance (definitions as "
         "in "
-        "clast shape; exit code 5 with the range in reach when\nit cannot be met). Grain i depends "
+        "clast shape; exit code 5 with the attainable range when\nit cannot be met). Grain i depends "
         "on the seed and i alone. The folder of several has manifest.json and summary.json, too. "
         "docs/theory/synthetic.md.",
     .fields = fields,

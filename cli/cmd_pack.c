@@ -231,11 +231,11 @@ static void print_text(const clast_pack_result *r)
     if (r->n_overlap > 0) {
         (void)printf(
             "%-26s %lld overlapped, the deepest by %.3g of the smaller one's radius; their "
-            "springs part them\n",
+            "springs separate them\n",
             "start", (long long)r->n_overlap, r->deepest_start);
     }
     if (r->n_waited > 0) {
-        (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
+        (void)printf("%-26s %lld did not fit into one fill and were made in the next\n", "waited",
                      (long long)r->n_waited);
     }
     (void)printf("%-26s %s%s after %lld steps, %s\n", "phase", clast_pack_phase_name(r->phase),
@@ -317,14 +317,14 @@ static clast_status run(const cli_common *common, void *context)
 
 static const char details[] =
     "Grains are made in the upper part of the domain and fall, fill after fill, until the mass is\n"
-    "reached; shaken meanwhile and for shaking_time more; then damped until the bed is still.\n"
+    "reached; shaken meanwhile and for shaking_time more; then damped until the bed is at rest.\n"
     "Defaults are those of Rettinger, Ruede, Vollmer and Frings (eqs 4 to 15, sec. 4); options "
     "name\n"
     "where their program differs. --max-steps ends a run early, as it is then.\n\n"
     "grains.csv has a row a grain: shape, flatness S/I, elongation I/L, sieve_size_m, "
     "density_kg/m^3,\n"
     "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
-    "qw, qx, qy, qz that turns the shape into its place.\n\n"
+    "qw, qx, qy, qz that rotates the shape into its orientation.\n\n"
     "--wall 'drum drum.stl mm axis 0,1,0 rotate 30rpm' adds a surface that moves; floor, lid, "
     "sides,\n"
     "left, right, front and back of the domain may move, too. Without stages they move from the "
@@ -332,7 +332,7 @@ static const char details[] =
     "with --stages the bed is poured first, then each stage drives walls: 'drum until time 2s',\n"
     "'lid=10kPa until rest', 'open gate until mass 1g'. --outlet 'z<-10mm' takes grains out. "
     "walls.csv has\n"
-    "place, force, torque and work of each wall over time, and the mass that left.\n\n"
+    "position, force, torque and work of each wall over time, and the mass that left.\n\n"
     "domain cell is periodic in x, y and z: its grains float on a lattice until the stages press "
     "and\n"
     "shear them (--stages 'isotropic 10kPa until rest'; docs/theory/load.md). load.csv then has "

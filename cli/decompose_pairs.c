@@ -81,9 +81,9 @@ json_t *cli_decompose_pairs_json(const clast_decomposition *r)
 
 void cli_points_needed_print(double n)
 {
-    const double unit = pow(10.0, floor(log10(n)) - 1.0); // two digits of it are told
+    const double unit = pow(10.0, floor(log10(n)) - 1.0); // two digits of it are reported
     if (!isfinite(n)) {
-        (void)printf("how many points would do cannot be told");
+        (void)printf("how many points would do cannot be determined");
     } else if (n < 1e6) {
         (void)printf("about %.0f points would do", unit * round(n / unit));
     } else {
@@ -108,12 +108,12 @@ static void print_within(const clast_decomposition *r)
     const clast_within_cells *w = &r->within;
     const int d = r->dimension;
     if (w->radius == 0.0) {
-        (void)printf("fewer than 10 pairs lie closer than half a cell: the points do not tell "
+        (void)printf("fewer than 10 pairs lie closer than half a cell: the points do not show "
                      "whether structure lies below the cells\n");
         return;
     }
     (void)printf("%s below the cells (edge %s): %lld pairs within %s are %.3g [%.3g, %.3g] "
-                 "times those of even cells",
+                 "times those of uniform cells",
                  w->is_structured ? "structure lies" : "no structure is seen",
                  cli_quantity(w->cell, "m"), (long long)w->n_pair, cli_quantity(w->radius, "m"),
                  w->g, w->g_low, w->g_high);
@@ -125,7 +125,7 @@ static void print_within(const clast_decomposition *r)
         (void)printf(", up to a distance of %s", cli_quantity(w->length, "m"));
     }
     (void)printf(
-        "\na kernel with its own g(r) (cloud_turbulence) may multiply the even cells' pair "
+        "\na kernel with its own g(r) (cloud_turbulence) may multiply the uniform cells' pair "
         "integral alone, %.6g 1/m^%d: with events by pairs this structure counts twice; a "
         "kernel without takes those by pairs\n",
         w->even, d);
@@ -137,7 +137,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
     const clast_pair_integral *i = &p->integral;
     (void)printf("%lld pairs within %s; ", (long long)p->n_pair, cli_quantity(p->radius, "m"));
     if (p->n_repeated > 0) {
-        (void)printf("%lld of them at one place; ", (long long)p->n_repeated);
+        (void)printf("%lld of them coincident; ", (long long)p->n_repeated);
     }
     (void)printf("integral of the squared density ");
     print_interval(&i->estimate);

@@ -164,7 +164,7 @@ static void print_resolved(const clast_decomposition *r, double pairs_radius)
     }
     if (r->keeps_apart) {
         (void)printf(
-            "not resolved: the points keep apart (seeded evenly, stratified or repelling), so "
+            "not resolved: the points keep apart (seeded regularly, stratified or repelling), so "
             "pairs in small cells say nothing of their density; the lower bound, of large "
             "cells, alone holds\n");
         return;
@@ -281,7 +281,7 @@ void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *
         (void)printf(", %lld tested", (long long)r->n_test);
     }
     if (f->n_repeated > 0) {
-        (void)printf(", %lld repeat the place of an earlier one (each such pair counts as two "
+        (void)printf(", %lld duplicates (coincident points; each such pair counts as two "
                      "particles that meet)",
                      (long long)f->n_repeated);
     }

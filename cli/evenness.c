@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/// One cloud in 10,000 uniform ones is called uneven by its spacing alone.
+/// One cloud in 10,000 uniform ones is called non-uniform by its spacing alone.
 static const double level = 1e-4;
 
 static clast_status measure_spacing(const clast_comm *comm, const clast_domain *domain,
@@ -52,8 +52,8 @@ clast_status cli_decompose_evenness(const clast_comm *comm, const clast_domain *
 
 const char *cli_evenness_text(const cli_evenness *evenness)
 {
-    static const char *const text[3] = {"uniform", "not uniform, less even than uniform",
-                                        "not uniform, more even than uniform"};
+    static const char *const text[3] = {"uniform", "not uniform: clustered or of varying density",
+                                        "not uniform: regular (more evenly spaced than uniform)"};
     return evenness->is_tested ? text[evenness->kind] : "too few points to test";
 }
 
@@ -63,8 +63,8 @@ void cli_evenness_print(const cli_evenness *evenness)
         (void)printf("%-16s %12.6g %12s%s\n", "spacing", evenness->spacing.ratio,
                      cli_p_value(evenness->spacing.p),
                      evenness->spacing.p >= level    ? ""
-                     : evenness->spacing.ratio > 1.0 ? "  more even"
-                                                     : "  less even");
+                     : evenness->spacing.ratio > 1.0 ? "  regular"
+                                                     : "  clustered");
     }
 }
 

@@ -17,7 +17,7 @@ clast_status cli_decompose_evenness(const clast_comm *comm, const clast_domain *
                                     const clast_cloud *cloud, const clast_decomposition *result,
                                     cli_evenness *evenness);
 
-/// "more even than uniform".
+/// "not uniform: regular (more evenly spaced than uniform)".
 const char *cli_evenness_text(const cli_evenness *evenness);
 
 /// The line of the test of spacing.

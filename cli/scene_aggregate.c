@@ -259,7 +259,7 @@ static clast_status grow_scans(cli_lap *b, const clast_aggregate_config *config,
     clast_assembly *scan = calloc(N_SCAN + 1, sizeof *scan);
     clast_status status = CLAST_OK;
     if (scan == NULL) {
-        return cli_fail(CLAST_E_MEMORY, "no room for %d shapes", N_SCAN);
+        return cli_fail(CLAST_E_MEMORY, "out of memory for %d shapes", N_SCAN);
     }
     const clast_aggregate_input input = {.core = scan, .n_coat = N_SCAN, .coat = scan + 1};
     cli_lap_start(b);

@@ -100,7 +100,7 @@ clast_status cli_scene_shape(cli_lap *b)
     if (path == NULL || text == NULL) {
         free(path);
         free(text);
-        return cli_fail(CLAST_E_MEMORY, "no room for %d names", N_FILE);
+        return cli_fail(CLAST_E_MEMORY, "out of memory for %d names", N_FILE);
     }
     for (int32_t i = 0; i < N_FILE; ++i) {
         path[i] = text + (size_t)i * PATH_SIZE;

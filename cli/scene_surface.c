@@ -68,12 +68,12 @@ clast_status cli_scene_fill_snowflake(cli_lap *b)
 /// A growing text or file image.
 typedef struct {
     char *bytes;
-    size_t n, room;
+    size_t n, capacity;
 } buffer;
 
 static void append(buffer *to, const void *bytes, size_t n)
 {
-    if (to->bytes != NULL && to->n + n <= to->room) {
+    if (to->bytes != NULL && to->n + n <= to->capacity) {
         memcpy(to->bytes + to->n, bytes, n);
     }
     to->n += n; // beyond room: the caller sees it
@@ -186,7 +186,7 @@ static clast_status read_all(cli_lap *b, const buffer *file, clast_mesh_format f
     clast_status status = CLAST_OK;
     char *copy = malloc(file->n + 1);
     if (copy == NULL) {
-        return cli_fail(CLAST_E_MEMORY, "no room for %zu bytes", file->n);
+        return cli_fail(CLAST_E_MEMORY, "out of memory for %zu bytes", file->n);
     }
     memset(copy, 0, file->n + 1);
     while (cli_lap_again(b)) {
@@ -213,10 +213,10 @@ static clast_status read_scene(cli_lap *b, writer write, clast_mesh_format forma
     clast_status status = CLAST_OK;
     CLI_TRY(clast_mesh_ellipsoid(axes, 7, &mesh));
     write(&mesh, &file); // counts
-    file.room = file.n;
+    file.capacity = file.n;
     file.n = 0;
-    file.bytes = calloc(file.room + 1, 1); // ends in a zero for the twin
-    CLI_TRY(file.bytes == NULL ? cli_fail(CLAST_E_MEMORY, "no room for a file") : CLAST_OK);
+    file.bytes = calloc(file.capacity + 1, 1); // ends in a zero for the twin
+    CLI_TRY(file.bytes == NULL ? cli_fail(CLAST_E_MEMORY, "out of memory for a file") : CLAST_OK);
     write(&mesh, &file);
     CLI_TRY(read_all(b, &file, format, is_text));
 done:

@@ -91,13 +91,13 @@ class Porosity:
     wall_ratio: float  #: least width of the bed by the grains' size; inf: no side walls (periodic, or a part of a packing)
     is_part: bool  #: the bed is a part of the packing: profile and bulk count what lies inside, contacts are all, there is no stress
     bed_outside: float  #: share of a given bed outside the run's own, where no grain is
-    n_beyond: int  #: grains that reach beyond the sides of a given bed, -1: the run's own, or periodic
+    n_beyond: int  #: grains that extend beyond the sides of a given bed, -1: the run's own, or periodic
     max_beyond: float
     core: float  #: porosity away from the side walls
     core_error: float
     wall_share: float
     coordination: float
-    n_overlap: int  #: -1: not searched for, the run tells its contacts or its bed is sheared
+    n_overlap: int  #: -1: not searched for, the run has its contacts or its bed is sheared
     max_overlap: float
     profile: Table
     fabric: Table
@@ -177,7 +177,7 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     check(call("clast_bed_measure")(ctypes.byref(b.grains._owner.struct), ctypes.byref(known), ctypes.byref(options), ctypes.byref(owner.struct)))
     f = owner.struct
     if f.beyond.n > 0:
-        warn(f"bed: {f.beyond.n} of {len(b.grains)} grains reach beyond its sides, by up to {f.beyond.depth:.4g}"
+        warn(f"bed: {f.beyond.n} of {len(b.grains)} grains extend beyond its sides, by up to {f.beyond.depth:.4g}"
              + (": a part of a packing; bulk and profile count what lies inside, contacts do not; there is no stress" if f.bed.is_part
                 else f", with {100 * f.beyond.solid / f.bulk.solid:.3g} % of the solid that counts as inside"))
     if f.outside > 1e-3:

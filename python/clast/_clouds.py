@@ -38,7 +38,7 @@ class Decomposition:
     events_cross: float  #: the two with crossfit=True, free of the bias of choosing cells by their counts; else nan
     pair_integral_cross: float
     resolved: bool
-    keeps_apart: bool  #: seeded evenly, stratified or repelling: not resolved
+    keeps_apart: bool  #: seeded regularly, stratified or repelling: not resolved
     points_needed: float
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
@@ -354,7 +354,7 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     n_repeated = max(cloud.n_repeated for cloud in made)
     if r.n_unresolved > 0:
         where = f"in {r.n_unresolved} of {len(made)} snapshot{'s' if len(made) > 1 else ''}"
-        warn(f"{where} the particles did not show their own structure (decompose tells more): collisions there are a best guess"
+        warn(f"{where} the particles did not show their own structure (decompose reports more): collisions there are a best guess"
              f"{'' if n_repeated > 0 else ', rather too few than too many'}")
     if n_repeated > 0:
         warn(f"{n_repeated} particle{'s' if n_repeated > 1 else ''}{' of a snapshot' if len(made) > 1 else ''} repeat{'' if n_repeated > 1 else 's'} "

@@ -120,7 +120,7 @@ def aggregate(
         core_meaning: what core_size measures, as size_meaning (length, volume, mean_diameter; default length)
         core_density: density of the core (kg/m^3; 1e-06 to 1e+06; default 2500.0)
         coat: coating shape: as core (no default)
-        coat_weight: chance of each coating shape; none: all equal (at least 0; no default)
+        coat_weight: probability of each coating shape; none: all equal (at least 0; no default)
         class_limit: sizes up to the k-th limit take the k-th coating shape, larger ones the last (m; 0 to 1e+06; no default)
         coat_density: density: one for all shapes, or one each (kg/m^3; 1e-06 to 1e+06; default 2500)
         core_spheres: sphere composite of the core (CSV x,y,z,r); none: filled (no default)
@@ -154,7 +154,7 @@ def aggregate(
         start: start, in particle sizes beyond the ray's last hit; 0: from outside of everything (0 to 1e+06; default 0.0)
         max_tries: new axes tried when every ray misses the aggregate (ballistic: 1000 lines for each) (1 to 1e+06; default 100)
         approach: how particles come: along rays to the origin (published), on lines over the cross-section, by random walk (central, ballistic, diffusive; default central)
-        walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
+        walk_step: diffusive: least step of the walk, in radii of the smallest released particle (0.0001 to 1; default 0.1)
         contact: first touch of: true surfaces, sphere composites, or the published march (exact, spheres, march; default exact)
         flavour: the published engine that march repeats (release, figures; default release)
         march_coarse: coarse step constant; 0: release 0.05, figures 0.01 (0 to 10; default 0.0)
@@ -292,10 +292,10 @@ def agglomerate(
         kernel: collision kernel, or a sum: brownian+settling; see the table above (default constant)
         duration: time that passes; of several snapshots after each, the last too: three take three times it (s; at least 0; default 1.0)
         n_step: steps of that time (1 to 1e+06; default 10)
-        repeats: runs with other draws, of which means are told (1 to 1e+06; default 1)
+        repeats: independent realisations, over which results are averaged (1 to 1e+06; default 1)
         collisions: event by event, or a Poisson number of events a sub-step (next, poisson; default next)
         leap: collisions of the busiest particle in a sub-step of poisson (1e-06 to 1; default 0.01)
-        block: kinds of particles above which a cell is dealt into random blocks; 0: never (0 to 1e+06; default 1024)
+        block: kinds of particles above which a cell is partitioned at random into blocks; 0: never (0 to 1e+06; default 1024)
         self_collisions: the particles of one weighted parcel collide with each other too (default False)
         out_of_range: kernels and sticking beyond where they hold (the table above) (error, extrapolate; default error)
         alpha: share of collisions that stick; with another law of sticking a factor on it (0 to 1; default 1.0)
@@ -448,10 +448,10 @@ def box_model(
         kernel: collision kernel, or a sum: brownian+settling; see the table above (default constant)
         duration: time that passes; of several snapshots after each, the last too: three take three times it (s; at least 0; default 1.0)
         n_step: steps of that time (1 to 1e+06; default 10)
-        repeats: runs with other draws, of which means are told (1 to 1e+06; default 1)
+        repeats: independent realisations, over which results are averaged (1 to 1e+06; default 1)
         collisions: event by event, or a Poisson number of events a sub-step (next, poisson; default next)
         leap: collisions of the busiest particle in a sub-step of poisson (1e-06 to 1; default 0.01)
-        block: kinds of particles above which a cell is dealt into random blocks; 0: never (0 to 1e+06; default 1024)
+        block: kinds of particles above which a cell is partitioned at random into blocks; 0: never (0 to 1e+06; default 1024)
         out_of_range: kernels and sticking beyond where they hold (the table above) (error, extrapolate; default error)
         alpha: share of collisions that stick; with another law of sticking a factor on it (0 to 1; default 1.0)
         sticking: share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts (constant, viscous, liquid, contact; default constant)
@@ -645,14 +645,14 @@ def evolve(
 
     Keywords (None: the default; a number is SI, a text has its unit):
         shapes: shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate (state.h5) (default sphere)
-        shape_weight: chance of each shape; none: all equal (at least 0; no default)
+        shape_weight: probability of each shape; none: all equal (at least 0; no default)
         density: of the solid: one for all shapes, or one each (kg/m^3; 1e-06 to 1e+06; default 2500)
         unit: length unit of surface files; may be left out: sizes come from the curve (no default)
         accept_faults: use surfaces that are open, cross themselves or lie apart as they are (default False)
         curve: diameters of equal volume: one size, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE, masses:FILE, a sieve curve's file, or a published case (default 10um)
         particles: particles at the start; 0: the rows of points (0 to 1e+07; default 0)
         weight: real particles W that each stands for, a whole number: the number density is particles x W / volume; rows in time and the summary have masses of all of them, tables of bodies and events the mass of one (at least 1; default 1.0)
-        release: domain in which they start evenly (as domain), as far as it lies in that; a box in a box lies in it all; none: all of the domain (no default)
+        release: domain in which they start uniformly distributed (as domain), as far as it lies in that; a box in a box lies in it all; none: all of the domain (no default)
         points: file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5) (no default)
         columns: its columns of coordinates, three; units in their names count (x_mm), else they are in m; x,y,z are found as x_m, y_m, z_m too (default x,y,z)
         diameter_column: its column of volume-equivalent diameters; none: the curve (no default)
@@ -673,7 +673,7 @@ def evolve(
         mean_free_path: of a gas, for the slip correction; 0: none (m; 0 to 1; default 0.0)
         gravity: 0: nothing falls (m/s^2; 0 to 1e+06; default 9.80665)
         kernel: collision kernel, or a sum, as in clast agglomerate --help-all: constant, additive, product, brownian, shear_laminar, shear_turbulent, settling, inertial, ... (default brownian+settling)
-        shear: shear rate that kernels see; 0: that of wind_shear (1/s; 0 to 1e+12; default 0.0)
+        shear: shear rate that kernels use; 0: that of wind_shear (1/s; 0 to 1e+12; default 0.0)
         dissipation: turbulent dissipation (m^2/s^3; 0 to 1e+12; default 0.0)
         speed_rms: turbulent velocity, one component (m/s; 0 to 1e+06; default 0.0)
         efficiency: collision efficiency of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
@@ -681,8 +681,8 @@ def evolve(
         additive: b of kernel additive [m^3/s] (at least 0; default 1e-06)
         product: c of kernel product [m^3/s] (at least 0; default 1e-06)
         out_of_range: kernels and sticking beyond where they hold (error, extrapolate; default error)
-        collision_radius: radius that kernels see: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere (gyration, enclosing, volume; default gyration)
-        even: where bodies count as evenly spread: cells that a test splits, boxes of bins, or the whole domain (tree, boxes, whole; default tree)
+        collision_radius: radius that kernels use: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere (gyration, enclosing, volume; default gyration)
+        even: where bodies count as uniformly distributed: cells that a test splits, boxes of bins, or the whole domain (tree, boxes, whole; default tree)
         change_level: false alarms of the test that finds the cells out of date (1e-12 to 0.5; default 0.01)
         alpha: share of collisions that stick; with another law of sticking a factor on it (0 to 1; default 1.0)
         sticking: share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts (constant, viscous, liquid, contact; default constant)
@@ -696,8 +696,8 @@ def evolve(
         young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
         poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
         structure: aggregates keep their grains as they touch; no: drops that merge (default True)
-        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section; reaction: all contacts alike, as where few touches stick (auto, ballistic, diffusive, central, reaction; default auto)
-        walk_step: diffusive: least step of the walk, in radii of the smallest thrown grain (0.0001 to 1; default 0.1)
+        meeting: how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on lines over the cross-section; reaction: all contacts equally likely, as where few touches stick (auto, ballistic, diffusive, central, reaction; default auto)
+        walk_step: diffusive: least step of the walk, in radii of the smallest released particle (0.0001 to 1; default 0.1)
         max_tries: paths or contacts tried before a pair is given up, in thousands; central lines: one by one (1 to 1e+06; default 100)
         duration: time that passes at most (s; at least 0; default 0.0)
         rows: rows of the tables over it (1 to 1e+06; default 50)
@@ -705,7 +705,7 @@ def evolve(
         time_step: longest step; 0: by step_error (s; at least 0; default 0.0)
         seed: of every draw (at least 0; default 1)
         keep: aggregates of most grains, each written as a state.h5 for clast pack --shapes (0 to 1e+06; default 20)
-        bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, each above its place (modulo the width) and those that came before; 0: none (m; 0 to 1e+06; default 0.0)
+        bed_width: width of the column in deposit.h5 (that of its widest body at least; a periodic bed asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, each above its position (modulo the width) and those that came before; 0: none (m; 0 to 1e+06; default 0.0)
         frames: a frame for ParaView at each so many rows; 0: none (0 to 1e+06; default 0)
         checkpoint_time: between checkpoints, of the clock (s; 0 to 1e+09; default 60.0)
         resume: run folder to go on with (no default)
@@ -731,7 +731,7 @@ def export(
     """Writes the grains of a run or of another program's file by the name's end, or one `table` of the run.
 
     Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
-    name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    name no unit: they are in mm unless `unit` says else. Returns format, unit and counts.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         level: fineness of spheres and ellipsoids: 20 * 4^level triangles (0 to 7; default 3)
@@ -739,9 +739,9 @@ def export(
         colour: what colours the grains of a PLY (grain, order, size, shape; default grain)
         table: write this table of the run (.csv or .json) instead of its grains (no default)
         unit: length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it (no default)
-        density: of all grains of another program's file that tells none; 0: not known, left out (kg/m^3; 0 to 1e+06; default 0.0)
+        density: of all grains of another program's file that gives none; 0: not known, left out (kg/m^3; 0 to 1e+06; default 0.0)
         columns: spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names (no default)
-        diameter: spheres of another program: diameter of all, in place of the file's; 0: the file's (default 0)
+        diameter: spheres of another program: diameter of all, instead of the file's; 0: the file's (default 0)
     """
     return _runs.export(**given(locals()))
 
@@ -875,7 +875,7 @@ def mesh_convert(
         unit: length unit of the input's coordinates; that of its header when clast wrote one (no default)
         out_unit: unit of the output's coordinates; that of the input when not given (no default)
         scale: factor on all lengths (at least 1e-100; default 1.0)
-        name: name of the part, told in an STL, OBJ or 3MF (no default)
+        name: name of the part, written in an STL, OBJ or 3MF (no default)
     """
     return _surfaces.mesh_convert(**given(locals()))
 
@@ -932,7 +932,7 @@ def mesh_repair(
         unite: bool | None = None,
         keep: Literal["all", "largest"] | None = None,
 ) -> SurfaceResult:
-    """Makes a surface closed, oriented and manifold where it can; tells each change, and in `check` what it is now.
+    """Makes a surface closed, oriented and manifold where it can; reports each change, and in `check` what it is now.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         weld: merge near vertices: the smallest distance that closes the surface, not at all, or within weld_tolerance (auto, off, within; default auto)
@@ -941,7 +941,7 @@ def mesh_repair(
         split: split edges at vertices that lie on them (T-junctions) (default True)
         split_tolerance: how far from the edge such a vertex may lie, times the extent (0 to 0.01; default 1e-06)
         loose: drop triangles that share no edge with others (default True)
-        orient: turn neighbours alike and closed parts outward (default True)
+        orient: orient neighbours consistently and closed parts outward (default True)
         fill: fill holes with the triangles of least area (default True)
         fill_size: largest hole to fill, times the extent (0 to 1; default 1.0)
         separate: give surfaces that touch in an edge or vertex their own vertices (default True)
@@ -958,7 +958,7 @@ def mesh_simplify(
         *,
         output: Path | None = None,
 ) -> SurfaceResult:
-    """Fewer triangles, same volume; tells how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`).
+    """Fewer triangles, same volume; reports how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`).
 
     Keywords (None: the default; a number is SI, a text has its unit):
         faces: number of triangles wanted (4 to 2e+09; default 300)
@@ -1112,7 +1112,7 @@ def pack(
         force: bool | None = None,
         resume: Text | None = None,
 ) -> Result:
-    """Pours, shakes and calms a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0).
+    """Pours, shakes and damps a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0).
 
     Keywords (None: the default; a number is SI, a text has its unit):
         curve: sizes: a published case (U1 U3 U5 U7 B30 B50 B70), a sieve curve's file, list:FILE (sizes, counts), masses:FILE (sizes, masses), uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], or one size (default U1)
@@ -1120,7 +1120,7 @@ def pack(
         count: grains of a class by its mean size (eq. 9), or by its mass (mean, exact; default mean)
         size_meaning: sizes are sieve sizes (eq. 1), or volume-equivalent (sieve, volume; default sieve)
         shapes: shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts, and with density 0 an aggregate's own density (default sphere)
-        shape_weight: chance of each shape; none: all equal (at least 0; no default)
+        shape_weight: probability of each shape; none: all equal (at least 0; no default)
         unit: length unit of surface files; may be left out, since sizes come from the curve (no default)
         hull: take the convex hull of every surface and report the volume it adds; no: refuse surfaces that are not convex (default True)
         faces: take hulls of at most so many triangles; 0: as many as they have (0 to 1e+06; default 0)
@@ -1132,9 +1132,9 @@ def pack(
         elongation_deviation: its standard deviation (0 to 10; default 0.139)
         density: density of the grains (rho_p), else 2650: one for all, or one for each shape (or as density_of says); 0: those of the aggregate's own parts, as its state.h5 has them; none beside a start, which has its own (kg/m^3; 0 to 1e+06; no default)
         density_of: density lists one for each shape, or several to draw from whatever a grain's shape, or one for each class of the sieve curve; list: column density of list:FILE or masses:FILE, in place of density (shape, chance, class, list; default shape)
-        density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
+        density_weight: probability of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
-        seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
+        seed: seed of sizes, forms, orientations, velocities (at least 0; default 1)
         material: name of the grains' material, one for all shapes or one for each, for contacts (no default)
         contacts: what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; one number, or one of either side) (no default)
         start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
@@ -1143,7 +1143,7 @@ def pack(
         start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
         start_frame: snapshot of a LAMMPS dump or .xyz, from 0; negative: from the end (at least -9e+15; default -1)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
-        container_unit: length unit of its coordinates (no default)
+        container_unit: length unit of its coordinates, where its header does not say (clast's does) (no default)
         domain: container, its sides; cell: periodic in x, y and z (height); open: container alone (cylinder, periodic, box, open, cell; default cylinder)
         width: inside diameter of the cylinder, or width in x (L) (m; 1e-09 to 1e+06; default 0.104)
         depth: width in y; 0: as width (m; 0 to 1e+06; default 0.0)
@@ -1164,7 +1164,7 @@ def pack(
         cohesion_energy: attraction per contact area, cohesion: area (J/m^3; 0 to 1e+12; default 0.0)
         surface_energy: work of adhesion, cohesion: dmt or jkr (J/m^2; 0 to 1e+06; default 0.0)
         clip: dashpots never pull (the reference program lets them) (default False)
-        normal_torque: normal forces turn grains too; off: eq. 5 as printed (default True)
+        normal_torque: normal forces exert torques on grains too; off: eq. 5 as printed (default True)
         gyroscopic: keep angular momentum (eq. 3); off: as the reference program (default True)
         clump_contacts: spheres of two clumps that touch at once: share one contact's stiffness, or each its own (shared, each; default shared)
         time_step: time step (s; 1e-15 to 1000; default 5e-06)
@@ -1185,18 +1185,18 @@ def pack(
         first_low: the same of the first fill; -1: as all (reference: 0.1) (-1 to 1; default -1.0)
         first_high: and below this (reference: 0.9) (-1 to 1; default -1.0)
         initial_speed: downwards (u_init); a tenth of it sideways at random (m/s; 0 to 1000; default 1.0)
-        random_turn: grains begin turned at random; off: as stored (reference program) (default True)
+        random_turn: grains begin with random orientations; off: as stored (reference program) (default True)
         shake_amplitude: of shaking in x (A_s); 0: none (m; 0 to 1000; default 0.0003)
         shake_period: of shaking (T_s) (s; 1e-09 to 1e+06; default 0.025)
         shaking_time: of shaking after the last grain was made (t_s) (s; 0 to 1e+06; default 1.0)
         shake_from_start: shake while grains are made, too (default True)
         damping: velocities keep this share a second at the end (c_d) (1e-300 to 1; default 0.001)
-        rule: when the bed is still (height, speed, either; default height)
+        rule: when the bed is at rest (height, speed, either; default height)
         height_change: of the mean height in check_time; for grains below 1 mm a hundredth of their size (m; 0 to 1e+06; default 1e-05)
-        check_time: between two looks at it (s; 1e-12 to 1e+06; default 0.01)
+        check_time: between two checks of it (s; 1e-12 to 1e+06; default 0.01)
         still_speed: of the fastest grain; for grains below 1 mm their size a second or less (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps, finished or not; 0: never (at least 0; default 0)
-        max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
+        max_damping_time: give up when the bed is not at rest by then (s; 0 to 1e+09; default 20.0)
         wall: walls that move, are pressed or open: NAME FILE UNIT (a surface), or floor, lid, sides, left, right, front, back of the domain; then move X,Y,Zmm/s, vibrate X,Y,Zmm 20ms, axis X,Y,Z, about X,Y,Zmm, rotate 30rpm, swing 5deg 1s, table FILE, press X,Y,Z, area 1m^2 (no default)
         outlet: half-spaces whose grains leave and are counted: z<-10mm (no default)
         wall_forces: force and torque on all walls over time, also where none moves: walls.csv (default False)
@@ -1205,7 +1205,7 @@ def pack(
         load_tolerance: share of a pressure within which it is reached (1e-09 to 1; default 0.01)
         load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)
         max_load_time: give up when a stage has not come to its end by then (s; 0 to 1e+09; default 20.0)
-        energy: book the work of all forces by kind: load.csv, energy_book.svg (default False)
+        energy: record the work of all forces by kind: load.csv, energy_book.svg (default False)
         layer: slices of the porosity profile (h_p) (m; 1e-12 to 1e+06; default 0.001)
         cut: the bed ends where the porosity is this (n cut-off) (0 to 1; default 0.5)
         trim: left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0 (m; -1 to 1e+06; default -1.0)
@@ -1255,11 +1255,11 @@ def porosity(
         gap: grains this close touch (as 10um), where the run does not know its contacts (default 0)
         local: porosity around each grain too, by radical Voronoi cells of equal-volume spheres (default False)
         rings: porosity over the radius of a cylinder too, in this many rings (0 to 100000; default 0)
-        pores: sizes of pores too, from this many even points of the bed (0 to 1e+08; default 0)
+        pores: sizes of pores too, from this many quasi-random points of the bed (0 to 1e+08; default 0)
         fields: coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide (its standard deviation, as 3mm), in cells as wide; 0: not (default 0)
         chains: force chains too (chains.vtp, .csv, .svg), of runs that know their forces (default False)
         columns: spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed over); none: by their names (no default)
-        diameter: spheres: diameter of all, in place of the file's; 0: the file's (default 0)
+        diameter: spheres: diameter of all, instead of the file's; 0: the file's (default 0)
     """
     return _beds.porosity(**given(locals()))
 
@@ -1368,7 +1368,7 @@ def render(
         background: behind the grains (white, transparent, black; default white)
         ground: shadow on a plane under the grains (default False)
         cut: cut away the half nearer to the viewer: by a plane across this axis (none, x, y, z, view; default none)
-        cut_position: place of the cut in the extent along its axis (0 to 1; default 0.5)
+        cut_position: position of the cut in the extent along its axis (0 to 1; default 0.5)
         colour_bar: legend of the colours (default True)
         scale_bar: bar of a round length, in perspective at the centre (default True)
         unit: unit of the coordinates where the input has none (um, mm, m) (no default)
@@ -1461,7 +1461,7 @@ def shapes(
 ) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
+    What cannot be measured is listed in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
     lengths are those of the files.
     Ctrl-C ends it between files; nothing is kept but surfaces written by then.
 

@@ -107,7 +107,7 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
            surfaces: Path | None = None, progress: Progress = None) -> Grains:
     """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
 
-    What cannot be measured is told in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
+    What cannot be measured is listed in `faults` and warned of, the others are measured. `unit` is that of files that do not say theirs; where none says one,
     lengths are those of the files.
     Ctrl-C ends it between files; nothing is kept but surfaces written by then.
     """

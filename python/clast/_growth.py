@@ -79,7 +79,7 @@ def _folder(output: Path | None, resumed: str | None = None) -> str | None:
 
 
 def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
-    """Pours, shakes and calms a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0)."""
+    """Pours, shakes and damps a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0)."""
     result = c.clast_pack_result()
     monitor = Monitor(progress)
     folder = None if output is None else encoded("output", output)

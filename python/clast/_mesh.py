@@ -36,7 +36,7 @@ class MeshCheck(Equal):
     n_nested: int
     n_doubled: int  #: nested parts that count twice in the volume
     n_body: int  #: solid parts, each with its cavities; parted where they hang together by an edge alone
-    n_repeated: int  #: triangles that repeat another, wound alike: they count twice in the volume
+    n_repeated: int  #: triangles that repeat another with the same winding: they count twice in the volume
     n_degenerate: int
     n_duplicate: int
     n_intersection: int

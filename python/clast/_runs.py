@@ -102,7 +102,7 @@ class Assembly(Fixed):
     def read_spheres(cls, path: Path, *, columns: str | None = "", diameter: Quantity | None = None) -> Assembly:
         """Grains that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all.
 
-        Of several snapshots the last. Where the file tells no densities they are 1 until they are written into, and `write` leaves them out.
+        Of several snapshots the last. Where the file gives no densities they are 1 until they are written into, and `write` leaves them out.
         """
         size = 0.0 if diameter is None else quantity("diameter", diameter, "m", 0, 1e9)
         options, struct = c.clast_packing_options(columns=encoded("columns", "" if columns is None else columns), diameter=size), c.clast_assembly()
@@ -190,7 +190,7 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     """Writes the grains of a run or of another program's file by the name's end, or one `table` of the run.
 
     Names end in .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump or .data (LAMMPS), .txt (YADE), .voro, .xyzd or .conf. STL, OBJ and PLY
-    name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    name no unit: they are in mm unless `unit` says else. Returns format, unit and counts.
     """
     given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit, density=density, columns=columns))
     names = [*changed("export", given), *(["diameter"] if diameter else [])]

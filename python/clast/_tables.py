@@ -18,7 +18,7 @@ Texts = Text | Sequence[Text]
 
 
 class Table(NDArray[Any]):
-    """A structured array, one field a column; names tell the unit (diameter_m), `units` has it.
+    """A structured array, one field a column; names give the unit (diameter_m), `units` has it.
 
     A field by its name is a plain array: `table["porosity"].mean()`.
     """
@@ -89,7 +89,7 @@ def table_of(owner: Owner, part: Any = None) -> Table:
 
 
 def read_table(path: Path) -> Table:
-    """Delimited text as a structured array; numbers stay as they are, names tell their unit."""
+    """Delimited text as a structured array; numbers stay as they are, names give their unit."""
     return table_of(_read(path))
 
 

@@ -19,8 +19,8 @@ void clx_aim_direction(const clx_aim *aim, int64_t number, double direction[3])
         clx_rng_at(aim->seed, CLX_STREAM_AGGREGATE_RAY, clx_aim_index(aim, number, aim->n_ray));
     v3_copy(axis, aim->axis);
     if (aim->random_axis) {
-        clx_rng turn = clx_rng_at(aim->seed, CLX_STREAM_AGGREGATE_AXIS, clx_aim_index(aim, 0, 1));
-        clx_rng_direction(&turn, axis);
+        clx_rng own = clx_rng_at(aim->seed, CLX_STREAM_AGGREGATE_AXIS, clx_aim_index(aim, 0, 1));
+        clx_rng_direction(&own, axis);
     }
     clx_rng_cone(&rng, axis, aim->cone, direction);
     (void)v3_unit(direction, direction);

@@ -64,16 +64,16 @@ static clast_status add_cluster(clast_aggregate *a, int32_t first, int32_t n, in
     CLAST_ASSERT(first >= 0 && n > 0 && first + n <= a->assembly.n_grain);
     clast_status status = CLAST_OK;
     clx_clusters *all = &a->clusters;
-    CLX_TRY(clx_grow(&all->cluster, &all->room, all->n + 1, sizeof *all->cluster));
+    CLX_TRY(clx_grow(&all->cluster, &all->capacity, all->n + 1, sizeof *all->cluster));
     all->cluster[all->n] = (clx_cluster){0};
     clx_cluster *cluster = &all->cluster[all->n++];
-    CLX_TRY(clx_grow(&cluster->grain, &cluster->room, n, sizeof *cluster->grain));
+    CLX_TRY(clx_grow(&cluster->grain, &cluster->capacity, n, sizeof *cluster->grain));
     for (int32_t i = 0; i < n; ++i) {
         cluster->grain[i] = first + i;
     }
     cluster->n = n;
     cluster->n_contact = a->assembly.n_contact - first_contact;
-    CLX_TRY(clx_grow(&cluster->contact, &cluster->contact_room, cluster->n_contact,
+    CLX_TRY(clx_grow(&cluster->contact, &cluster->contact_capacity, cluster->n_contact,
                      sizeof *cluster->contact));
     for (int32_t i = 0; i < cluster->n_contact; ++i) {
         cluster->contact[i] = first_contact + i;
@@ -115,7 +115,7 @@ static clast_status read_members(clast_aggregate *a, const double *cluster, cons
     for (int32_t c = 0; c < all->n; ++c) {
         clx_cluster *made = &all->cluster[c];
         CLX_CHECK(made->n > 0, CLAST_E_FORMAT, "the saved cluster %d has no grain", c);
-        CLX_TRY(clx_grow(&made->grain, &made->room, made->n, sizeof *made->grain));
+        CLX_TRY(clx_grow(&made->grain, &made->capacity, made->n, sizeof *made->grain));
         memset(made->grain, -1, (size_t)made->n * sizeof *made->grain);
     }
     for (int32_t g = 0; g < n; ++g) {
@@ -134,7 +134,7 @@ static clast_status give_contacts(clast_aggregate *a, const double *cluster)
     clast_status status = CLAST_OK;
     for (int32_t k = 0; k < a->assembly.n_contact; ++k) {
         clx_cluster *made = &a->clusters.cluster[(int32_t)cluster[a->assembly.contact[k][0]]];
-        CLX_TRY(clx_grow(&made->contact, &made->contact_room, made->n_contact + 1,
+        CLX_TRY(clx_grow(&made->contact, &made->contact_capacity, made->n_contact + 1,
                          sizeof *made->contact));
         made->contact[made->n_contact++] = k;
     }
@@ -153,7 +153,7 @@ static clast_status restore_members(clast_aggregate *a, const clast_table *membe
     CLX_CHECK(cluster != NULL && place != NULL && members->n_row == a->assembly.n_grain,
               CLAST_E_FORMAT, "the saved members table does not fit %d grains",
               a->assembly.n_grain);
-    CLX_TRY(clx_grow(&all->cluster, &all->room, n, sizeof *all->cluster));
+    CLX_TRY(clx_grow(&all->cluster, &all->capacity, n, sizeof *all->cluster));
     memset(all->cluster, 0, (size_t)n * sizeof *all->cluster);
     all->n = n;
     CLX_TRY(read_members(a, cluster, place));
@@ -245,7 +245,7 @@ static clast_status join_contacts(clast_aggregate *a, clx_cluster *large, const 
 {
     clast_status status = CLAST_OK;
     const int32_t n = large->n_contact + small->n_contact + 1;
-    CLX_TRY(clx_grow(&large->contact, &large->contact_room, n, sizeof *large->contact));
+    CLX_TRY(clx_grow(&large->contact, &large->contact_capacity, n, sizeof *large->contact));
     CLX_TRY(clast_assembly_add_contact(&a->assembly, large->grain[landing->touch.body],
                                        small->grain[landing->part], landing->touch.point));
     move_contacts(a, small, landing);
@@ -264,7 +264,7 @@ static clast_status join(clast_aggregate *a, clx_cluster *large, const clx_clust
 {
     CLAST_ASSERT(large != small && large->n > 0 && small->n > 0);
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&large->grain, &large->room, large->n + small->n, sizeof *large->grain));
+    CLX_TRY(clx_grow(&large->grain, &large->capacity, large->n + small->n, sizeof *large->grain));
     CLX_TRY(join_contacts(a, large, small, landing));
     for (int32_t i = 0; i < small->n; ++i) {
         const int32_t grain = small->grain[i];
@@ -308,16 +308,17 @@ done:
     return status;
 }
 
-static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
+static double bounding_radius_of(const clast_aggregate *a, const clx_cluster *cluster)
 {
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     for (int32_t i = 0; i < cluster->n; ++i) {
         const int32_t grain = cluster->grain[i];
         const clast_shape *shape = &a->assembly.shape[a->assembly.shape_id[grain]];
-        reach = fmax(reach, v3_distance(a->assembly.position[grain], cluster->centre) +
-                                a->assembly.scale[grain] * shape->bounding_radius);
+        bounding_radius =
+            fmax(bounding_radius, v3_distance(a->assembly.position[grain], cluster->centre) +
+                                      a->assembly.scale[grain] * shape->bounding_radius);
     }
-    return reach;
+    return bounding_radius;
 }
 
 static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
@@ -336,7 +337,7 @@ static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                            .n_orientation = c->orientations,
                            .start = c->start,
                            .approach = c->approach,
-                           .reach = reach_of(a, large),
+                           .bounding_radius = bounding_radius_of(a, large),
                            .walk_step = c->walk_step};
     v3_copy(search->centre, large->centre);
     v3_copy(search->target, large->centre);
@@ -395,8 +396,8 @@ static void spread(clast_aggregate *a)
     double x = 0.0;
     for (int32_t c = 0; c < a->clusters.n; ++c) {
         clx_cluster *cluster = &a->clusters.cluster[c];
-        const double reach = reach_of(a, cluster);
-        x += c > 0 ? 1.1 * reach : 0.0;
+        const double bounding_radius = bounding_radius_of(a, cluster);
+        x += c > 0 ? 1.1 * bounding_radius : 0.0;
         const double move[3] = {x - cluster->centre[0], -cluster->centre[1], -cluster->centre[2]};
         for (int32_t i = 0; i < cluster->n; ++i) {
             double *at = a->assembly.position[cluster->grain[i]];
@@ -409,7 +410,7 @@ static void spread(clast_aggregate *a)
         sum_up(a, cluster);
         clx_touch_scene_destroy(cluster->scene);
         cluster->scene = NULL;
-        x += 1.1 * reach;
+        x += 1.1 * bounding_radius;
     }
 }
 

@@ -6,10 +6,10 @@
 /// Grains that stick together; their poses are those of the assembly.
 typedef struct clx_cluster {
     int32_t n;
-    int64_t room;
+    int64_t capacity;
     int32_t *grain; ///< [n] in the order of arrival
     int32_t n_contact;
-    int64_t contact_room;
+    int64_t contact_capacity;
     int32_t *contact; ///< [n_contact] of the assembly
     double mass, volume;
     double centre[3];       ///< of mass
@@ -19,7 +19,7 @@ typedef struct clx_cluster {
 
 typedef struct clx_clusters {
     int32_t n; ///< clusters left
-    int64_t room;
+    int64_t capacity;
     clx_cluster *cluster; ///< [n]
 } clx_clusters;
 

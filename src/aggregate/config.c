@@ -52,7 +52,7 @@ const clast_field clast_aggregate_fields[] = {
     NUMBER(params., core_density, 2500, 1e-6, 1e6, "kg/m^3", "density of the core"),
     TEXTS(, coat, "", "coating shape: as core", .common = true),
     LIST(params., coat_weight, 0, DBL_MAX, "-", "",
-         "chance of each coating shape; none: all equal"),
+         "probability of each coating shape; none: all equal"),
     LIST(params., class_limit, 0, 1e6, "m", "",
          "sizes up to the k-th limit take the k-th coating shape, larger ones the last"),
     LIST(params., coat_density, 1e-6, 1e6, "kg/m^3", "2500",
@@ -116,7 +116,7 @@ const clast_field clast_aggregate_fields[] = {
            "cross-section, by random walk",
            .common = true),
     NUMBER(params., walk_step, 0.1, 1e-4, 1, "-",
-           "diffusive: least step of the walk, in radii of the smallest thrown grain"),
+           "diffusive: least step of the walk, in radii of the smallest released particle"),
 
     CHOICE(params., contact, 0, "exact|spheres|march",
            "first touch of: true surfaces, sphere composites, or the published march",

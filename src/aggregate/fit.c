@@ -151,7 +151,7 @@ static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
     j.config.params.orientations = packing->orientations;
     j.config.params.replicate = replicate;
     j.config.params.envelope_every = 1000000000;
-    CLX_TRY(clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
+    CLX_TRY(clx_grow(&fit->node, &fit->node_capacity, (int64_t)fit->n_node + 1, sizeof *fit->node));
     CLX_TRY(run_job(&j));
     summarise(&j, &made);
     fit->n_run += j.n;

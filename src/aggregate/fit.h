@@ -28,7 +28,7 @@ typedef struct clx_fit {
     clx_fit_packing *packing; ///< [n_level] loose to tight
     int32_t n_node;
     clx_fit_node *node; ///< [n_node] grown ones first come; sorted by level and N_A at the end
-    int64_t node_room;
+    int64_t node_capacity;
     double observed[CLAST_FIT_N_OBSERVABLE], error[CLAST_FIT_N_OBSERVABLE];
     int32_t n_run;
     int32_t n_run_before; ///< aggregates grown before the packing at hand

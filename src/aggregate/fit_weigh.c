@@ -67,8 +67,8 @@ static clast_status fill_between(clx_fit *fit)
                 made.deviation[k] =
                     (1.0 - t) * fit->node[i].deviation[k] + t * fit->node[i + 1].deviation[k];
             }
-            CLX_TRY(
-                clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
+            CLX_TRY(clx_grow(&fit->node, &fit->node_capacity, (int64_t)fit->n_node + 1,
+                             sizeof *fit->node));
             fit->node[fit->n_node++] = made;
         }
     }

@@ -15,7 +15,7 @@ static clast_status enter_scene(clast_aggregate *a, int32_t grain)
     const int64_t before = grain > 0 ? a->sphere_end[grain - 1] : 0;
     const clx_touch_body body = clx_aggregate_body(a, grain);
     CLX_TRY(clx_touch_scene_insert(a->scene, &body));
-    CLX_TRY(clx_grow(&a->sphere_end, &a->sphere_room, grain + 1, sizeof *a->sphere_end));
+    CLX_TRY(clx_grow(&a->sphere_end, &a->sphere_capacity, grain + 1, sizeof *a->sphere_end));
     a->sphere_end[grain] = before + (body.tree != NULL ? body.tree->n_item : 1);
 done:
     return status;
@@ -49,7 +49,8 @@ static clast_status account(clast_aggregate *a, int32_t grain)
     if (a->march.n_shape > 0) {
         CLX_TRY(enter_march(a, grain));
     }
-    a->reach = fmax(a->reach, v3_norm(all->position[grain]) + s * shape->shape->bounding_radius);
+    a->bounding_radius =
+        fmax(a->bounding_radius, v3_norm(all->position[grain]) + s * shape->shape->bounding_radius);
     a->volume += volume;
     a->mass += mass;
     a->second += mass * (v3_norm2(all->position[grain]) + own);

@@ -64,8 +64,8 @@ clast_status clx_history_row(clx_history *history, double **row)
 {
     CLAST_ASSERT(history->n_column >= CLX_HISTORY_FIXED);
     const int64_t n = history->n_column;
-    const clast_status status = clx_grow(&history->value, &history->row_room, history->n_row + 1,
-                                         (size_t)n * sizeof *history->value);
+    const clast_status status = clx_grow(&history->value, &history->row_capacity,
+                                         history->n_row + 1, (size_t)n * sizeof *history->value);
     if (status == CLAST_OK) {
         *row = &history->value[history->n_row++ * n];
         memset(*row, 0, (size_t)n * sizeof **row);

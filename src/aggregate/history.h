@@ -28,7 +28,7 @@ typedef struct clx_history {
     int32_t n_column;
     char (*name)[CLX_HISTORY_NAME]; ///< [n_column]
     char (*unit)[16];
-    int64_t n_row, row_room;
+    int64_t n_row, row_capacity;
     double *value; ///< [n_row][n_column]
 } clx_history;
 

@@ -187,7 +187,7 @@ static clast_status check_one_piece(const clast_assembly *assembly, int32_t g)
     int32_t *piece = NULL;
     int32_t n_piece = 1;
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
-              "an aggregate of no grains cannot be thrown");
+              "an aggregate of no grains cannot be released");
     CLX_TRY(clx_alloc(&piece, assembly->n_grain, sizeof *piece));
     if (assembly->n_contact > 0) {
         CLX_TRY(clx_assembly_pieces(assembly, piece, &n_piece));

@@ -20,7 +20,7 @@ typedef struct {
 
 typedef struct {
     span *item;
-    int64_t n, room;
+    int64_t n, capacity;
 } span_list;
 
 typedef struct {
@@ -127,7 +127,8 @@ static void draw_rotation(const marching *m, int64_t trial, double rotation[3][3
 
 static clast_status add_span(span_list *list, double low, double high)
 {
-    const clast_status status = clx_grow(&list->item, &list->room, list->n + 1, sizeof *list->item);
+    const clast_status status =
+        clx_grow(&list->item, &list->capacity, list->n + 1, sizeof *list->item);
     if (status == CLAST_OK) {
         list->item[list->n++] = (span){low, high};
     }
@@ -170,11 +171,11 @@ static clast_status find_spans(const marching *m, const march_ray *ray, double r
     list->n = 0;
     for (int32_t g = 0; g < march->n_grain; ++g) {
         const clx_march_grain *grain = &march->grain[g];
-        const double reach = (grain->radius + scale * shape->radius) * (1.0 + 1e-12);
+        const double contact_distance = (grain->radius + scale * shape->radius) * (1.0 + 1e-12);
         double to[3];
         v3_sub(to, grain->centre, start);
         const double along = v3_dot(to, ray->direction);
-        if (v3_norm2(to) - along * along > reach * reach) {
+        if (v3_norm2(to) - along * along > contact_distance * contact_distance) {
             continue;
         }
         for (int32_t i = 0; i < shape->spheres.n; ++i) {

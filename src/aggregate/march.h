@@ -36,10 +36,10 @@ typedef struct clx_march {
     clx_march_shape *shape; ///< [n_shape] 0 the core, 1 + k coating shape k
     int32_t n_grain;
     clx_march_grain *grain; ///< [n_grain]
-    int64_t grain_room;
+    int64_t grain_capacity;
     int64_t n_sphere;
     clx_march_sphere *sphere; ///< [n_sphere]
-    int64_t sphere_room;
+    int64_t sphere_capacity;
 } clx_march;
 
 /// Where a particle stops.

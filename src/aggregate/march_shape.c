@@ -99,7 +99,7 @@ static clast_status make_shape(const clast_aggregate_params *params, const clx_k
     const clx_kit_group *group = &kit->group[number];
     clast_mesh surface = {0};
     CLX_CHECK(group->n_part == 1, CLAST_E_CONFIG,
-              "contact: the published march throws single shapes, not aggregates; use exact");
+              "contact: the published march moves single shapes, not aggregates; use exact");
     const clast_shape *shape = kit->shape[group->part[0].shape].shape;
     CLX_TRY(take_spheres(shape, &made->spheres));
     centre_spheres(made);
@@ -158,8 +158,9 @@ clast_status clx_march_add(clx_march *march, int32_t shape, const double centroi
     clast_status status = CLAST_OK;
     const clx_march_shape *s = &march->shape[shape];
     double m[3][3];
-    CLX_TRY(clx_grow(&march->grain, &march->grain_room, march->n_grain + 1, sizeof *march->grain));
-    CLX_TRY(clx_grow(&march->sphere, &march->sphere_room, march->n_sphere + s->spheres.n,
+    CLX_TRY(
+        clx_grow(&march->grain, &march->grain_capacity, march->n_grain + 1, sizeof *march->grain));
+    CLX_TRY(clx_grow(&march->sphere, &march->sphere_capacity, march->n_sphere + s->spheres.n,
                      sizeof *march->sphere));
     clx_march_grain *grain = &march->grain[march->n_grain++];
     *grain =

@@ -33,7 +33,7 @@ static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *
                      .n_orientation = c->orientations,
                      .start = c->start,
                      .approach = c->approach,
-                     .reach = a->reach,
+                     .bounding_radius = a->bounding_radius,
                      .walk_step = c->walk_step,
                      .on_one_thread = a->n_placed % PROBE == PROBE - 1 || a->alone_s < SHARED_FROM};
     if (a->origin == CLAST_ORIGIN_MASS) {

@@ -111,7 +111,7 @@ static clast_status check_first_step(const clast_aggregate *a)
     if (a->n_placed > 0) {
         const clast_status grown = clast_aggregate_grow(anew, 1, NULL);
         CLX_CHECK(grown != CLAST_E_CONVERGE, CLAST_E_FORMAT,
-                  "the saved run has placed what finds no place with this configuration");
+                  "the saved run has placed what cannot be placed with this configuration");
         CLX_TRY(grown);
     }
     for (int64_t r = 0; r < anew->history.n_row && r < a->history.n_row; ++r) {

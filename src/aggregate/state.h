@@ -77,7 +77,7 @@ struct clast_aggregate {
     clx_touch_scene *scene; ///< NULL in the march
     clx_march march;        ///< empty but in the march
     int64_t *sphere_end;    ///< [n_grain] running count of composite spheres
-    int64_t sphere_room;
+    int64_t sphere_capacity;
     int32_t n_placed;      ///< steps done: particles placed, or mergers
     clx_arrival arrival;   ///< of the last particle
     clx_clusters clusters; ///< cluster mode
@@ -88,9 +88,9 @@ struct clast_aggregate {
     clx_envelope_tracker *tracker; ///< NULL in cluster mode
 
     double mass, volume;
-    double reach;     ///< every grain lies within this distance of the origin (core mode)
-    double moment[3]; ///< sum of mass times position
-    double second;    ///< sum of mass times (position squared + own mean square radius)
+    double bounding_radius; ///< every grain lies within this distance of the origin (core mode)
+    double moment[3];       ///< sum of mass times position
+    double second;          ///< sum of mass times (position squared + own mean square radius)
     clast_aggregate_stop stop;
     bool is_torn; ///< within a step that has begun to write; for good where that failed
     double contact_s, envelope_s, wall_s;

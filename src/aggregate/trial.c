@@ -90,12 +90,12 @@ static void draw_impact(const clx_search *s, int64_t number, const double direct
     double side[2][3];
     clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_OFFSET,
                              clx_aim_index(&s->aim, number, s->aim.n_ray));
-    const double reach = s->reach + s->scale * s->group->radius;
-    const double b = reach * sqrt(clx_rng_uniform(&rng));
-    const double turn = 2.0 * CLAST_PI * clx_rng_uniform(&rng);
+    const double bounding_radius = s->bounding_radius + s->scale * s->group->radius;
+    const double b = bounding_radius * sqrt(clx_rng_uniform(&rng));
+    const double angle = 2.0 * CLAST_PI * clx_rng_uniform(&rng);
     v3_frame(direction, side[0], side[1]);
-    v3_axpy(origin, s->centre, b * cos(turn), side[0]);
-    v3_axpy(origin, origin, b * sin(turn), side[1]);
+    v3_axpy(origin, s->centre, b * cos(angle), side[0]);
+    v3_axpy(origin, origin, b * sin(angle), side[1]);
 }
 
 /// Start of the move: at `start` sizes beyond the last hit of the ray, or from outside of all.
@@ -194,8 +194,9 @@ static double losing_place(const clx_search *s, const ray *r, double best)
     double h2;
     foot_of(s, r, &b, &h2);
     const double margin = margin_of(s, best);
-    const double reach = best + margin;
-    return isfinite(best) ? b + sqrt(fmax(0.0, reach * reach - h2)) + margin : HUGE_VAL;
+    const double bounding_radius = best + margin;
+    return isfinite(best) ? b + sqrt(fmax(0.0, bounding_radius * bounding_radius - h2)) + margin
+                          : HUGE_VAL;
 }
 
 bool clx_search_fly(const clx_search *s, const double origin[3], const double orientation[4],

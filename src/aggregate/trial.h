@@ -26,9 +26,9 @@ typedef struct clx_search {
     int32_t origin;            ///< clast_ray_origin, but never AUTO
     double centre[3];          ///< rays' origin for CORE and MASS
     double target[3];
-    int32_t approach; ///< clast_approach
-    double reach;     ///< everything lies within this distance of `centre`, unless CENTRAL
-    double walk_step; ///< least step of a walk, by the radius of the smallest part
+    int32_t approach;       ///< clast_approach
+    double bounding_radius; ///< everything lies within this distance of `centre`, unless CENTRAL
+    double walk_step;       ///< least step of a walk, by the radius of the smallest part
 
     clx_aim aim;
     int32_t n_orientation; ///< on each of aim.n_ray rays

@@ -65,15 +65,15 @@ static bool come_back(walk *w)
         return false;
     }
     const double u = clx_rng_uniform(&w->rng);
-    const double turn = 2.0 * CLAST_PI * clx_rng_uniform(&w->rng);
+    const double angle = 2.0 * CLAST_PI * clx_rng_uniform(&w->rng);
     const double part = (1.0 - q * q) / (1.0 - q + 2.0 * q * u);
     const double c = fmax(-1.0, fmin(1.0, (1.0 + q * q - part * part) / (2.0 * q)));
     const double s = sqrt(1.0 - c * c);
     v3_scale(out, 1.0 / distance, out);
     v3_frame(out, side[0], side[1]);
     v3_axpy(w->x, w->search->centre, w->outer * c, out);
-    v3_axpy(w->x, w->x, w->outer * s * cos(turn), side[0]);
-    v3_axpy(w->x, w->x, w->outer * s * sin(turn), side[1]);
+    v3_axpy(w->x, w->x, w->outer * s * cos(angle), side[0]);
+    v3_axpy(w->x, w->x, w->outer * s * sin(angle), side[1]);
     return true;
 }
 
@@ -138,7 +138,8 @@ static void run_walk(clx_search *search, int32_t tries, clx_landing *landing)
     CLAST_ASSERT(tries > 0 && search->walk_step > 0.0);
     walk w = {.search = search};
     w.least = search->walk_step * smallest_part(search);
-    w.outer = (search->reach + search->scale * search->group->radius) * (1.0 + 1e-12) + w.least;
+    w.outer =
+        (search->bounding_radius + search->scale * search->group->radius) * (1.0 + 1e-12) + w.least;
     w.rng = clx_rng_at(search->aim.seed, CLX_STREAM_AGGREGATE_WALK, (uint64_t)search->aim.particle);
     *landing = (clx_landing){0};
     for (search->aim.attempt = 0; search->aim.attempt < tries; ++search->aim.attempt) {

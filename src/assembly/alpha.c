@@ -36,7 +36,7 @@ typedef struct {
     double low[3], spacing;
     double middle[3]; ///< of the kept points
     int64_t n_cell[3];
-    int64_t n, room;
+    int64_t n, capacity;
     sample *item;
     int32_t n_point;
     double (*point)[3];
@@ -58,7 +58,7 @@ static clast_status add_sample(cloud *c, const double at[3])
         c->n < MAX_SAMPLES, CLAST_E_LIMIT,
         "alpha: more than %d surface points at a spacing of %s; choose a greater envelope_length",
         MAX_SAMPLES, clx_unit_text(c->spacing, "m"));
-    CLX_TRY(clx_grow(&c->item, &c->room, c->n + 1, sizeof *c->item));
+    CLX_TRY(clx_grow(&c->item, &c->capacity, c->n + 1, sizeof *c->item));
     for (int k = 2; k >= 0; --k) {
         key = key * c->n_cell[k] + (int64_t)((at[k] - c->low[k]) / c->spacing);
     }

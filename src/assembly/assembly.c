@@ -201,7 +201,7 @@ clast_status clast_assembly_add_contact(clast_assembly *assembly, int32_t i, int
     const int32_t c = assembly->n_contact;
     CLX_CHECK(assembly->contact_capacity <= 0 ||
                   (assembly->contact != NULL && assembly->contact_point != NULL),
-              CLAST_E_ARGUMENT, "%s: room for %d contacts that is NULL", __func__,
+              CLAST_E_ARGUMENT, "%s: a capacity of %d contacts in an array that is NULL", __func__,
               assembly->contact_capacity);
     CLX_CHECK(i >= 0 && j >= 0 && i < assembly->n_grain && j < assembly->n_grain && i != j,
               CLAST_E_USAGE, "no contact between grains %d and %d of %d", i, j, assembly->n_grain);
@@ -279,22 +279,22 @@ static void widen(double low[3], double high[3], const double centre[3], const d
 
 /// Half-width of a turned ellipsoid along axis k: sqrt(sum_j (R_kj a_j)^2).
 static void widen_ellipsoid(double low[3], double high[3], const double position[3],
-                            double turn[3][3], double scale, const double axes[3])
+                            double rotation[3][3], double scale, const double axes[3])
 {
     double half[3];
     for (int k = 0; k < 3; ++k) {
-        const double stretched[3] = {turn[k][0] * axes[0], turn[k][1] * axes[1],
-                                     turn[k][2] * axes[2]};
+        const double stretched[3] = {rotation[k][0] * axes[0], rotation[k][1] * axes[1],
+                                     rotation[k][2] * axes[2]};
         half[k] = scale * v3_norm(stretched);
     }
     widen(low, high, position, half);
 }
 
-static void place(double out[3], double turn[3][3], const double position[3], double scale,
+static void place(double out[3], double rotation[3][3], const double position[3], double scale,
                   const double point[3])
 {
     double turned[3];
-    m3_to_world(turned, turn, point);
+    m3_to_world(turned, rotation, point);
     v3_axpy(out, position, scale, turned);
 }
 
@@ -305,9 +305,9 @@ static void widen_grain(const clast_assembly *a, int32_t i, double low[3], doubl
     const clast_shape *shape = &a->shape[a->shape_id[i]];
     const double s = a->scale[i];
     const double *position = a->position[i];
-    double turn[3][3];
+    double rotation[3][3];
     double at[3];
-    q_matrix(turn, a->orientation[i]);
+    q_matrix(rotation, a->orientation[i]);
     switch (shape->kind) {
     case CLAST_SHAPE_SPHERE: {
         const double r = s * shape->semi_axes[0];
@@ -315,18 +315,18 @@ static void widen_grain(const clast_assembly *a, int32_t i, double low[3], doubl
         break;
     }
     case CLAST_SHAPE_ELLIPSOID:
-        widen_ellipsoid(low, high, position, turn, s, shape->semi_axes);
+        widen_ellipsoid(low, high, position, rotation, s, shape->semi_axes);
         break;
     case CLAST_SHAPE_CLUMP:
         for (int32_t k = 0; k < shape->spheres.n; ++k) {
             const double r = s * shape->spheres.radius[k];
-            place(at, turn, position, s, shape->spheres.centre[k]);
+            place(at, rotation, position, s, shape->spheres.centre[k]);
             widen(low, high, at, (double[3]){r, r, r});
         }
         break;
     case CLAST_SHAPE_MESH:
         for (int32_t v = 0; v < shape->mesh.n_vert; ++v) {
-            place(at, turn, position, s, shape->mesh.vert[v]);
+            place(at, rotation, position, s, shape->mesh.vert[v]);
             widen(low, high, at, nothing);
         }
         break;

@@ -15,8 +15,8 @@ static inline double clx_ball_within(double r, double d, double limit)
     if (limit <= r - d) {
         return 4.0 / 3.0 * CLAST_PI * limit * limit * limit;
     }
-    const double reach = limit + r - d;
+    const double overlap = limit + r - d;
     const double skew = limit - r;
-    return CLAST_PI * reach * reach * (d * d + 2.0 * d * (limit + r) - 3.0 * skew * skew) /
+    return CLAST_PI * overlap * overlap * (d * d + 2.0 * d * (limit + r) - 3.0 * skew * skew) /
            (12.0 * d);
 }

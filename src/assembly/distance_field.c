@@ -113,11 +113,11 @@ static bool node_range(const clx_grid *g, int axis, const double low_high[2], in
     return range[0] <= range[1];
 }
 
-static bool ranges_around(const clx_grid *g, const double centre[3], double reach,
+static bool ranges_around(const clx_grid *g, const double centre[3], double max_distance,
                           int32_t range[3][2])
 {
     for (int k = 0; k < 3; ++k) {
-        const double around[2] = {centre[k] - reach, centre[k] + reach};
+        const double around[2] = {centre[k] - max_distance, centre[k] + max_distance};
         if (!node_range(g, k, around, range[k])) {
             return false;
         }
@@ -145,14 +145,14 @@ static void sample_grain(const clx_distance_field *field, clx_grid *g, int32_t g
     const clast_assembly *a = field->assembly;
     const int32_t s = a->shape_id[grain];
     const double scale = a->scale[grain];
-    double turn[3][3];
+    double rotation[3][3];
     int32_t range[3][2];
     // Two spacings of margin: every row starts outside, with the band crossed before the surface.
     if (!ranges_around(g, a->position[grain], scale * a->shape[s].bounding_radius + 2.0 * g->h,
                        range)) {
         return;
     }
-    q_matrix(turn, a->orientation[grain]);
+    q_matrix(rotation, a->orientation[grain]);
     for (int64_t k = layers[0]; k < layers[1]; ++k) {
         if (k < range[2][0] || k > range[2][1]) {
             continue;
@@ -164,7 +164,7 @@ static void sample_grain(const clx_distance_field *field, clx_grid *g, int32_t g
                 double local[3];
                 node_at(g, i, j, (int32_t)k, x);
                 v3_sub(x, x, a->position[grain]);
-                m3_to_local(local, turn, x);
+                m3_to_local(local, rotation, x);
                 v3_scale(local, 1.0 / scale, local);
                 lower(g, i, j, (int32_t)k, scale * shape_distance(field, s, local, &row));
             }

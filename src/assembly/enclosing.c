@@ -93,32 +93,32 @@ static void grain_farthest(const clast_assembly *assembly, int32_t i, const doub
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double *position = assembly->position[i];
-    double turn[3][3];
+    double rotation[3][3];
     double c[3];
     double x[3];
     if (v3_distance(centre, position) + scale * shape->bounding_radius * (1.0 + 1e-12) <
         far->distance) {
         return;
     }
-    q_matrix(turn, assembly->orientation[i]);
+    q_matrix(rotation, assembly->orientation[i]);
     if (shape->kind == CLAST_SHAPE_SPHERE) {
         sphere_farthest(far, centre, position, scale * shape->semi_axes[0]);
     } else if (shape->kind == CLAST_SHAPE_ELLIPSOID) {
         v3_sub(c, centre, position);
-        m3_to_local(c, turn, c);
+        m3_to_local(c, rotation, c);
         v3_scale(c, 1.0 / scale, c);
         ellipsoid_farthest(shape->semi_axes, c, x);
-        m3_to_world(x, turn, x);
+        m3_to_world(x, rotation, x);
         v3_axpy(x, position, scale, x);
         keep_farther(far, centre, x);
     }
     for (int32_t k = 0; k < shape->spheres.n && shape->kind == CLAST_SHAPE_CLUMP; ++k) {
-        m3_to_world(x, turn, shape->spheres.centre[k]);
+        m3_to_world(x, rotation, shape->spheres.centre[k]);
         v3_axpy(x, position, scale, x);
         sphere_farthest(far, centre, x, scale * shape->spheres.radius[k]);
     }
     for (int32_t v = 0; v < shape->mesh.n_vert && shape->kind == CLAST_SHAPE_MESH; ++v) {
-        m3_to_world(x, turn, shape->mesh.vert[v]);
+        m3_to_world(x, rotation, shape->mesh.vert[v]);
         v3_axpy(x, position, scale, x);
         keep_farther(far, centre, x);
     }

@@ -107,16 +107,16 @@ static void second_moments(const clast_assembly *a, double c[3][3])
         const double own = a->density[i] * s * s * s * s * s;
         const double half =
             0.5 * (shape->inertia[0][0] + shape->inertia[1][1] + shape->inertia[2][2]);
-        double turn[3][3];
+        double rotation[3][3];
         double d[3];
-        q_matrix(turn, a->orientation[i]);
+        q_matrix(rotation, a->orientation[i]);
         v3_sub(d, a->position[i], centre);
         for (int r = 0; r < 3; ++r) {
             for (int k = 0; k < 3; ++k) {
                 c[r][k] += m * d[r] * d[k];
                 for (int p = 0; p < 3; ++p) {
                     for (int q = 0; q < 3; ++q) {
-                        c[r][k] += own * turn[r][p] * turn[k][q] *
+                        c[r][k] += own * rotation[r][p] * rotation[k][q] *
                                    ((p == q ? half : 0.0) - shape->inertia[p][q]);
                     }
                 }

@@ -116,13 +116,13 @@ done:
 }
 
 static clast_status add_spheres(const clx_hull_part *part, const double position[3],
-                                double turn[3][3], double scale, clx_smooth_hull *hull)
+                                double rotation[3][3], double scale, clx_smooth_hull *hull)
 {
     clast_status status = CLAST_OK;
     for (int32_t k = 0; k < part->spheres.n; ++k) {
         clx_body body;
         double at[3];
-        m3_to_world(at, turn, part->spheres.centre[k]);
+        m3_to_world(at, rotation, part->spheres.centre[k]);
         v3_axpy(at, position, scale, at);
         clx_body_sphere(&body, at, scale * part->spheres.radius[k]);
         CLX_TRY(clx_smooth_hull_add_body(hull, &body));
@@ -138,23 +138,23 @@ clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *ass
     clast_status status = CLAST_OK;
     const double *position = assembly->position[i];
     const double scale = assembly->scale[i];
-    double turn[3][3];
+    double rotation[3][3];
     CLX_TRY(update(parts, assembly));
     clx_hull_part *part = &parts->part[assembly->shape_id[i]];
     if (clx_smooth_hull_hides(hull, position, scale * part->radius)) {
         goto done;
     }
-    q_matrix(turn, assembly->orientation[i]);
+    q_matrix(rotation, assembly->orientation[i]);
     if (part->is_ellipsoid) {
         clx_body body;
         double axes[3];
         v3_scale(axes, scale, part->semi_axes);
-        clx_body_ellipsoid(&body, position, turn, axes);
+        clx_body_ellipsoid(&body, position, rotation, axes);
         CLX_TRY(clx_smooth_hull_add_body(hull, &body));
     }
-    CLX_TRY(add_spheres(part, position, turn, scale, hull));
+    CLX_TRY(add_spheres(part, position, rotation, scale, hull));
     for (int32_t v = 0; v < part->n_vert; ++v) {
-        m3_to_world(part->at[v], turn, part->vert[v]);
+        m3_to_world(part->at[v], rotation, part->vert[v]);
         v3_axpy(part->at[v], position, scale, part->at[v]);
     }
     CLX_TRY(clx_smooth_hull_add_points(hull, part->n_vert, (const double(*)[3])part->at));
@@ -164,7 +164,7 @@ done:
 
 /// A grain and how far out it reaches.
 typedef struct {
-    double reach;
+    double extent;
     int32_t grain;
 } outer;
 
@@ -172,8 +172,8 @@ static int farther_first(const void *a, const void *b)
 {
     const outer *x = a;
     const outer *y = b;
-    return x->reach != y->reach ? (x->reach < y->reach ? 1 : -1)
-                                : (x->grain > y->grain) - (x->grain < y->grain);
+    return x->extent != y->extent ? (x->extent < y->extent ? 1 : -1)
+                                  : (x->grain > y->grain) - (x->grain < y->grain);
 }
 
 /// The grains by their distance from the mean of all, bounding radius included.
@@ -186,7 +186,7 @@ static void rank_grains(const clx_hull_parts *parts, const clast_assembly *assem
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         const double radius = parts->part[assembly->shape_id[i]].radius;
         order[i].grain = i;
-        order[i].reach = v3_distance(assembly->position[i], mean) + assembly->scale[i] * radius;
+        order[i].extent = v3_distance(assembly->position[i], mean) + assembly->scale[i] * radius;
     }
     qsort(order, (size_t)assembly->n_grain, sizeof *order, farther_first);
 }

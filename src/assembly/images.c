@@ -17,7 +17,7 @@ typedef struct {
     int32_t n_own;
     int32_t *origin;    ///< [all.n_grain] the grain that each is
     double (*shift)[3]; ///< [n_own] from a grain to its image within the box
-    int64_t room;
+    int64_t capacity;
 } imaged;
 
 static void imaged_free(imaged *m)
@@ -34,7 +34,7 @@ static clast_status add_image(const clast_assembly *a, int32_t i, const double s
     clast_status status = CLAST_OK;
     double at[3];
     v3_add(at, a->position[i], shift);
-    CLX_TRY(clx_grow(&m->origin, &m->room, (int64_t)m->all.n_grain + 1, sizeof *m->origin));
+    CLX_TRY(clx_grow(&m->origin, &m->capacity, (int64_t)m->all.n_grain + 1, sizeof *m->origin));
     m->origin[m->all.n_grain] = i;
     CLX_TRY(clast_assembly_add_grain(&m->all, a->shape_id[i], at, a->orientation[i], a->scale[i],
                                      a->density[i]));
@@ -42,7 +42,7 @@ done:
     return status;
 }
 
-static double reach_of(const clast_assembly *a, int32_t i)
+static double bounding_radius_of(const clast_assembly *a, int32_t i)
 {
     return a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
 }
@@ -67,16 +67,16 @@ static clast_status add_images(const clast_assembly *a, int32_t i, const clast_p
 {
     clast_status status = CLAST_OK;
     for (int image = 0; image < 27; ++image) {
-        const int turn[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+        const int step[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
         double shift[3];
         bool is_near = image != 13; // 13 is the grain itself
         for (int k = 0; k < 3 && is_near; ++k) {
-            shift[k] = turn[k] * period->length[k];
+            shift[k] = step[k] * period->length[k];
             const double x = m->all.position[i][k] + shift[k] - period->low[k];
             shift[k] += m->shift[i][k];
-            const double reach = reach_of(a, i) + near;
-            is_near = turn[k] == 0 ||
-                      (period->length[k] > 0.0 && x > -reach && x < period->length[k] + reach);
+            const double bounding_radius = bounding_radius_of(a, i) + near;
+            is_near = step[k] == 0 || (period->length[k] > 0.0 && x > -bounding_radius &&
+                                       x < period->length[k] + bounding_radius);
         }
         if (is_near) {
             CLX_TRY(add_image(a, i, shift, m));
@@ -97,7 +97,7 @@ static clast_status make_images(const clast_assembly *a, const clast_period *per
         CLX_TRY(clast_assembly_add_shape(&m->all, &a->shape[s], NULL));
     }
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        largest = fmax(largest, reach_of(a, i));
+        largest = fmax(largest, bounding_radius_of(a, i));
         find_shift(a, i, period, m->shift[i]);
         CLX_TRY(add_image(a, i, m->shift[i], m));
     }

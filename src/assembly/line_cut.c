@@ -25,33 +25,33 @@ static double climb(double matrix[3][3], const double x[3], const double from[3]
 {
     double y[3];
     double u[3];
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     v3_copy(y, from);
     for (int i = 0; i < 200 && v3_unit(u, y); ++i) {
         double m[3];
         m3_mul(m, matrix, u);
         v3_axpy(y, x, 1.0 / sqrt(v3_dot(u, m)), m);
         const double now = v3_norm(y);
-        if (!(now > reach * (1.0 + 1e-15))) {
+        if (!(now > bounding_radius * (1.0 + 1e-15))) {
             break;
         }
-        reach = now;
+        bounding_radius = now;
     }
-    return reach;
+    return bounding_radius;
 }
 
-double clx_part_reach(const clast_part *part)
+double clx_part_bounding_radius(const clast_part *part)
 {
-    double turn[3][3];
+    double rotation[3][3];
     double matrix[3][3];
-    double reach = 0.0;
-    q_matrix(turn, part->orientation);
+    double bounding_radius = 0.0;
+    q_matrix(rotation, part->orientation);
     for (int p = 0; p < 3; ++p) {
         for (int q = 0; q < 3; ++q) {
             matrix[p][q] = 0.0;
             for (int k = 0; k < 3; ++k) {
                 const double a = part->semi_axes[k];
-                matrix[p][q] += a * a * turn[p][k] * turn[q][k];
+                matrix[p][q] += a * a * rotation[p][k] * rotation[q][k];
             }
         }
     }
@@ -59,11 +59,11 @@ double clx_part_reach(const clast_part *part)
         double from[3];
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
         for (int p = 0; p < 3; ++p) {
-            from[p] = part->position[p] + sign * part->semi_axes[k / 2] * turn[p][k / 2];
+            from[p] = part->position[p] + sign * part->semi_axes[k / 2] * rotation[p][k / 2];
         }
-        reach = fmax(reach, climb(matrix, part->position, from));
+        bounding_radius = fmax(bounding_radius, climb(matrix, part->position, from));
     }
-    return reach * (1.0 + 1e-12);
+    return bounding_radius * (1.0 + 1e-12);
 }
 
 /// A part as lines meet it: planes n.x <= n[3], or (x - c).Q(x - c) <= 1.
@@ -108,17 +108,17 @@ static void set_planes(const clast_mesh *mesh, const clast_part *part, double (*
 
 static void set_ellipsoid(const clast_part *part, body *b)
 {
-    double turn[3][3];
-    q_matrix(turn, part->orientation);
+    double rotation[3][3];
+    q_matrix(rotation, part->orientation);
     v3_copy(b->centre, part->position);
     for (int p = 0; p < 3; ++p) {
         double half = 0.0;
         for (int k = 0; k < 3; ++k) {
-            half += turn[p][k] * part->semi_axes[k] * (turn[p][k] * part->semi_axes[k]);
+            half += rotation[p][k] * part->semi_axes[k] * (rotation[p][k] * part->semi_axes[k]);
             b->q[p][k] = 0.0;
             for (int i = 0; i < 3; ++i) {
                 const double a = part->semi_axes[i];
-                b->q[p][k] += turn[p][i] * turn[k][i] / (a * a);
+                b->q[p][k] += rotation[p][i] * rotation[k][i] / (a * a);
             }
         }
         b->low[p] = part->position[p] - sqrt(half);
@@ -197,7 +197,7 @@ static void common(int32_t n, double (*x)[2], double m[3])
 }
 
 /// Mass of what each interval shares with those of earlier parts; `room` holds n intervals.
-static void surplus_of(int32_t n, double (*x)[2], const double *density, double (*room)[2],
+static void surplus_of(int32_t n, double (*x)[2], const double *density, double (*shared_span)[2],
                        double m[3])
 {
     m[0] = m[1] = m[2] = 0.0;
@@ -206,15 +206,15 @@ static void surplus_of(int32_t n, double (*x)[2], const double *density, double 
         double twice[3];
         int32_t k = 0;
         for (int32_t j = 0; j < i; ++j) {
-            room[k][0] = fmax(x[i][0], x[j][0]);
-            room[k][1] = fmin(x[i][1], x[j][1]);
-            k += room[k][1] > room[k][0] ? 1 : 0;
+            shared_span[k][0] = fmax(x[i][0], x[j][0]);
+            shared_span[k][1] = fmin(x[i][1], x[j][1]);
+            k += shared_span[k][1] > shared_span[k][0] ? 1 : 0;
         }
         v3_set(shared, 0.0, 0.0, 0.0);
         for (int32_t j = 0; j < k; ++j) {
-            add_interval(shared, 1.0, room[j]);
+            add_interval(shared, 1.0, shared_span[j]);
         }
-        common(k, room, twice);
+        common(k, shared_span, twice);
         v3_sub(shared, shared, twice);
         v3_axpy(m, m, density[i], shared);
     }
@@ -278,15 +278,15 @@ static void add_line(double moments[10], const double m[3], double y, double z, 
 
 /// What a line meets, in the order of parts.
 typedef struct {
-    double (*x)[2];    ///< [n_part] intervals
-    double (*room)[2]; ///< [n_part]
-    double *density;   ///< [n_part] of these intervals
+    double (*x)[2];           ///< [n_part] intervals
+    double (*shared_span)[2]; ///< [n_part]
+    double *density;          ///< [n_part] of these intervals
 } met;
 
 static void met_free(met *line)
 {
     clx_free(line->x);
-    clx_free(line->room);
+    clx_free(line->shared_span);
     clx_free(line->density);
 }
 
@@ -294,7 +294,7 @@ static clast_status met_alloc(int32_t n, met *line)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&line->x, n, sizeof *line->x));
-    CLX_TRY(clx_alloc(&line->room, n, sizeof *line->room));
+    CLX_TRY(clx_alloc(&line->shared_span, n, sizeof *line->shared_span));
     CLX_TRY(clx_alloc(&line->density, n, sizeof *line->density));
 done:
     return status;
@@ -345,7 +345,7 @@ clast_status clx_common_moments(const clast_parts *parts, const clast_mesh *mesh
         double m[3];
         const int32_t n = meet(parts->n, b, density, at, &on);
         if (n > 1 && density != NULL) { // before the intervals are sorted
-            surplus_of(n, on.x, on.density, on.room, m);
+            surplus_of(n, on.x, on.density, on.shared_span, m);
             add_line(surplus, m, at[0], at[1], area);
         }
         if (n > 1) {

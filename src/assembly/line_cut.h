@@ -6,7 +6,7 @@
 clast_mesh clx_part_mesh(const clast_mesh *mesh, const clast_part *part);
 
 /// Greatest distance of a sphere's or ellipsoid's surface from the origin.
-double clx_part_reach(const clast_part *part);
+double clx_part_bounding_radius(const clast_part *part);
 
 /// Moments about the origin of what parts have in common, counted once less than it has parts:
 /// volume, x, y, z, xx, yy, zz, xy, xz, yz. Zero without common boxes.

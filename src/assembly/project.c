@@ -29,11 +29,11 @@ typedef struct shadow {
     double a[3], b[3], d[3]; ///< lines along a, stacked along b, seen along d
     double low, step;        ///< line k is at low + (k + 1/2) step
     int32_t n_line;
-    int64_t n, room;
+    int64_t n, capacity;
     shade *shade; ///< of the present grain
-    int64_t n_own, own_room;
+    int64_t n_own, own_capacity;
     span *own; ///< spans of the present grain
-    int64_t n_span, span_room;
+    int64_t n_span, span_capacity;
     span *span; ///< what each grain covers of each line, its own spans joined
 } shadow;
 
@@ -47,7 +47,7 @@ static void shadow_free(shadow *s)
 
 static clast_status add_shade(shadow *s, const shade *item)
 {
-    const clast_status status = clx_grow(&s->shade, &s->room, s->n + 1, sizeof *s->shade);
+    const clast_status status = clx_grow(&s->shade, &s->capacity, s->n + 1, sizeof *s->shade);
     if (status == CLAST_OK) {
         s->shade[s->n++] = *item;
     }
@@ -102,22 +102,22 @@ static clast_status add_grain(const clast_assembly *assembly, int32_t i, shadow 
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double *position = assembly->position[i];
-    double turn[3][3];
-    q_matrix(turn, assembly->orientation[i]);
+    double rotation[3][3];
+    q_matrix(rotation, assembly->orientation[i]);
     if (shape->kind == CLAST_SHAPE_SPHERE) {
         CLX_TRY(add_ball(s, position, scale * shape->semi_axes[0]));
     } else if (shape->kind == CLAST_SHAPE_ELLIPSOID) {
         double half[3][3];
         for (int r = 0; r < 3; ++r) {
             for (int c = 0; c < 3; ++c) {
-                half[r][c] = turn[r][c] * scale * shape->semi_axes[c];
+                half[r][c] = rotation[r][c] * scale * shape->semi_axes[c];
             }
         }
         CLX_TRY(add_ellipse(s, position, half));
     } else if (shape->kind == CLAST_SHAPE_CLUMP) {
         for (int32_t k = 0; k < shape->spheres.n; ++k) {
             double at[3];
-            m3_to_world(at, turn, shape->spheres.centre[k]);
+            m3_to_world(at, rotation, shape->spheres.centre[k]);
             v3_axpy(at, position, scale, at);
             CLX_TRY(add_ball(s, at, scale * shape->spheres.radius[k]));
         }
@@ -125,7 +125,7 @@ static clast_status add_grain(const clast_assembly *assembly, int32_t i, shadow 
         for (int32_t t = 0; t < shape->mesh.n_tri; ++t) {
             double corner[3][3];
             for (int k = 0; k < 3; ++k) {
-                m3_to_world(corner[k], turn, shape->mesh.vert[shape->mesh.tri[t][k]]);
+                m3_to_world(corner[k], rotation, shape->mesh.vert[shape->mesh.tri[t][k]]);
                 v3_axpy(corner[k], position, scale, corner[k]);
             }
             CLX_TRY(add_triangle(s, corner));
@@ -200,7 +200,7 @@ static clast_status scan_shade(shadow *s, const shade *item)
             break;
         }
         if (cover(item, y, &found)) {
-            CLX_TRY(clx_grow(&s->own, &s->own_room, s->n_own + 1, sizeof *s->own));
+            CLX_TRY(clx_grow(&s->own, &s->own_capacity, s->n_own + 1, sizeof *s->own));
             s->own[s->n_own++] = found;
         }
     }
@@ -219,7 +219,7 @@ static clast_status scan_grain(const clast_assembly *assembly, int32_t i, shadow
         CLX_TRY(scan_shade(s, &s->shade[k]));
     }
     s->n_own = join_spans(s->own, s->n_own);
-    CLX_TRY(clx_grow(&s->span, &s->span_room, s->n_span + s->n_own, sizeof *s->span));
+    CLX_TRY(clx_grow(&s->span, &s->span_capacity, s->n_span + s->n_own, sizeof *s->span));
     for (int64_t k = 0; k < s->n_own; ++k) {
         s->span[s->n_span++] = s->own[k];
     }
@@ -228,7 +228,7 @@ done:
 }
 
 /// Extent of a shape along a direction of its own frame.
-static void shape_reach(const clast_shape *shape, const double u[3], double *low, double *high)
+static void shape_extent(const clast_shape *shape, const double u[3], double *low, double *high)
 {
     if (shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_ELLIPSOID) {
         double w[3];
@@ -260,13 +260,13 @@ static void set_lines(const clast_assembly *assembly, shadow *s, int32_t n_line)
     double high = -INFINITY;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         const double at = v3_dot(assembly->position[i], s->b);
-        double turn[3][3];
+        double rotation[3][3];
         double u[3];
         double l;
         double h;
-        q_matrix(turn, assembly->orientation[i]);
-        m3_to_local(u, turn, s->b);
-        shape_reach(&assembly->shape[assembly->shape_id[i]], u, &l, &h);
+        q_matrix(rotation, assembly->orientation[i]);
+        m3_to_local(u, rotation, s->b);
+        shape_extent(&assembly->shape[assembly->shape_id[i]], u, &l, &h);
         low = fmin(low, at + assembly->scale[i] * l);
         high = fmax(high, at + assembly->scale[i] * h);
     }
@@ -339,9 +339,9 @@ static clast_status project_some(int64_t begin, int64_t end, int32_t worker, voi
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const double z = ((double)i + 0.5) / m->n;
-        const double turn = 2.0 * CLAST_PI * 0.61803398874989484820 * (double)i;
+        const double angle = 2.0 * CLAST_PI * 0.61803398874989484820 * (double)i;
         const double r = sqrt(1.0 - z * z);
-        const double direction[3] = {r * cos(turn), r * sin(turn), z};
+        const double direction[3] = {r * cos(angle), r * sin(angle), z};
         double apart = 0.0;
         CLX_TRY(project_lines(m->assembly, direction, m->n_line, &m->area[i], &apart));
     }

@@ -57,8 +57,8 @@ static double within_shell(const profile *p, int32_t k, const clx_touch_body *bo
         const double r = cbrt(low + c[0] * (high - low));
         const double z = 2.0 * c[1] - 1.0;
         const double across = sqrt(fmax(0.0, 1.0 - z * z));
-        const double turn = 2.0 * CLAST_PI * c[2];
-        const double u[3] = {across * cos(turn), across * sin(turn), z};
+        const double angle = 2.0 * CLAST_PI * c[2];
+        const double u[3] = {across * cos(angle), across * sin(angle), z};
         v3_axpy(x, centre, r, u);
         hits += clx_body_holds(body, x);
     }
@@ -132,14 +132,15 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set, const 
     }
 }
 
-static double reach_of(const clast_assembly *a, const double centre[3])
+static double bounding_radius_of(const clast_assembly *a, const double centre[3])
 {
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        reach = fmax(reach, v3_distance(a->position[i], centre) +
-                                a->scale[i] * a->shape[a->shape_id[i]].bounding_radius);
+        bounding_radius =
+            fmax(bounding_radius, v3_distance(a->position[i], centre) +
+                                      a->scale[i] * a->shape[a->shape_id[i]].bounding_radius);
     }
-    return reach;
+    return bounding_radius;
 }
 
 /// Adds the columns; pointers are asked for at the end, since adding moves none of them.
@@ -175,7 +176,7 @@ clast_status clast_assembly_radial_profile(const clast_assembly *assembly, const
     CLX_TRY(clast_table_init(&made, "radial_profile", n_bin));
     CLX_TRY(make_columns(&made));
     profile p = {.n_bin = n_bin,
-                 .step = reach_of(assembly, c) / n_bin,
+                 .step = bounding_radius_of(assembly, c) / n_bin,
                  .solid = clast_table_numbers(&made, "solid_m3"),
                  .error = clast_table_numbers(&made, "solid_error_m3"),
                  .mass = clast_table_numbers(&made, "density_kg/m^3")};

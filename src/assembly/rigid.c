@@ -160,14 +160,14 @@ static clast_status own_moments(const joined *j, const clast_part *part, double 
         }
         volume = mass.volume;
     } else { // V a^2 / 5 along its axes
-        double turn[3][3];
-        q_matrix(turn, part->orientation);
+        double rotation[3][3];
+        q_matrix(rotation, part->orientation);
         for (int p = 0; p < 3; ++p) {
             for (int q = 0; q < 3; ++q) {
                 c[p][q] = 0.0;
                 for (int k = 0; k < 3; ++k) {
                     const double a = part->semi_axes[k];
-                    c[p][q] += 0.2 * volume * a * a * turn[p][k] * turn[q][k];
+                    c[p][q] += 0.2 * volume * a * a * rotation[p][k] * rotation[q][k];
                 }
             }
         }
@@ -256,7 +256,7 @@ done:
 /// Moves all so that the centroid is the origin; how far the body reaches from it.
 static double centre(joined *j, const double centroid[3])
 {
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     for (int32_t v = 0; v < j->mesh.n_vert; ++v) {
         v3_sub(j->mesh.vert[v], j->mesh.vert[v], centroid);
     }
@@ -264,13 +264,13 @@ static double centre(joined *j, const double centroid[3])
         clast_part *part = &j->parts.part[i];
         v3_sub(part->position, part->position, centroid);
         if (part->kind != CLAST_SHAPE_MESH) {
-            reach = fmax(reach, clx_part_reach(part));
+            bounding_radius = fmax(bounding_radius, clx_part_bounding_radius(part));
         }
         for (int32_t v = part->vert[0]; v < part->vert[1] && part->kind == CLAST_SHAPE_MESH; ++v) {
-            reach = fmax(reach, v3_norm(j->mesh.vert[v]));
+            bounding_radius = fmax(bounding_radius, v3_norm(j->mesh.vert[v]));
         }
     }
-    return reach;
+    return bounding_radius;
 }
 
 clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *name,

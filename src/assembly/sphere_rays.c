@@ -24,7 +24,7 @@ typedef struct rays {
     double centre[3];
     int32_t n_ray;
     double (*direction)[3]; ///< [n_ray] sorted by cell, then by number
-    double *reach;          ///< [n_ray] farthest hit so far
+    double *farthest;       ///< [n_ray] farthest hit so far
     double (*hit)[3];       ///< [n_ray]
     int32_t *number;        ///< [n_ray] number of the draw
     int32_t *tag;
@@ -37,7 +37,7 @@ static void rays_free(rays *r)
     clx_free(r->at);
     clx_free(r->radius);
     clx_free(r->direction);
-    clx_free(r->reach);
+    clx_free(r->farthest);
     clx_free(r->hit);
     clx_free(r->number);
     clx_free(r->tag);
@@ -89,14 +89,14 @@ static void place_spheres(const clast_assembly *assembly, rays *r)
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         double origin[1][3];
         double radius = 0.0;
-        double turn[3][3];
+        double rotation[3][3];
         const double scale = assembly->scale[i];
         const clast_spheres own =
             spheres_of(&assembly->shape[assembly->shape_id[i]], origin, &radius);
-        q_matrix(turn, assembly->orientation[i]);
+        q_matrix(rotation, assembly->orientation[i]);
         for (int32_t k = 0; k < own.n; ++k) {
             double *at = r->at[r->n_sphere];
-            m3_to_world(at, turn, own.centre[k]);
+            m3_to_world(at, rotation, own.centre[k]);
             v3_axpy(at, assembly->position[i], scale, at);
             const double radius_k = scale * own.radius[k];
             const double w = radius_k * radius_k * radius_k;
@@ -121,8 +121,8 @@ static int32_t belt_of(const rays *r, double z)
 static int32_t slot_of(const rays *r, const double d[3])
 {
     CLAST_ASSERT(r->n_slot > 0);
-    const double turn = 0.5 + atan2(d[1], d[0]) / (2.0 * CLAST_PI);
-    const int32_t slot = (int32_t)(turn * r->n_slot);
+    const double share = 0.5 + atan2(d[1], d[0]) / (2.0 * CLAST_PI);
+    const int32_t slot = (int32_t)(share * r->n_slot);
     return slot >= r->n_slot ? 0 : slot;
 }
 
@@ -169,7 +169,7 @@ static void meet_cells(rays *r, int32_t begin, int32_t end, int32_t s)
         const double along = v3_dot(at, r->direction[i]);
         const double under = along * along - beyond;
         if (under >= 0.0) {
-            r->reach[i] = fmax(r->reach[i], along + sqrt(under));
+            r->farthest[i] = fmax(r->farthest[i], along + sqrt(under));
         }
     }
 }
@@ -210,7 +210,7 @@ static void meet_one(rays *r, int32_t i, int32_t s, const double start[3])
     const double along = v3_dot(at, r->direction[i]);
     const double under = along * along - v3_norm2(at) + r->radius[s] * r->radius[s];
     if (under >= 0.0) {
-        r->reach[i] = fmax(r->reach[i], along + sqrt(under));
+        r->farthest[i] = fmax(r->farthest[i], along + sqrt(under));
     }
 }
 
@@ -223,7 +223,7 @@ static void meet_line(rays *r, int32_t i, double start[3])
         meet_one(r, i, s, start);
         nearest = v3_norm2(r->at[s]) < v3_norm2(r->at[nearest]) ? s : nearest;
     }
-    if (!isfinite(r->reach[i])) {
+    if (!isfinite(r->farthest[i])) {
         v3_copy(start, r->at[nearest]);
         for (int32_t s = 0; s < r->n_sphere; ++s) {
             meet_one(r, i, s, start);
@@ -245,7 +245,7 @@ static clast_status rays_alloc(const clast_assembly *assembly,
     r->n_belt = (int32_t)fmax(2.0, fmin(0.4 * sqrt(r->n_ray), 512.0));
     r->n_slot = 2 * r->n_belt;
     CLX_TRY(clx_alloc(&r->direction, r->n_ray, sizeof *r->direction));
-    CLX_TRY(clx_alloc(&r->reach, r->n_ray, sizeof *r->reach));
+    CLX_TRY(clx_alloc(&r->farthest, r->n_ray, sizeof *r->farthest));
     CLX_TRY(clx_alloc(&r->hit, r->n_ray, sizeof *r->hit));
     CLX_TRY(clx_alloc(&r->number, r->n_ray, sizeof *r->number));
     CLX_TRY(clx_alloc(&r->tag, r->n_ray, sizeof *r->tag));
@@ -289,17 +289,17 @@ clast_status clx_envelope_sphere_rays(const clast_assembly *assembly,
     place_spheres(assembly, &r);
     CLX_TRY(draw_directions(options->seed, &r));
     for (int32_t i = 0; i < r.n_ray; ++i) {
-        r.reach[i] = -INFINITY;
+        r.farthest[i] = -INFINITY;
     }
     for (int32_t s = 0; s < r.n_sphere; ++s) {
         meet_sphere(&r, s);
     }
     for (int32_t i = 0; i < r.n_ray; ++i) {
         v3_set(start, 0.0, 0.0, 0.0);
-        if (!isfinite(r.reach[i])) {
+        if (!isfinite(r.farthest[i])) {
             meet_line(&r, i, start);
         }
-        v3_axpy(r.hit[i], start, r.reach[i], r.direction[i]);
+        v3_axpy(r.hit[i], start, r.farthest[i], r.direction[i]);
     }
     CLX_TRY(hull_of_hits(&r, 0, 1, &volume));
     CLX_TRY(hull_of_hits(&r, 0, 2, &half[0]));

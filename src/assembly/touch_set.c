@@ -77,9 +77,9 @@ static bool append_touch(collector *c, int32_t other, const double point[3])
     if (other <= c->grain) {
         return true;
     }
-    p->status = clx_grow(&p->pair, &p->pair_room, (int64_t)p->n + 1, sizeof *p->pair);
+    p->status = clx_grow(&p->pair, &p->pair_capacity, (int64_t)p->n + 1, sizeof *p->pair);
     if (p->status == CLAST_OK) {
-        p->status = clx_grow(&p->point, &p->point_room, (int64_t)p->n + 1, sizeof *p->point);
+        p->status = clx_grow(&p->point, &p->point_capacity, (int64_t)p->n + 1, sizeof *p->point);
     }
     if (p->status == CLAST_OK) {
         p->pair[p->n][0] = c->grain;

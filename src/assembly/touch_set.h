@@ -19,7 +19,7 @@ typedef struct clx_pairs {
     int32_t n;
     int32_t (*pair)[2];
     double (*point)[3]; ///< between the closest points, for clx_touch_set_within only
-    int64_t pair_room, point_room;
+    int64_t pair_capacity, point_capacity;
     clast_status status; ///< of the collecting
 } clx_pairs;
 

@@ -35,7 +35,7 @@ typedef struct wrap {
     double *border;  ///< [n[2]] of these, cells that are cut
     bool of_centres; ///< distances to E are made, not to the solid
     int32_t *stack;
-    int64_t stack_room;
+    int64_t stack_capacity;
 } wrap;
 
 static void wrap_free(wrap *w)
@@ -174,14 +174,14 @@ static clast_status flood_centres(wrap *w)
     const clx_grid *g = &w->grid;
     const int64_t step[3] = {1, g->n[0], (int64_t)g->n[0] * g->n[1]};
     int64_t n = 1;
-    CLX_TRY(clx_grow(&w->stack, &w->stack_room, 1, sizeof *w->stack));
+    CLX_TRY(clx_grow(&w->stack, &w->stack_capacity, 1, sizeof *w->stack));
     w->stack[0] = 0; // a corner of the grid is far from all grains
     w->reachable[0] = 1;
     while (n > 0) {
         const int32_t p = w->stack[--n];
         int32_t at[3];
         node_of(g, p, at);
-        CLX_TRY(clx_grow(&w->stack, &w->stack_room, n + 6, sizeof *w->stack));
+        CLX_TRY(clx_grow(&w->stack, &w->stack_capacity, n + 6, sizeof *w->stack));
         for (int k = 0; k < 6; ++k) {
             const int axis = k / 2;
             const int32_t to = at[axis] + (k % 2 == 0 ? 1 : -1);

@@ -272,8 +272,8 @@ clast_status clx_file_write(clx_file *file, const void *bytes, size_t n)
     }
     file->written += (int64_t)n;
     while (n > 0) {
-        const size_t room = (size_t)(CLX_FILE_BUFFER - file->used);
-        const size_t part = n < room ? n : room;
+        const size_t n_free = (size_t)(CLX_FILE_BUFFER - file->used);
+        const size_t part = n < n_free ? n : n_free;
         memcpy(file->buffer + file->used, from, part);
         file->used += (int64_t)part;
         from += part;

@@ -36,7 +36,7 @@ clast_status clx_box_step(clx_box *s, double end, uint64_t step, clast_range_use
         clx_block_evolve(&b, dt);
     } else {
         CLX_CHECK(limit > 0, CLAST_E_LIMIT,
-                  "the box has more than %d kinds of particles; let it be dealt into blocks "
+                  "the box has more than %d kinds of particles; let it be partitioned into blocks "
                   "(block > 0)",
                   KIND_LIMIT);
         clx_block_evolve_dealt(&b, s->n_kind, dt);

@@ -340,7 +340,7 @@ static clast_status run_step(step_context *s, int64_t *total)
     clx_parallel_for(s->cells->n, CELLS_A_BLOCK, evolve_cells, s);
     for (int32_t c = 0; c < s->cells->n; ++c) {
         CLX_CHECK(!s->is_too_many[c], CLAST_E_LIMIT,
-                  "cell %d has more than %d kinds of particles; let it be dealt into blocks "
+                  "cell %d has more than %d kinds of particles; let it be partitioned into blocks "
                   "(block > 0)",
                   c, KIND_LIMIT);
         sum += s->n_event[c];

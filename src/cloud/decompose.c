@@ -120,7 +120,7 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
     case CLAST_STOP_WHOLE:
         return "rejected by the tests, not by the tree at tree_root_level: not split";
     case CLAST_STOP_DEPTH:
-        return "at the limit: cells of 20 halvings are still uneven";
+        return "at the limit: cells of 20 halvings are still non-uniform";
     case CLAST_STOP_SPARED:
         return "not tested: the workspace's policy spares the tests; the tree alone decides";
     }
@@ -129,9 +129,9 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
 
 const char *clast_decompose_unbounded_text(int64_t n_repeated)
 {
-    return n_repeated > 0 ? "so many points repeat the place of another, and there is no density "
-                            "at such a place; leave copies out"
-                          : "points lie closer together than cells of this domain can tell";
+    return n_repeated > 0 ? "so many points are duplicates (coincident points), where no density "
+                            "is defined; leave copies out"
+                          : "points lie closer together than cells of this domain can resolve";
 }
 
 static void free_cells(clast_cells *cells)

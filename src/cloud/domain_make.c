@@ -106,7 +106,7 @@ static clast_status check_surface(const clast_mesh_check_result *found)
               found->n_open_edge, found->n_open_loop);
     CLX_CHECK(found->oriented && found->volume > 0.0, CLAST_E_GEOMETRY,
               "the surface of the domain is not oriented outward: %d edges run the wrong way, %d "
-              "parts are inside out; turn them (clast mesh repair)",
+              "parts are inside out; orient them (clast mesh repair)",
               found->n_misoriented_edge, found->n_inside_out);
     CLX_CHECK(found->n_intersection == 0, CLAST_E_GEOMETRY,
               "the surface of the domain cuts itself at %lld pairs of triangles, first %d and %d; "
@@ -115,7 +115,7 @@ static clast_status check_surface(const clast_mesh_check_result *found)
     for (int32_t k = 0; k < found->n_part; ++k) {
         const clast_mesh_part *part = &found->part[k];
         CLX_CHECK((part->depth % 2 == 0) == (part->volume > 0.0), CLAST_E_GEOMETRY,
-                  "part %d of the domain's surface lies in %d others and is turned %sward: what is "
+                  "part %d of the domain's surface lies in %d others and is oriented %sward: what is "
                   "inside is not defined",
                   k, part->depth, part->volume > 0.0 ? "out" : "in");
     }

@@ -48,7 +48,7 @@ static void lay_cells(cells *c)
         extent = fmax(extent, high - c->low[j]);
     }
     const double most = (1 << AXIS_BITS) - 4; // and an empty cell at either end
-    c->side = fmax(p->reach, extent / most);
+    c->side = fmax(p->cutoff, extent / most);
 }
 
 static clast_status sort_points(cells *c)
@@ -92,7 +92,7 @@ static void add_row(const cells *c, int64_t k, uint64_t first, uint64_t last, cl
             const double r = at[j] - p->y[l * p->d + j];
             r2 += r * r;
         }
-        if (r2 <= p->reach * p->reach) {
+        if (r2 <= p->cutoff * p->cutoff) {
             clx_fixed_sum term;
             clx_fixed_powers(&c->scale, exp(-narrow * r2), 1, &term);
             clx_fixed_add(sum, &term);

@@ -8,7 +8,7 @@ typedef struct clx_gauss_beyond {
     int64_t n_beyond, n;
     const double *y; ///< [n][d]
     double beta;
-    double reach; ///< further apart a pair counts nothing
+    double cutoff; ///< further apart a pair counts nothing
 } clx_gauss_beyond;
 
 /// Sum of exp(-beta^2 |Y_k - Y_l|^2 / 2) over the ordered pairs, k = l included, of which at least

@@ -467,13 +467,13 @@ done:
 /// Points [..][d] that are put aside, some here, then of all ranks.
 typedef struct {
     double *y;
-    int64_t n, room;
+    int64_t n, capacity;
 } aside;
 
 static clast_status put_aside(const double *y, int32_t d, aside *to)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&to->y, &to->room, (to->n + 1) * d, sizeof *to->y));
+    CLX_TRY(clx_grow(&to->y, &to->capacity, (to->n + 1) * d, sizeof *to->y));
     memcpy(to->y + to->n * d, y, (size_t)d * sizeof *y);
     ++to->n;
 done:
@@ -481,7 +481,7 @@ done:
 }
 
 /// Further apart the kernel has no coefficients, and the Gaussian is below 1e-16.
-static double reach_of(const grid *g)
+static double cutoff_of(const grid *g)
 {
     return HALF_WIDTH * g->h;
 }
@@ -491,8 +491,8 @@ static bool is_at_edge(const grid *g, const double *y)
 {
     bool is_near = false;
     for (int32_t j = 0; j < g->d; ++j) {
-        is_near = is_near || (g->is_cut[j][0] && y[j] < g->end[j][0] + reach_of(g)) ||
-                  (g->is_cut[j][1] && y[j] > g->end[j][1] - reach_of(g));
+        is_near = is_near || (g->is_cut[j][0] && y[j] < g->end[j][0] + cutoff_of(g)) ||
+                  (g->is_cut[j][1] && y[j] > g->end[j][1] - cutoff_of(g));
     }
     return is_near;
 }
@@ -530,7 +530,7 @@ static clast_status sum_beyond(const clx_part *part, const grid *g, double beta,
             memcpy((char *)y + (k > 0 ? all[0].n : 0), all[k].bytes, (size_t)all[k].n);
         }
     }
-    const clx_gauss_beyond points = {g->d, all[0].n / (int64_t)bytes, n, y, beta, reach_of(g)};
+    const clx_gauss_beyond points = {g->d, all[0].n / (int64_t)bytes, n, y, beta, cutoff_of(g)};
     CLX_TRY(clx_gauss_sum_beyond(&points, sum));
 done:
     clx_gathered_free(&all[0]);

@@ -37,13 +37,13 @@ uint64_t clx_pair_keys(const clx_pair_cells *grid)
     return (uint64_t)(grid->dim[0] * grid->dim[1] * grid->dim[2]);
 }
 
-uint64_t clx_pair_reach(const clx_pair_cells *grid)
+uint64_t clx_pair_offset(const clx_pair_cells *grid)
 {
-    int64_t reach = 0;
+    int64_t offset = 0;
     for (int32_t j = grid->d - 1; j >= 0; --j) {
-        reach = reach * grid->dim[j] + CLX_PAIR_RANGE;
+        offset = offset * grid->dim[j] + CLX_PAIR_RANGE;
     }
-    return (uint64_t)reach;
+    return (uint64_t)offset;
 }
 
 uint64_t clx_pair_key(const clx_pair_cells *grid, const double *x)

@@ -41,7 +41,7 @@ uint64_t clx_pair_key(const clx_pair_cells *grid, const double *x);
 uint64_t clx_pair_keys(const clx_pair_cells *grid);
 
 /// Keys of neighbours are no further apart.
-uint64_t clx_pair_reach(const clx_pair_cells *grid);
+uint64_t clx_pair_offset(const clx_pair_cells *grid);
 
 /// @param x  [n][d]
 clast_status clx_pair_cells_make(const clx_pair_cells *grid, const double *x, int64_t n,

@@ -95,12 +95,12 @@ static int64_t first_from(const clx_keyed *entry, int64_t n, uint64_t key)
 static void find_needed(const clx_pair_cells *grid, const clx_pair_deal *deal,
                         const int32_t block[2], const clx_keyed *entry, int64_t n, int64_t range[2])
 {
-    const uint64_t reach = clx_pair_reach(grid);
+    const uint64_t offset = clx_pair_offset(grid);
     range[0] = range[1] = 0;
     if (block[0] < block[1]) {
         const uint64_t low = deal->first[block[0]];
-        range[0] = first_from(entry, n, low > reach ? low - reach : 0);
-        range[1] = first_from(entry, n, deal->first[block[1]] + reach);
+        range[0] = first_from(entry, n, low > offset ? low - offset : 0);
+        range[1] = first_from(entry, n, deal->first[block[1]] + offset);
     }
 }
 

@@ -238,7 +238,7 @@ static void draw_ghosts(int64_t begin, int64_t end, int32_t worker, void *contex
 }
 
 /// Opens a gap for ghosts behind the points that are tested.
-static clast_status make_room(int64_t n_ghost, clx_sample *s)
+static clast_status allocate(int64_t n_ghost, clx_sample *s)
 {
     clast_status status = CLAST_OK;
     const int64_t n_rest = s->n - s->n_test;
@@ -271,7 +271,7 @@ static clast_status extend(uint64_t seed, clx_sample *s)
     const int64_t first = n_all * s->comm->rank / s->comm->n_rank;
     const int64_t n_ghost = n_all * (s->comm->rank + 1) / s->comm->n_rank - first;
     map_context context = {.sample = s, .seed = seed, .first_ghost = first};
-    CLX_TRY(clast_comm_agree(s->comm, make_room(n_ghost, s), NULL));
+    CLX_TRY(clast_comm_agree(s->comm, allocate(n_ghost, s), NULL));
     clx_parallel_for(n_ghost, BLOCK, draw_ghosts, &context);
     s->n_test += n_ghost;
     s->n += n_ghost;

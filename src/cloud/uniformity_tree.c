@@ -371,7 +371,7 @@ done:
     return status;
 }
 
-static clast_status make_room(clx_uniformity_tree_cells *c)
+static clast_status allocate(clx_uniformity_tree_cells *c)
 {
     clast_status status = CLAST_OK;
     if (c->n == c->capacity) {
@@ -393,7 +393,7 @@ static clast_status add_cell(growth *g, const node *cell)
     if (g->is_survey || !cell->is_told) {
         return CLAST_OK;
     }
-    const clast_status status = make_room(c);
+    const clast_status status = allocate(c);
     if (status != CLAST_OK) {
         return status;
     }

@@ -83,8 +83,8 @@ static bool ellipsoids(const clx_pair *pair, double max_gap, clx_warm_start *war
     clx_ellipsoids e;
     double m[3] = {0.0, 0.0, 0.0};
     double n[3], tip[3];
-    clx_ellipsoid_matrix(pair->turn_a, pair->a->semi_axes, e.a);
-    clx_ellipsoid_matrix(pair->turn_b, pair->b->semi_axes, e.b);
+    clx_ellipsoid_matrix(pair->rotation_a, pair->a->semi_axes, e.a);
+    clx_ellipsoid_matrix(pair->rotation_b, pair->b->semi_axes, e.b);
     v3_copy(e.offset, pair->offset);
     e.roundness = roundness(pair->a) + roundness(pair->b);
     if (warm_start != NULL) {
@@ -117,14 +117,15 @@ static clx_seen seen_alone(const clx_convex *shape, double unit)
 /// Both bodies in the frame of a, in units of the larger one.
 static void see(const clx_pair *pair, double unit, clx_gjk_pair *out)
 {
-    const double *ra = pair->turn_a;
-    const double *rb = pair->turn_b;
+    const double *ra = pair->rotation_a;
+    const double *rb = pair->rotation_b;
     out->a = seen_alone(pair->a, unit);
     out->b = seen_alone(pair->b, unit);
-    out->b.is_turned = true;
+    out->b.is_rotated = true;
     for (int i = 0; i < 3; ++i) { // R_a^T R_b, R_a^T offset
         for (int j = 0; j < 3; ++j) {
-            out->b.turn[3 * i + j] = ra[i] * rb[j] + ra[3 + i] * rb[3 + j] + ra[6 + i] * rb[6 + j];
+            out->b.rotation[3 * i + j] =
+                ra[i] * rb[j] + ra[3 + i] * rb[3 + j] + ra[6 + i] * rb[6 + j];
         }
         out->b.shift[i] =
             (ra[i] * pair->offset[0] + ra[3 + i] * pair->offset[1] + ra[6 + i] * pair->offset[2]) /
@@ -152,7 +153,7 @@ static void seed_climbs(clx_gjk_pair *seen)
         seen->a.last = clx_core_start(seen->a.core, c);
     }
     if (seen->b.core != NULL) {
-        const double *t = seen->b.turn;
+        const double *t = seen->b.rotation;
         const double d[3] = {-(t[0] * c[0] + t[3] * c[1] + t[6] * c[2]),
                              -(t[1] * c[0] + t[4] * c[1] + t[7] * c[2]),
                              -(t[2] * c[0] + t[5] * c[1] + t[8] * c[2])};
@@ -246,7 +247,7 @@ static void push_off(const clx_gjk_pair *seen, double n[3])
 {
     v3_set(n, 0.0, 0.0, 1.0);
     if (seen->b.core != NULL) {
-        rot_to_world(n, seen->b.turn, seen->b.core->face[0].normal);
+        rot_to_world(n, seen->b.rotation, seen->b.core->face[0].normal);
     } else if (seen->a.core != NULL) {
         v3_scale(n, -1.0, seen->a.core->face[0].normal);
     }
@@ -285,8 +286,8 @@ static bool search(const clx_pair *pair, double max_gap, clx_warm_start *warm_st
     }
     witness(simplex, on_a);
     v3_scale(on_a, unit, on_a);
-    rot_to_world(contact->normal, pair->turn_a, n);
-    rot_to_world(contact->point, pair->turn_a, on_a);
+    rot_to_world(contact->normal, pair->rotation_a, n);
+    rot_to_world(contact->point, pair->rotation_a, on_a);
     contact->gap = gap * unit;
     v3_axpy(contact->point, contact->point, -0.5 * contact->gap, contact->normal);
     return contact->gap <= max_gap;

@@ -32,8 +32,8 @@ void clx_convex_grow(clx_convex *shape, double margin);
 /// Two placed shapes. Rotations are row by row, world = R body.
 typedef struct clx_pair {
     const clx_convex *a, *b;
-    const double *turn_a, *turn_b; ///< [9] each
-    double offset[3];              ///< position of b minus position of a, nearest image [m]
+    const double *rotation_a, *rotation_b; ///< [9] each
+    double offset[3];                      ///< position of b minus position of a, nearest image [m]
 } clx_pair;
 
 /// Where two bodies are closest, or how they overlap least.
@@ -79,7 +79,7 @@ bool clx_hulls_contact_anew(const clx_pair *pair, double max_gap, clx_warm_start
 /// A shape before a wall.
 typedef struct clx_placed {
     const clx_convex *shape;
-    const double *turn; ///< [9]
+    const double *rotation; ///< [9]
     double position[3];
 } clx_placed;
 

@@ -40,11 +40,11 @@ typedef struct {
     clx_lanes size;
 } side;
 
-CLX_INLINE void read_side(const double *const turn[CLX_LANES], const clx_convex *const shape[4],
+CLX_INLINE void read_side(const double *const rotation[CLX_LANES], const clx_convex *const shape[4],
                           side *out)
 {
     clx_lanes r[9], axes[4];
-    clx_gather_nine(turn, r);
+    clx_gather_nine(rotation, r);
     lanes_gather(axes, shape[0]->semi_axes, shape[1]->semi_axes, shape[2]->semi_axes,
                  shape[3]->semi_axes);
     matrix(r, axes, out->matrix);
@@ -186,8 +186,8 @@ int clx_ellipsoids_again(clx_pair_batch *batch, int from,
     side a, b;
     clx_lanes offset[3], m[4], n[3], tip[3];
     clx_lanes s = lanes_all(0.0);
-    read_side(batch->turn_a + from, shape_a, &a);
-    read_side(batch->turn_b + from, shape_b, &b);
+    read_side(batch->rotation_a + from, shape_a, &a);
+    read_side(batch->rotation_b + from, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
         const float *seen = batch->warm_start[from + k]->seen[0];
         m[k] = lanes_row_floats(seen, seen);

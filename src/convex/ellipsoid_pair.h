@@ -27,7 +27,7 @@ typedef struct clx_ellipsoids {
 double clx_ellipsoid_gap(const clx_ellipsoids *pair, double m[3]);
 
 /// R diag(axes^2) R^T as xx, yy, zz, yz, xz, xy.
-void clx_ellipsoid_matrix(const double turn[9], const double semi_axes[3], double matrix[6]);
+void clx_ellipsoid_matrix(const double rotation[9], const double semi_axes[3], double matrix[6]);
 
 /// Point of the ellipsoid farthest along m, relative to its centre.
 void clx_ellipsoid_tip(const double matrix[6], const double m[3], double tip[3]);

@@ -15,7 +15,7 @@ enum { MAX_WALK = 24, MAX_FLOOD = 16 };
 /// One body of the two.
 typedef struct {
     const clx_hull_core *core;
-    const double *turn;
+    const double *rotation;
     double scale;
     double at[3]; ///< position relative to a
 } body;
@@ -36,7 +36,7 @@ typedef struct {
 /// scale R x + position
 static void place(const body *b, const double x[3], double out[3])
 {
-    rot_to_world(out, b->turn, x);
+    rot_to_world(out, b->rotation, x);
     v3_axpy(out, b->at, b->scale, out);
 }
 
@@ -51,9 +51,9 @@ static void view_face(const body both[2], int k, int32_t f, int32_t v, view *out
     double x[3], d[3], p[3], n[3], q[3];
     place(other, other->core->vert[v], x);
     v3_sub(d, x, own->at);
-    rot_to_local(p, own->turn, d);
-    rot_to_world(n, own->turn, face->normal);
-    rot_to_local(q, other->turn, n);
+    rot_to_local(p, own->rotation, d);
+    rot_to_world(n, own->rotation, face->normal);
+    rot_to_local(q, other->rotation, n);
     v3_copy(out->foot, p);
     out->gap = v3_dot(face->normal, p) - own->scale * face->offset;
     out->margin = INFINITY;
@@ -92,8 +92,8 @@ static bool view_edges(const body both[2], int32_t i, int32_t j, view *out)
     int beyond[2];
     place(&both[0], ea->from, a);
     place(&both[1], eb->from, b);
-    rot_to_world(e, both[0].turn, ea->along);
-    rot_to_world(f, both[1].turn, eb->along);
+    rot_to_world(e, both[0].rotation, ea->along);
+    rot_to_world(f, both[1].rotation, eb->along);
     v3_cross(n, e, f);
     const double n2 = v3_norm2(n);
     const double e2 = v3_norm2(e);
@@ -103,14 +103,14 @@ static bool view_edges(const body both[2], int32_t i, int32_t j, view *out)
     }
     const double length = sqrt(n2);
     v3_scale(out->m, 1.0 / length, n);
-    rot_to_local(own, both[0].turn, out->m);
+    rot_to_local(own, both[0].rotation, out->m);
     if (v3_dot(own, ea->out[0]) + v3_dot(own, ea->out[1]) < 0.0) { // out of a
         v3_scale(out->m, -1.0, out->m);
         v3_scale(own, -1.0, own);
     }
     out->is_facet = holds_edge(ea, own, &beyond[0]);
     out->lost = beyond[0];
-    rot_to_local(own, both[1].turn, out->m);
+    rot_to_local(own, both[1].rotation, out->m);
     v3_scale(own, -1.0, own);
     if (!holds_edge(eb, own, &beyond[1])) {
         out->lost = out->is_facet ? 2 + beyond[1] : out->lost;
@@ -197,16 +197,16 @@ static clx_facet turn_about(const body both[2], int k, int32_t e, const double n
     const body *other = &both[1 - k];
     double to[3], q0[3], q1[3];
     int32_t edge = -1;
-    rot_to_world(to, own->turn, own->core->face[f].normal);
-    rot_to_local(q0, other->turn, n);
+    rot_to_world(to, own->rotation, own->core->face[f].normal);
+    rot_to_local(q0, other->rotation, n);
     if (v3_dot(n, to) < -0.5) { // a sharp edge, or a flat hull's: by way of straight out
-        rot_to_world(q1, own->turn, own->core->edge[e].out[0]);
-        rot_to_local(q1, other->turn, q1);
+        rot_to_world(q1, own->rotation, own->core->edge[e].out[0]);
+        rot_to_local(q1, other->rotation, q1);
         edge = first_met(other->core, v, q0, q1);
         v3_copy(q0, q1);
     }
     if (edge < 0) {
-        rot_to_local(q1, other->turn, to);
+        rot_to_local(q1, other->rotation, to);
         edge = first_met(other->core, v, q0, q1);
     }
     return edge < 0 ? face_facet(k, f, v) : edge_facet(k, e, edge);
@@ -220,7 +220,7 @@ static clx_facet across_face(const body both[2], int k, int32_t f, int32_t v, in
     const int32_t e = core->side[core->face[f].first + side].edge;
     const clx_core_edge *edge = &core->edge[e];
     double n[3];
-    rot_to_world(n, both[k].turn, core->face[f].normal);
+    rot_to_world(n, both[k].rotation, core->face[f].normal);
     return turn_about(both, k, e, n, edge->face[edge->face[0] == f], v);
 }
 
@@ -235,8 +235,8 @@ static clx_facet across_edges(const body both[2], int32_t i, int32_t j, const vi
     const clx_core_edge *other = &both[1 - k].core->edge[k == 0 ? j : i];
     double n[3], d[3], own[3];
     v3_scale(n, k == 0 ? 1.0 : -1.0, at->m);
-    rot_to_world(d, both[1 - k].turn, other->along);
-    rot_to_local(own, both[k].turn, d);
+    rot_to_world(d, both[1 - k].rotation, other->along);
+    rot_to_local(own, both[k].rotation, d);
     const double rise = v3_dot(own, both[k].core->face[edge->face[0]].normal);
     const int which = (end == 0) == (rise > 0.0) ? 0 : 1;
     return turn_about(both, k, e, n, edge->face[which], other->vert[end]);
@@ -267,8 +267,8 @@ static clx_facet mend(const body both[2], const clx_facet *facet, const view *at
         vert = both[1 - k].core->edge[edge[1 - k]].vert[0];
     }
     double n[3], d[3];
-    rot_to_world(n, both[k].turn, both[k].core->face[face].normal);
-    rot_to_local(d, both[1 - k].turn, n);
+    rot_to_world(n, both[k].rotation, both[k].core->face[face].normal);
+    rot_to_local(d, both[1 - k].rotation, n);
     v3_scale(d, -1.0, d);
     return face_facet(k, face, clx_core_climb(both[1 - k].core, d, vert));
 }
@@ -403,9 +403,9 @@ CLX_FOR_EACH_MACHINE CLX_FLATTEN bool clx_facet_follow(const clx_pair *pair, clx
 {
     CLAST_ASSERT(pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL);
     const body both[2] = {
-        {pair->a->core, pair->turn_a, pair->a->scale, {0.0, 0.0, 0.0}},
+        {pair->a->core, pair->rotation_a, pair->a->scale, {0.0, 0.0, 0.0}},
         {pair->b->core,
-         pair->turn_b,
+         pair->rotation_b,
          pair->b->scale,
          {pair->offset[0], pair->offset[1], pair->offset[2]}},
     };
@@ -468,9 +468,9 @@ clx_facet clx_facet_of(const clx_pair *pair, int32_t vert[2][3], const double no
     if (i >= 0 && j >= 0) {
         return (clx_facet){CLX_FACET_EDGE_EDGE, i, j};
     }
-    rot_to_local(own, pair->turn_a, out);
+    rot_to_local(own, pair->rotation_a, out);
     const int32_t f = face_along(pair->a->core, vert[0][0], own, &cosine_a);
-    rot_to_local(own, pair->turn_b, normal);
+    rot_to_local(own, pair->rotation_b, normal);
     const int32_t g = face_along(pair->b->core, vert[1][0], own, &cosine_b);
     if (f < 0 || g < 0) {
         return (clx_facet){CLX_FACET_NONE, 0, 0};

@@ -13,7 +13,7 @@ enum { CLX_BATCH = 8 };
 
 /// Pairs with warm starts; all lanes are filled (repeat a pair where there are fewer).
 typedef struct clx_pair_batch {
-    const double *turn_a[CLX_BATCH], *turn_b[CLX_BATCH]; ///< [9] each
+    const double *rotation_a[CLX_BATCH], *rotation_b[CLX_BATCH]; ///< [9] each
     const clx_warm_start *warm_start[CLX_BATCH];
     double offset[3][CLX_BATCH]; ///< position of b minus that of a
     double gap[CLX_BATCH];       ///< from here on: the contacts, without rounding
@@ -80,31 +80,32 @@ CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, int from,
     const clx_warm_start *const *warm_start = batch->warm_start + from;
     const double *own[CLX_LANES];
     const double *other[CLX_LANES];
-    clx_lanes turn[9], data[8], seen[9], n[3], x[3], q[3], p[3], d[3];
+    clx_lanes rotation[9], data[8], seen[9], n[3], x[3], q[3], p[3], d[3];
     clx_lanes sign, first = {0.0}, second = {0.0};
     for (int k = 0; k < CLX_LANES; ++k) {
         // without a branch, which would be mispredicted half of the time
-        const double *const turn_of[2] = {batch->turn_a[from + k], batch->turn_b[from + k]};
+        const double *const rotation_of[2] = {batch->rotation_a[from + k],
+                                              batch->rotation_b[from + k]};
         const int has = warm_start[k]->kind != CLX_FACET_FACE_VERTEX; // b has the face
-        own[k] = turn_of[has];
-        other[k] = turn_of[1 - has];
+        own[k] = rotation_of[has];
+        other[k] = rotation_of[1 - has];
         sign[k] = (double)(2 * has - 1);
     }
     clx_gather_data(warm_start, 0, data);
     clx_gather_data(warm_start, 4, data + 4);
-    clx_gather_nine(own, turn);
-    lanes_mul(n, turn, data);
-    clx_gather_nine(other, turn);
-    lanes_mul(x, turn, data + 4);
-    lanes_mul_t(q, turn, n);
+    clx_gather_nine(own, rotation);
+    lanes_mul(n, rotation, data);
+    clx_gather_nine(other, rotation);
+    lanes_mul(x, rotation, data + 4);
+    lanes_mul_t(q, rotation, n);
     for (int c = 0; c < 3; ++c) { // the offset goes on x, or is taken off what p is made of
         first = lanes_pick(sign < 0.0, offset[c], lanes_all(0.0));
         second = lanes_pick(sign < 0.0, lanes_all(0.0), offset[c]);
         x[c] = x[c] + first;
         d[c] = x[c] - second;
     }
-    clx_gather_nine(own, turn);
-    lanes_mul_t(p, turn, d);
+    clx_gather_nine(own, rotation);
+    lanes_mul_t(p, rotation, d);
     clx_gather_limits(warm_start, seen);
     const clx_lanes gap = lanes_dot(data, p) - data[3];
     const clx_lanes margin = seen[7] + lanes_lesser(seen[0] * gap, lanes_all(0.0));
@@ -122,17 +123,17 @@ CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, int from,
                                      const clx_lanes offset[3], clx_meet_lanes *out)
 {
     const clx_warm_start *const *warm_start = batch->warm_start + from;
-    clx_lanes turn_a[9], turn_b[9], data[12], seen[9];
+    clx_lanes rotation_a[9], rotation_b[9], data[12], seen[9];
     clx_lanes a[3], e[3], b[3], f[3], n[3], w[3], c[3], m[3], ma[3], mb[3], point[3], sign;
     clx_gather_data(warm_start, 0, data);
     clx_gather_data(warm_start, 4, data + 4);
     clx_gather_data(warm_start, 8, data + 8);
-    clx_gather_nine(batch->turn_a + from, turn_a);
-    lanes_mul(a, turn_a, data);
-    lanes_mul(e, turn_a, data + 3);
-    clx_gather_nine(batch->turn_b + from, turn_b);
-    lanes_mul(b, turn_b, data + 6);
-    lanes_mul(f, turn_b, data + 9);
+    clx_gather_nine(batch->rotation_a + from, rotation_a);
+    lanes_mul(a, rotation_a, data);
+    lanes_mul(e, rotation_a, data + 3);
+    clx_gather_nine(batch->rotation_b + from, rotation_b);
+    lanes_mul(b, rotation_b, data + 6);
+    lanes_mul(f, rotation_b, data + 9);
     for (int k = 0; k < 3; ++k) {
         b[k] = b[k] + offset[k];
         w[k] = b[k] - a[k];
@@ -157,8 +158,8 @@ CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, int from,
     const clx_lanes inside_a = lanes_lesser(s, n2 - s);
     const clx_lanes inside_b = lanes_lesser(t, n2 - t);
     lanes_axpy(point, a, s * (inverse * inverse), e);
-    lanes_mul_t(ma, turn_a, m);
-    lanes_mul_t(mb, turn_b, m);
+    lanes_mul_t(ma, rotation_a, m);
+    lanes_mul_t(mb, rotation_b, m);
     clx_gather_limits(warm_start, seen);
     const clx_lanes wanted = lanes_lesser(seen[0] * gap, lanes_all(0.0));
     const clx_lanes wanted2 = wanted * wanted * n2;

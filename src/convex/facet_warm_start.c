@@ -42,8 +42,8 @@ typedef struct {
 /// k: the body that has the face. data: normal, offset, vertex.
 CLX_INLINE void place_face(const clx_pair *pair, int k, const double data[12], face_place *out)
 {
-    const double *own = k == 0 ? pair->turn_a : pair->turn_b;
-    const double *other = k == 0 ? pair->turn_b : pair->turn_a;
+    const double *own = k == 0 ? pair->rotation_a : pair->rotation_b;
+    const double *other = k == 0 ? pair->rotation_b : pair->rotation_a;
     double d[3];
     rot_to_world(out->n, own, data);
     rot_to_world(out->x, other, data + 4);
@@ -65,9 +65,9 @@ CLX_INLINE bool face_again(const clx_pair *pair, int k, const clx_warm_start *wa
     place_face(pair, k, warm_start->data, &at);
     const double margin =
         (double)warm_start->limit[0] + lesser_of((double)warm_start->sure * at.gap, 0.0);
-    const double turn = (double)warm_start->limit[1];
+    const double arc = (double)warm_start->limit[1];
     if (!(margin > 0.0 && drift2(at.p, warm_start->seen[0]) <= margin * margin &&
-          drift2(at.q, warm_start->seen[1]) <= turn * turn)) {
+          drift2(at.q, warm_start->seen[1]) <= arc * arc)) {
         return false;
     }
     contact->gap = at.gap;
@@ -90,10 +90,10 @@ typedef struct {
 CLX_INLINE bool place_edges(const clx_pair *pair, const clx_warm_start *warm_start, edge_place *at)
 {
     double a[3], e[3], b[3], f[3], n[3], w[3], c[3];
-    rot_to_world(a, pair->turn_a, warm_start->data);
-    rot_to_world(e, pair->turn_a, warm_start->data + 3);
-    rot_to_world(b, pair->turn_b, warm_start->data + 6);
-    rot_to_world(f, pair->turn_b, warm_start->data + 9);
+    rot_to_world(a, pair->rotation_a, warm_start->data);
+    rot_to_world(e, pair->rotation_a, warm_start->data + 3);
+    rot_to_world(b, pair->rotation_b, warm_start->data + 6);
+    rot_to_world(f, pair->rotation_b, warm_start->data + 9);
     v3_add(b, b, pair->offset);
     v3_cross(n, e, f);
     v3_sub(w, b, a);
@@ -113,8 +113,8 @@ CLX_INLINE bool place_edges(const clx_pair *pair, const clx_warm_start *warm_sta
     at->inside_a = lesser_of(s, at->n2 - s);
     at->inside_b = lesser_of(t, at->n2 - t);
     v3_axpy(at->point, a, s * (inverse * inverse), e);
-    rot_to_local(at->ma, pair->turn_a, at->m);
-    rot_to_local(at->mb, pair->turn_b, at->m);
+    rot_to_local(at->ma, pair->rotation_a, at->m);
+    rot_to_local(at->mb, pair->rotation_b, at->m);
     return true;
 }
 
@@ -135,11 +135,11 @@ CLX_INLINE bool edges_again(const clx_pair *pair, const clx_warm_start *warm_sta
     if (!place_edges(pair, warm_start, &at)) {
         return false;
     }
-    const double turn_a = (double)warm_start->limit[0];
-    const double turn_b = (double)warm_start->limit[1];
+    const double arc_a = (double)warm_start->limit[0];
+    const double arc_b = (double)warm_start->limit[1];
     if (!(is_inside(&at, lesser_of((double)warm_start->sure * at.gap, 0.0)) &&
-          drift2(at.ma, warm_start->seen[0]) <= turn_a * turn_a &&
-          drift2(at.mb, warm_start->seen[1]) <= turn_b * turn_b)) {
+          drift2(at.ma, warm_start->seen[0]) <= arc_a * arc_a &&
+          drift2(at.mb, warm_start->seen[1]) <= arc_b * arc_b)) {
         return false;
     }
     contact->gap = at.gap;
@@ -213,7 +213,7 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
     const clx_core_face *face = &own->core->face[f];
     face_place at;
     double margin = INFINITY;
-    double turn = 2.0;
+    double arc = 2.0;
     v3_copy(warm_start->data, face->normal);
     warm_start->data[3] = own->scale * face->offset;
     v3_scale(warm_start->data + 4, other->scale, other->core->vert[v]);
@@ -224,20 +224,20 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
     }
     for (int32_t i = other->core->near_first[v]; i < other->core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &other->core->near[i];
-        turn = lesser_of(turn, v3_dot(near->along, at.q) * near->inverse);
+        arc = lesser_of(arc, v3_dot(near->along, at.q) * near->inverse);
     }
-    turn = lesser_of(turn, MOST_TURN);
+    arc = lesser_of(arc, MOST_TURN);
     keep_point(at.p, warm_start->seen[0]);
     keep_point(at.q, warm_start->seen[1]);
     const double height = warm_start->data[3] - v3_dot(at.q, warm_start->data + 4);
-    const double slack = turn * other->bounding_radius;
+    const double slack = arc * other->bounding_radius;
     warm_start->sure = sure_margin(pair, (double[2]){height - slack, height + slack},
                                    across(warm_start->data, at.p) + margin +
                                        across(at.q, warm_start->data + 4) + slack,
                                    margin);
     warm_start->limit[0] =
         (float)(margin - CLX_FLOAT_SLACK * (own->bounding_radius + fabs(margin)));
-    warm_start->limit[1] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
+    warm_start->limit[1] = (float)greater_of(arc - CLX_FLOAT_SLACK, 0.0);
 }
 
 /// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
@@ -272,12 +272,12 @@ static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_warm_
     v3_scale(back, -1.0, at.mb);
     keep_point(at.ma, warm_start->seen[0]);
     keep_point(at.mb, warm_start->seen[1]);
-    const double turn_a = arc_limit(ea, at.ma);
-    const double turn_b = arc_limit(eb, back);
-    const double slack = turn_a * pair->a->bounding_radius + turn_b * pair->b->bounding_radius;
+    const double arc_a = arc_limit(ea, at.ma);
+    const double arc_b = arc_limit(eb, back);
+    const double slack = arc_a * pair->a->bounding_radius + arc_b * pair->b->bounding_radius;
     const double height = v3_dot(at.ma, warm_start->data) - v3_dot(at.mb, warm_start->data + 6);
-    warm_start->limit[0] = (float)turn_a;
-    warm_start->limit[1] = (float)turn_b;
+    warm_start->limit[0] = (float)arc_a;
+    warm_start->limit[1] = (float)arc_b;
     warm_start->sure = sure_margin(
         pair, (double[2]){height - slack, height + slack},
         edge_across(at.ma, warm_start->data) + edge_across(at.mb, warm_start->data + 6) + slack,

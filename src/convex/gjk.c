@@ -29,8 +29,8 @@ static void ellipsoid_support(const double axes[3], const double d[3], double x[
 static void seen_to_world(const clx_seen *body, const double local[3], double x[3])
 {
     v3_copy(x, local);
-    if (body->is_turned) {
-        rot_to_world(x, body->turn, local);
+    if (body->is_rotated) {
+        rot_to_world(x, body->rotation, local);
         v3_add(x, x, body->shift);
     }
 }
@@ -55,8 +55,8 @@ static int32_t body_support(clx_seen *body, const double d[3], double x[3])
     double local[3];
     int32_t vert = -1;
     v3_copy(own, d);
-    if (body->is_turned) {
-        rot_to_local(own, body->turn, d);
+    if (body->is_rotated) {
+        rot_to_local(own, body->rotation, d);
     }
     if (body->core != NULL) {
         vert = clx_core_climb(body->core, own, body->last);

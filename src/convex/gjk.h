@@ -9,10 +9,10 @@ typedef struct clx_seen {
     const clx_hull_core *core; ///< NULL: ellipsoid
     double scale;
     double semi_axes[3]; ///< all 0: a point
-    double turn[9];
+    double rotation[9];
     double shift[3];
-    bool is_turned; ///< false: turn is the unit matrix and shift is 0
-    int32_t last;   ///< vertex of the last support query
+    bool is_rotated; ///< false: turn is the unit matrix and shift is 0
+    int32_t last;    ///< vertex of the last support query
 } clx_seen;
 
 /// A point of the Minkowski difference A - B with the points it comes from.

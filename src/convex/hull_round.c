@@ -47,10 +47,10 @@ static void see(const clx_pair *pair, bool is_a, scene *e)
 {
     const clx_convex *hull = is_a ? pair->a : pair->b;
     const clx_convex *round = is_a ? pair->b : pair->a;
-    const double *rh = is_a ? pair->turn_a : pair->turn_b;
-    const double *re = is_a ? pair->turn_b : pair->turn_a;
+    const double *rh = is_a ? pair->rotation_a : pair->rotation_b;
+    const double *re = is_a ? pair->rotation_b : pair->rotation_a;
     const double *s = round->semi_axes;
-    double turn[9];
+    double rotation[9];
     e->core = hull->core;
     e->scale = hull->scale;
     e->is_point = round->kind == CLX_CONVEX_SPHERE;
@@ -65,10 +65,10 @@ static void see(const clx_pair *pair, bool is_a, scene *e)
         e->roundness = least * least / greater_of(s[0], greater_of(s[1], s[2]));
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
-                turn[3 * i + j] = rh[i] * re[j] + rh[3 + i] * re[3 + j] + rh[6 + i] * re[6 + j];
+                rotation[3 * i + j] = rh[i] * re[j] + rh[3 + i] * re[3 + j] + rh[6 + i] * re[6 + j];
             }
         }
-        clx_ellipsoid_matrix(turn, s, e->a);
+        clx_ellipsoid_matrix(rotation, s, e->a);
     }
 }
 
@@ -127,7 +127,7 @@ static void bend(const scene *e, const double from[3], const answer *out, double
 }
 
 /// Newton in the plane across an edge; false if it does not come to rest.
-static bool turn_about(const scene *e, const double from[3], const double along[3], answer *out)
+static bool rotate_about(const scene *e, const double from[3], const double along[3], answer *out)
 {
     double h = tip_of(e, out->d, out->y);
     for (int i = 0; i < MAX_STEP; ++i) {
@@ -162,7 +162,7 @@ static bool find_across(const scene *e, const double from[3], const double along
     }
     if (e->is_point) {
         v3_copy(out->y, e->q);
-    } else if (!turn_about(e, from, along, out)) {
+    } else if (!rotate_about(e, from, along, out)) {
         return false;
     }
     v3_sub(r, out->y, from);
@@ -241,7 +241,7 @@ static bool ask_vertex(const scene *e, feature *at, answer *out)
 
 /// The warm start's feature and normal, if these shapes have it; else the vertex towards the
 /// centre.
-static feature begin(const scene *e, const double turn[9], double sign,
+static feature begin(const scene *e, const double rotation[9], double sign,
                      const clx_warm_start *warm_start, double d[3])
 {
     const int32_t n[4] = {0, e->core->n_vert, e->core->n_edge, e->core->n_face};
@@ -251,7 +251,7 @@ static feature begin(const scene *e, const double turn[9], double sign,
            sign * (double)warm_start->seen[0][2]);
     if (warm_start->n >= VERTEX && warm_start->n <= FACE && i >= 0 && i < n[warm_start->n] &&
         fabs(v3_norm2(seen) - 1.0) < 1e-5) {
-        rot_to_local(d, turn, seen);
+        rot_to_local(d, rotation, seen);
         return (feature){(feature_kind)warm_start->n, i};
     }
     if (!v3_unit(d, e->q)) {
@@ -265,14 +265,14 @@ bool clx_hull_round_contact(const clx_pair *pair, clx_warm_start *warm_start, cl
 {
     CLAST_ASSERT((pair->a->kind == CLX_CONVEX_HULL) != (pair->b->kind == CLX_CONVEX_HULL));
     const bool is_a = pair->a->kind == CLX_CONVEX_HULL;
-    const double *turn = is_a ? pair->turn_a : pair->turn_b;
+    const double *rotation = is_a ? pair->rotation_a : pair->rotation_b;
     const double sign = is_a ? -1.0 : 1.0; // the contact's normal is from b to a
     scene e;
     answer out;
     double middle[3];
     bool is_found = false;
     see(pair, is_a, &e);
-    feature at = begin(&e, turn, sign, warm_start, out.d);
+    feature at = begin(&e, rotation, sign, warm_start, out.d);
     for (int k = 0; k < MAX_WALK && !is_found && at.kind != NONE; ++k) {
         is_found = at.kind == FACE   ? ask_face(&e, &at, &out)
                    : at.kind == EDGE ? ask_edge(&e, &at, &out)
@@ -282,10 +282,10 @@ bool clx_hull_round_contact(const clx_pair *pair, clx_warm_start *warm_start, cl
         return false;
     }
     contact->gap = out.s;
-    rot_to_world(contact->normal, turn, out.d);
+    rot_to_world(contact->normal, rotation, out.d);
     v3_scale(contact->normal, sign, contact->normal);
     v3_axpy(middle, out.y, -0.5 * out.s, out.d);
-    rot_to_world(contact->point, turn, middle);
+    rot_to_world(contact->point, rotation, middle);
     if (!is_a) {
         v3_add(contact->point, contact->point, pair->offset);
     }

@@ -28,13 +28,13 @@ static void keep_support(const clx_hull_core *core, int32_t v, const double d[3]
                          clx_warm_start *warm_start)
 {
     CLAST_ASSERT(v >= 0 && v < core->n_vert);
-    double turn = 1.0;
+    double arc = 1.0;
     for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &core->near[i];
-        turn = lesser_of(turn, -v3_dot(near->along, d) * near->inverse);
+        arc = lesser_of(arc, -v3_dot(near->along, d) * near->inverse);
     }
     warm_start->feature[0] = v;
-    warm_start->limit[0] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
+    warm_start->limit[0] = (float)greater_of(arc - CLX_FLOAT_SLACK, 0.0);
     v3_copy(warm_start->data, core->vert[v]);
     for (int i = 0; i < 3; ++i) {
         warm_start->seen[0][i] = (float)d[i];
@@ -64,11 +64,11 @@ static void deepest(const clx_placed *body, const double n[3], clx_warm_start *w
     if (shape->kind == CLX_CONVEX_HULL) {
         double own[3];
         const double d[3] = {-n[0], -n[1], -n[2]};
-        rot_to_local(own, body->turn, d);
-        scaled_to_world(body->turn, shape->scale, farthest(shape->core, own, warm_start), tip);
+        rot_to_local(own, body->rotation, d);
+        scaled_to_world(body->rotation, shape->scale, farthest(shape->core, own, warm_start), tip);
     } else {
         double matrix[6];
-        clx_ellipsoid_matrix(body->turn, shape->semi_axes, matrix);
+        clx_ellipsoid_matrix(body->rotation, shape->semi_axes, matrix);
         clx_ellipsoid_tip(matrix, n, tip);
         v3_scale(tip, -1.0, tip);
     }
@@ -161,10 +161,10 @@ static bool climb_outward(const double m[3], const double c[2], double u[2])
 
 /// Deepest point of a round shape in a cylinder, relative to the position; its distance from the
 /// axis.
-static double round_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])
+static double round_extent(const clx_placed *body, const double c[2], double u[2], double tip[3])
 {
     double matrix[6];
-    clx_ellipsoid_matrix(body->turn, body->shape->semi_axes, matrix);
+    clx_ellipsoid_matrix(body->rotation, body->shape->semi_axes, matrix);
     const double flat[3] = {matrix[0], matrix[1], matrix[5]};
     if (!has_one_farthest(flat, c) || !climb_outward(flat, c, u)) {
         const double outward = atan2(c[1], c[0]);
@@ -185,10 +185,10 @@ static double round_reach(const clx_placed *body, const double c[2], double u[2]
     return u[0] * (c[0] + tip[0]) + u[1] * (c[1] + tip[1]);
 }
 
-static double hull_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])
+static double hull_extent(const clx_placed *body, const double c[2], double u[2], double tip[3])
 {
     const clx_hull_core *core = body->shape->core;
-    const double *t = body->turn;
+    const double *t = body->rotation;
     const double s = body->shape->scale;
     double best = -INFINITY;
     int32_t at = 0;
@@ -214,9 +214,9 @@ void clx_cylinder_contact(const clx_placed *body, const double axis[2], double r
     CLAST_ASSERT(radius >= 0.0);
     const double c[2] = {body->position[0] - axis[0], body->position[1] - axis[1]};
     double u[2], tip[3];
-    const double reach = body->shape->kind == CLX_CONVEX_HULL ? hull_reach(body, c, u, tip)
-                                                              : round_reach(body, c, u, tip);
-    contact->gap = radius - reach - body->shape->round;
+    const double extent = body->shape->kind == CLX_CONVEX_HULL ? hull_extent(body, c, u, tip)
+                                                               : round_extent(body, c, u, tip);
+    contact->gap = radius - extent - body->shape->round;
     v3_set(contact->normal, -u[0], -u[1], 0.0);
     v3_axpy(contact->point, tip, -body->shape->round - 0.5 * contact->gap, contact->normal);
 }

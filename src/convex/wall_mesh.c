@@ -145,7 +145,7 @@ bool clx_triangle_contact(const clx_wall_triangle *t, const clx_placed *body, do
                              .core = &h.core,
                              .scale = 1.0,
                              .bounding_radius = t->bounding_radius};
-    clx_pair pair = {body->shape, &wall, body->turn, unturned, {0.0, 0.0, 0.0}};
+    clx_pair pair = {body->shape, &wall, body->rotation, unturned, {0.0, 0.0, 0.0}};
     v3_sub(pair.offset, t->centroid, body->position);
     return clx_pair_contact(&pair, max_gap, warm_start, contact);
 }
@@ -354,7 +354,7 @@ static clast_status check_vertices(const clast_mesh *mesh)
         for (int k = 0; k < 3; ++k) {
             const double *x = mesh->vert[mesh->tri[t][k]];
             CLX_CHECK(fabs(x[0]) <= FARTHEST && fabs(x[1]) <= FARTHEST && fabs(x[2]) <= FARTHEST,
-                      CLAST_E_GEOMETRY, "vertex %d of a wall is no place: %g, %g, %g",
+                      CLAST_E_GEOMETRY, "vertex %d of a wall is no valid position: %g, %g, %g",
                       mesh->tri[t][k] + 1, x[0], x[1], x[2]);
         }
     }

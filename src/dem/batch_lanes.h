@@ -266,8 +266,8 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, law
 /// Radii of spheres of equal volume, second, and stability loads, last.
 CLX_INLINE void read_radii(const clx_batch *p, int from, clx_lanes a[4], clx_lanes b[4])
 {
-    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), a);
-    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), b);
+    collect(p->a + from, offsetof(clx_grain, rotation) + 8 * sizeof(double), a);
+    collect(p->b + from, offsetof(clx_grain, rotation) + 8 * sizeof(double), b);
 }
 
 /// clx_mobility
@@ -408,7 +408,7 @@ CLX_INLINE clx_lanes pull_of(const clast_dem *dem, const clx_batch *p, int from)
 CLX_INLINE void roll(const clast_dem *dem, const clx_batch *p, int from, const contact_lanes *m,
                      const clx_lanes normal[3], clx_lanes rolling[3])
 {
-    clx_lanes wa[4], wb[4], a[4], b[4], turn[3];
+    clx_lanes wa[4], wb[4], a[4], b[4], rotation[3];
     collect(p->a + from, offsetof(clx_grain, velocity), a);
     collect(p->b + from, offsetof(clx_grain, velocity), b);
     const clx_lanes mass_a = a[3];
@@ -420,16 +420,16 @@ CLX_INLINE void roll(const clast_dem *dem, const clx_batch *p, int from, const c
     const clx_lanes ib = 0.4 * mass_b * b[1] * b[1];
     const clx_lanes inertia = ia * ib / (ia + ib);
     for (int c = 0; c < 3; ++c) {
-        turn[c] = wb[c] - wa[c];
+        rotation[c] = wb[c] - wa[c];
     }
-    lanes_axpy(turn, turn, -lanes_dot(turn, normal), normal);
-    const clx_lanes size = lanes_root(lanes_dot(turn, turn));
+    lanes_axpy(rotation, rotation, -lanes_dot(rotation, normal), normal);
+    const clx_lanes size = lanes_root(lanes_dot(rotation, rotation));
     const clx_lanes most = dem->law.rolling * (a[1] * b[1] / (a[1] + b[1])) * m->pressed;
     const clx_lanes stops = CLX_LAW_STOPS * inertia * size / dem->config.time_step;
     const clx_lanes share =
         lanes_pick(size > 0.0, -lanes_lesser(most, stops) / size, lanes_all(0.0));
     for (int c = 0; c < 3; ++c) {
-        rolling[c] = share * turn[c];
+        rolling[c] = share * rotation[c];
     }
 }
 

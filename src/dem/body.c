@@ -85,7 +85,7 @@ static clast_status read_part(const clast_shape *shape, const clast_part *from, 
     clast_mesh own = {0};
     v3_sub(part->centre, from->position, shape->own.centre); // mechanics turns it about its mass
     v3_copy(part->semi_axes, from->semi_axes);
-    q_matrix(part->turn, from->orientation);
+    q_matrix(part->rotation, from->orientation);
     part->is_sphere = from->kind == CLAST_SHAPE_SPHERE;
     const double *a = from->semi_axes;
     double volume = 4.0 / 3.0 * CLAST_PI * a[0] * a[1] * a[2];
@@ -255,7 +255,8 @@ clast_status clx_items_reserve_all(clast_dem *dem, int64_t n)
         dem->item_begin[dem->n_grain] = dem->n_item;
     }
     if (dem->has_parts) {
-        CLX_TRY(clx_realloc(&dem->item_turn, dem->list.item_capacity, sizeof *dem->item_turn));
+        CLX_TRY(
+            clx_realloc(&dem->item_rotation, dem->list.item_capacity, sizeof *dem->item_rotation));
     }
 done:
     return status;
@@ -315,20 +316,20 @@ void clx_items_place(clast_dem *dem, int32_t g)
     for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {
         clx_item *item = &dem->item[i];
         double arm[3];
-        m3_to_world(arm, grain->turn, item->local);
+        m3_to_world(arm, grain->rotation, item->local);
         v3_add(item->position, grain->position, arm);
-        if (dem->item_turn == NULL) {
+        if (dem->item_rotation == NULL) {
             continue;
         }
         for (int r = 0; r < 3; ++r) {
             for (int c = 0; c < 3; ++c) {
-                double x = grain->turn[r][c];
+                double x = grain->rotation[r][c];
                 if (body->n_part > 0 && item->part <= -2) {
-                    double(*own)[3] = body->part[-2 - item->part].turn;
-                    x = grain->turn[r][0] * own[0][c] + grain->turn[r][1] * own[1][c] +
-                        grain->turn[r][2] * own[2][c];
+                    double(*own)[3] = body->part[-2 - item->part].rotation;
+                    x = grain->rotation[r][0] * own[0][c] + grain->rotation[r][1] * own[1][c] +
+                        grain->rotation[r][2] * own[2][c];
                 }
-                dem->item_turn[i][r][c] = x;
+                dem->item_rotation[i][r][c] = x;
             }
         }
     }

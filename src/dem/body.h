@@ -10,7 +10,7 @@
 typedef struct clx_dem_part {
     clx_hull_core *core; ///< about its centroid; NULL: a sphere or ellipsoid
     double semi_axes[3];
-    double turn[3][3]; ///< of the ellipsoid's axes in the grain's frame
+    double rotation[3][3]; ///< of the ellipsoid's axes in the grain's frame
     double centre[3];
     double radius; ///< bounding radius about its centre
     double round_radius;
@@ -39,8 +39,8 @@ typedef struct clx_grain {
     double mass;
     double omega[3]; ///< angular velocity, world axes [rad/s]
     double scale;
-    double turn[3][3];   ///< rotation matrix, world = turn body
-    double round_radius; ///< of the sphere of equal volume: R of Hertz's law
+    double rotation[3][3]; ///< rotation matrix, world = turn body
+    double round_radius;   ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
     double held;  ///< exact steps: sum of its contacts' stability loads in the last step

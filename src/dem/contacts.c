@@ -312,8 +312,8 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
         p->travel[k] = s->travel[at[k]];
         p->a[k] = &grain[grain_of(dem, is_packed, pair->a)];
         p->b[k] = !has_walls || b >= 0 ? &grain[grain_of(dem, is_packed, b)] : &clx_immovable;
-        p->meet.turn_a[k] = p->a[k]->turn[0];
-        p->meet.turn_b[k] = p->b[k]->turn[0];
+        p->meet.rotation_a[k] = p->a[k]->rotation[0];
+        p->meet.rotation_b[k] = p->b[k]->rotation[0];
         p->meet.warm_start[k] =
             is_packed ? &s->packed[at[k]].warm_start : clx_pair_warm_start(dem, pair);
     }

@@ -36,7 +36,7 @@ static clast_status append(clast_dem *dem, clx_wall_mesh **mesh)
     clx_wall_body *body = &walls->body[walls->n];
     *body = (clx_wall_body){.mesh = *mesh, .first = all->n_tri};
     for (int k = 0; k < 3; ++k) {
-        body->turn[k][k] = 1.0;
+        body->rotation[k][k] = 1.0;
     }
     for (int32_t i = all->n_tri; i < n; ++i) {
         all->tri[i] = body->mesh->tri[i - body->first];
@@ -81,7 +81,7 @@ clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
 {
     CLAST_ASSERT(i >= 0 && i < dem->n_item);
-    clx_placed body = {.turn = clx_item_turn(dem, i)};
+    clx_placed body = {.rotation = clx_item_rotation(dem, i)};
     if (dem->convex != NULL) {
         body.shape = &dem->convex[i];
     } else {
@@ -282,10 +282,10 @@ clast_status clx_container_find(clast_dem *dem, int32_t i)
         double arm[3];
         v3_copy(x, l->anchor[i].position);
         if (wall->runs || wall->clock > 0 || v3_norm2(wall->offset) > 0.0 || wall->motion.n > 0) {
-            double turn[3][3];
-            memcpy(turn, wall->turn, sizeof turn);
+            double rotation[3][3];
+            memcpy(rotation, wall->rotation, sizeof rotation);
             v3_sub(arm, x, wall->pivot);
-            m3_to_local(x, turn, arm);
+            m3_to_local(x, rotation, arm);
             v3_add(x, x, wall->motion.pivot);
         }
         const int32_t n = wall->is_open ? 0 : clx_wall_mesh_near(wall->mesh, x, cutoff, 0, NULL);

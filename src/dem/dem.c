@@ -54,7 +54,7 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->item);
     clx_free(dem->item_begin);
     clx_free(dem->convex);
-    clx_free(dem->item_turn);
+    clx_free(dem->item_rotation);
     clx_free(dem->block_flag);
     clx_free(dem->slabs.solid);
     clx_free(dem->cell);
@@ -114,12 +114,12 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
         const double across = 2.0 * radius * (1.0 + clx_least_skin(c));
         CLX_CHECK((is_cell ? 2.0 : 1.0) * across <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %s across, %s with its skin, more than %s of %s",
+                  "grain %lld has a bounding diameter of %s, %s with its skin, more than %s of %s",
                   (long long)number, clx_unit_text(2.0 * radius, "m"), clx_unit_text(across, "m"),
                   is_cell ? "half the period" : "the period", clx_unit_text(narrow, "m"));
     } else if (c->domain != CLAST_DEM_OPEN) {
         CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %s across, the domain only %s", (long long)number,
+                  "grain %lld has a bounding diameter of %s, the domain is only %s wide", (long long)number,
                   clx_unit_text(2.0 * radius, "m"), clx_unit_text(narrow, "m"));
     }
     for (int32_t w = 0; w < dem->n_wall; ++w) {
@@ -202,15 +202,15 @@ static void set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
                       .volume = volume,
                       .density = from->density};
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
-    q_matrix(g->turn, m->orientation);
+    q_matrix(g->rotation, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
-    m3_to_local(in_body, g->turn, from->angular_velocity);
+    m3_to_local(in_body, g->rotation, from->angular_velocity);
     m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
-    m3_to_world(m->angular, g->turn, momentum);
+    m3_to_world(m->angular, g->rotation, momentum);
     if (body->shape.kind == CLAST_SHAPE_SPHERE) { // never turned, so none may depend on it
-        memset(g->turn, 0, sizeof g->turn);
-        g->turn[0][0] = g->turn[1][1] = g->turn[2][2] = 1.0;
+        memset(g->rotation, 0, sizeof g->rotation);
+        g->rotation[0][0] = g->rotation[1][1] = g->rotation[2][2] = 1.0;
     }
     const clast_drag drag = clx_fluid_form(dem, &body->shape, m->density);
     m->drag[0] = drag.stokes;

@@ -58,10 +58,10 @@ struct clast_dem {
     clx_motion *motion; ///< [n_grain]
     double *travel;     ///< [n_grain] path of the surface's fastest point, at most
     int32_t n_item;
-    clx_item *item;            ///< [n_item] or NULL without clumps
-    int32_t *item_begin;       ///< [n_grain + 1] or NULL without clumps
-    clx_convex *convex;        ///< [n_item], or NULL while all items are spheres
-    double (*item_turn)[3][3]; ///< [n_item] rotation matrices, or NULL without rigid grains
+    clx_item *item;                ///< [n_item] or NULL without clumps
+    int32_t *item_begin;           ///< [n_grain + 1] or NULL without clumps
+    clx_convex *convex;            ///< [n_item], or NULL while all items are spheres
+    double (*item_rotation)[3][3]; ///< [n_item] rotation matrices, or NULL without rigid grains
     uint8_t *block_flag; ///< [blocks of CLX_SWEEP_BLOCK grains, at most] clx_move_flag of each
     clx_neighbour_list list;
     clx_inner_list inner;
@@ -122,10 +122,10 @@ static inline const clx_dem_part *clx_item_part(const clast_dem *dem, int32_t i)
 }
 
 /// Rotation matrix of an item's own axes [9].
-static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
+static inline const double *clx_item_rotation(const clast_dem *dem, int32_t i)
 {
-    return dem->item_turn != NULL ? dem->item_turn[i][0]
-                                  : dem->grain[clx_item_grain(dem, i)].turn[0];
+    return dem->item_rotation != NULL ? dem->item_rotation[i][0]
+                                      : dem->grain[clx_item_grain(dem, i)].rotation[0];
 }
 
 /// The law of a pair's materials.

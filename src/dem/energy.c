@@ -86,16 +86,16 @@ static void momentum_of(const clast_dem *dem, const clx_grain *g, const clx_moti
 {
     double in_body[3];
     double l[3];
-    double turn[3][3];
-    memcpy(turn, g->turn, sizeof turn);
+    double rotation[3][3];
+    memcpy(rotation, g->rotation, sizeof rotation);
     if (g->kind == CLAST_SHAPE_SPHERE) {
         v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, omega);
         return;
     }
-    m3_to_local(in_body, turn, omega);
+    m3_to_local(in_body, rotation, omega);
     m3_mul(l, dem->body[g->shape].inertia, in_body);
     v3_scale(l, m->inertia_factor, l);
-    m3_to_world(momentum, turn, l);
+    m3_to_world(momentum, rotation, l);
 }
 
 /// Its angular velocity with this momentum, in the orientation `from`.
@@ -104,15 +104,15 @@ static void omega_of(const clast_dem *dem, const clx_grain *g, const clx_motion 
 {
     double in_body[3];
     double w[3];
-    double turn[3][3];
-    memcpy(turn, from, sizeof turn);
+    double rotation[3][3];
+    memcpy(rotation, from, sizeof rotation);
     if (g->kind == CLAST_SHAPE_SPHERE) {
         v3_scale(omega, 2.5 / (g->mass * g->radius * g->radius), momentum);
         return;
     }
-    m3_to_local(in_body, turn, momentum);
+    m3_to_local(in_body, rotation, momentum);
     m3_mul(w, dem->body[g->shape].inverse_inertia, in_body);
-    m3_to_world(omega, turn, w);
+    m3_to_world(omega, rotation, w);
     v3_scale(omega, m->inverse_factor, omega);
 }
 
@@ -228,8 +228,8 @@ clast_status clast_dem_begin_energy(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_body; ++i) {
         CLX_CHECK(!dem->body[i].shape.own.is_mixed || dem->config.fluid_density <= 0.0,
                   CLAST_E_CONFIG,
-                  "shape %s has parts of several densities, and a fluid turns it: the energy of "
-                  "that is not booked; take fluid_density 0",
+                  "shape %s has parts of several densities, and a fluid exerts a torque on it, "
+                  "whose work is not recorded; take fluid_density 0",
                   dem->body[i].shape.name);
     }
     if (dem->energy == NULL) {
@@ -327,7 +327,7 @@ static void book_grain(const clast_dem *dem, int32_t i, double shake, double sum
     double omega[3];
     v3_axpy(velocity, g->velocity, dt / (g->mass * clx_heavier(dem, m)), force);
     v3_scale(impulse, dt, total.torque);
-    omega_of(dem, g, m, g->turn, impulse, omega);
+    omega_of(dem, g, m, g->rotation, impulse, omega);
     v3_add(omega, g->omega, omega);
     for (int c = 0; c < 3; ++c) {
         out->velocity[c] = 0.5 * (g->velocity[c] + velocity[c]);
@@ -335,7 +335,7 @@ static void book_grain(const clast_dem *dem, int32_t i, double shake, double sum
     }
     out->kinetic[0] = translation_of(dem, i, velocity);
     out->kinetic[1] = rotation_of(dem, i, omega);
-    memcpy(out->turn, g->turn, sizeof out->turn);
+    memcpy(out->rotation, g->rotation, sizeof out->rotation);
     sum[CLX_WORK_GRAVITY] -= dt * weight * out->velocity[2];
     sum[CLX_WORK_SHAKING] += dt * g->mass * shake * out->velocity[0];
 }
@@ -513,12 +513,12 @@ static void book_motion(const clast_dem *dem, int32_t i, double damping, double 
     sum[CLX_LOST_CALM] += (1.0 - left) * (before->kinetic[0] + before->kinetic[1]);
     if (g->kind != CLAST_SHAPE_SPHERE && dem->config.gyroscopic) {
         double omega[3];
-        omega_of(dem, g, m, before->turn, m->angular, omega);
+        omega_of(dem, g, m, before->rotation, m->angular, omega);
         in_place = 0.5 * v3_dot(m->angular, omega);
     } else if (g->kind != CLAST_SHAPE_SPHERE) {
         clx_grain still = *g;
         double momentum[3];
-        memcpy(still.turn, before->turn, sizeof still.turn);
+        memcpy(still.rotation, before->rotation, sizeof still.rotation);
         momentum_of(dem, &still, m, g->omega, momentum);
         in_place = 0.5 * v3_dot(momentum, g->omega);
     }

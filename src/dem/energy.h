@@ -31,7 +31,7 @@ typedef enum {
 typedef struct clx_energy_grain {
     double velocity[3], omega[3]; ///< means of before and after the step's forces
     double kinetic[2];            ///< after them: translation, rotation [J]
-    double turn[3][3];
+    double rotation[3][3];
 } clx_energy_grain;
 
 typedef struct clx_energy {

@@ -130,16 +130,16 @@ void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double 
     const clx_grain *g = &dem->grain[i];
     const double share = dt * resistance(dem, g) * dem->motion[i].inverse_factor;
     double a[3][3]; // columns of 1 + dt resistance I^-1, which is symmetric, in the body's axes
-    double turn[3][3];
+    double rotation[3][3];
     double in_body[3];
     double across[3][3];
     double solved[3];
-    memcpy(turn, g->turn, sizeof turn);
+    memcpy(rotation, g->rotation, sizeof rotation);
     for (int k = 0; k < 3; ++k) {
         v3_scale(a[k], share, dem->body[g->shape].inverse_inertia[k]);
         a[k][k] += 1.0;
     }
-    m3_to_local(in_body, turn, x);
+    m3_to_local(in_body, rotation, x);
     for (int k = 0; k < 3; ++k) {
         v3_cross(across[k], a[(k + 1) % 3], a[(k + 2) % 3]);
     }
@@ -147,5 +147,5 @@ void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double 
     for (int k = 0; k < 3; ++k) {
         solved[k] = v3_dot(in_body, across[k]) / det;
     }
-    m3_to_world(x, turn, solved);
+    m3_to_world(x, rotation, solved);
 }

@@ -184,10 +184,10 @@ bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[
     for (int c = 0; c < 3; ++c) {
         const int32_t n = grid->n_cell[level][c];
         const double at = c == 0 ? x[0] - grid->tilt * x[2] : x[c];
-        const double reach = c == 0 ? far + fabs(grid->tilt) * far : far;
-        const double low = column_of(grid, level, c, at - reach);
+        const double max_distance = c == 0 ? far + fabs(grid->tilt) * far : far;
+        const double low = column_of(grid, level, c, at - max_distance);
         walk->low[c] = cell_of(grid, level, c, low);
-        walk->n[c] = (int32_t)(column_of(grid, level, c, at + reach) - low) + 1;
+        walk->n[c] = (int32_t)(column_of(grid, level, c, at + max_distance) - low) + 1;
         if (n > 0 && walk->n[c] > n) {
             walk->n[c] = n;
         }

@@ -11,9 +11,9 @@ static void fit(double w2, double rate, double dt, double *k, double *d)
 {
     CLAST_ASSERT(dt > 0.0);
     const double swing = w2 - 0.25 * rate * rate;
-    const double turn = swing >= 0.0 ? cos(sqrt(swing) * dt) : cosh(sqrt(-swing) * dt);
+    const double cosine = swing >= 0.0 ? cos(sqrt(swing) * dt) : cosh(sqrt(-swing) * dt);
     *d = -expm1(-rate * dt) / dt;
-    *k = (1.0 + exp(-rate * dt) - 2.0 * exp(-0.5 * rate * dt) * turn) / (dt * dt);
+    *k = (1.0 + exp(-rate * dt) - 2.0 * exp(-0.5 * rate * dt) * cosine) / (dt * dt);
 }
 
 /// What a sphere's turning makes of its inverse mass at a sliding contact: 1 + 5/2.

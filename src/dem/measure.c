@@ -52,10 +52,10 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
-        m3_to_local(in_body, dem->grain[i].turn, g->omega);
+        m3_to_local(in_body, dem->grain[i].rotation, g->omega);
         m3_mul(l, dem->body[g->shape].inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
-        m3_to_world(momentum, dem->grain[i].turn, l);
+        m3_to_world(momentum, dem->grain[i].rotation, l);
     }
     m->mass += g->mass;
     m->mean_height += g->mass * g->position[2];
@@ -292,7 +292,7 @@ clast_status clx_explain_explosion(const clast_dem *dem)
         "can stop within half its radius; it overlaps %s; likely cause: %s",
         (long long)dem->step, worst, clx_unit_text(v3_norm(g->velocity), "m/s"),
         clx_unit_text(dem->stride * g->radius / dem->config.time_step, "m/s"), where,
-        is_deep ? "grains that overlapped from the start, or too little room"
+        is_deep ? "grains that overlapped from the start, or an initial packing too dense"
                 : "contacts too soft for this speed (collision_time or young), or a time step too "
                   "long for them");
 }

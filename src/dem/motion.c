@@ -42,14 +42,14 @@ static void turn_by(const double w[3], double dt, double q[4])
 }
 
 /// Angular velocity of a body in this orientation: w = R I^-1 R^T L.
-static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double turn[3][3],
+static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double rotation[3][3],
                                 double omega[3])
 {
     double in_body[3];
     double w[3];
-    m3_to_local(in_body, turn, m->angular);
+    m3_to_local(in_body, rotation, m->angular);
     m3_mul(w, body->inverse_inertia, in_body);
-    m3_to_world(omega, turn, w);
+    m3_to_world(omega, rotation, w);
     v3_scale(omega, m->inverse_factor, omega);
 }
 
@@ -64,12 +64,12 @@ static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], doub
 
 /// Reference program: w += R I^-1 R^T T dt; momentum follows the angular velocity.
 static void turn_plainly(clx_dem_body *body, clx_grain *g, clx_motion *m, const double torque[3],
-                         double turn[3][3])
+                         double rotation[3][3])
 {
     clx_motion torque_only = *m;
     double change[3];
     v3_copy(torque_only.angular, torque);
-    angular_velocity_of(body, &torque_only, turn, change);
+    angular_velocity_of(body, &torque_only, rotation, change);
     v3_add(g->omega, g->omega, change);
 }
 
@@ -81,7 +81,7 @@ static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double 
     double impulse[3];
     v3_scale(impulse, dt, torque);
     if (!dem->config.gyroscopic) {
-        turn_plainly(body, g, m, impulse, g->turn);
+        turn_plainly(body, g, m, impulse, g->rotation);
         v3_scale(g->omega, factor, g->omega);
         if (dem->config.fluid_viscosity > 0.0) {
             clx_fluid_damp_rotation(dem, i, dt, g->omega);
@@ -103,9 +103,9 @@ static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double 
         angular_velocity_of(body, m, middle, g->omega);
         turn_by(g->omega, dt, m->orientation);
     }
-    q_matrix(g->turn, m->orientation);
+    q_matrix(g->rotation, m->orientation);
     if (dem->config.gyroscopic) {
-        angular_velocity_of(body, m, g->turn, g->omega);
+        angular_velocity_of(body, m, g->rotation, g->omega);
     }
 }
 
@@ -127,9 +127,9 @@ static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_mo
 
 void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
 {
-    double turn[3][3];
-    memcpy(turn, g->turn, sizeof turn);
-    m3_to_world(arm, turn, dem->body[g->shape].shape.own.centre);
+    double rotation[3][3];
+    memcpy(rotation, g->rotation, sizeof rotation);
+    m3_to_world(arm, rotation, dem->body[g->shape].shape.own.centre);
     v3_scale(arm, -g->scale, arm);
 }
 

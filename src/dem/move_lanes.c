@@ -47,18 +47,19 @@ CLX_INLINE clx_marks turn_by(const clx_lanes w[3], double dt, const clx_lanes q[
 
 /// Four grains in motion.
 typedef struct {
-    clx_lanes position[4], velocity[4], omega[4], turn[9]; ///< fourth: radius, mass, scale
-    clx_lanes orientation[4], angular[4];                  ///< fourth: the inverse factor
-    clx_lanes inverse[9];                                  ///< of the shapes' inertia
-    clx_marks is_fast;                                     ///< turns too fast for the series
+    clx_lanes position[4], velocity[4], omega[4], rotation[9]; ///< fourth: radius, mass, scale
+    clx_lanes orientation[4], angular[4];                      ///< fourth: the inverse factor
+    clx_lanes inverse[9];                                      ///< of the shapes' inertia
+    clx_marks is_fast;                                         ///< turns too fast for the series
 } grains;
 
-CLX_INLINE void angular_velocity_of(const grains *g, const clx_lanes turn[9], clx_lanes omega[3])
+CLX_INLINE void angular_velocity_of(const grains *g, const clx_lanes rotation[9],
+                                    clx_lanes omega[3])
 {
     clx_lanes in_body[3], w[3];
-    lanes_mul_t(in_body, turn, g->angular);
+    lanes_mul_t(in_body, rotation, g->angular);
     lanes_mul(w, g->inverse, in_body);
-    lanes_mul(omega, turn, w);
+    lanes_mul(omega, rotation, w);
     for (int c = 0; c < 3; ++c) {
         omega[c] = g->angular[3] * omega[c];
     }
@@ -78,8 +79,8 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
 }
 
 /// Angular velocities, orientations and torques.
-CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_force_torque total[CLX_LANES],
-                          grains *g, clx_lanes torque[4])
+CLX_INLINE void read_rotation(clast_dem *dem, int64_t i, const clx_force_torque total[CLX_LANES],
+                              grains *g, clx_lanes torque[4])
 {
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
@@ -95,7 +96,7 @@ CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_force_torque
 {
     clx_lanes half[4], middle[9], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, total, g, torque);
+    read_rotation(c->dem, i, total, g, torque);
     read_body(c->dem, i, g);
     for (int k = 0; k < 3; ++k) {
         g->angular[k] = c->damping * (g->angular[k] + dt * torque[k]);
@@ -113,8 +114,8 @@ CLX_INLINE void turn_whole(double dt, grains *g)
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
-    matrix(q, g->turn);
-    angular_velocity_of(g, g->turn, g->omega);
+    matrix(q, g->rotation);
+    angular_velocity_of(g, g->rotation, g->omega);
 }
 
 CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
@@ -122,7 +123,7 @@ CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
 {
     clx_lanes q[4], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, total, g, torque);
+    read_rotation(c->dem, i, total, g, torque);
     const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
     for (int k = 0; k < 3; ++k) {
         g->omega[k] = c->damping * (g->omega[k] + scale * torque[k]);
@@ -173,14 +174,15 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
         return;
     }
     lanes_scatter(g->angular, m[0].angular, m[1].angular, m[2].angular, m[3].angular);
-    double *turn[CLX_LANES]; // nine in a row
+    double *rotation[CLX_LANES]; // nine in a row
     for (int k = 0; k < CLX_LANES; ++k) {
-        turn[k] = (double *)to[k].turn;
+        rotation[k] = (double *)to[k].rotation;
     }
-    lanes_scatter(g->turn, turn[0], turn[1], turn[2], turn[3]);
-    lanes_scatter(g->turn + 4, turn[0] + 4, turn[1] + 4, turn[2] + 4, turn[3] + 4);
+    lanes_scatter(g->rotation, rotation[0], rotation[1], rotation[2], rotation[3]);
+    lanes_scatter(g->rotation + 4, rotation[0] + 4, rotation[1] + 4, rotation[2] + 4,
+                  rotation[3] + 4);
     for (int k = 0; k < CLX_LANES; ++k) {
-        turn[k][8] = g->turn[8][k];
+        rotation[k][8] = g->rotation[8][k];
     }
 }
 

@@ -70,8 +70,8 @@ static void set_anchor(clast_dem *dem, int32_t i)
     for (int c = 0; c < 2; ++c) { // most pairs only touch in one image, none with its own
         if (dem->period[c] > 0.0) {
             const double most = (1.0 + dem->config.skin) * radius;
-            const double room = (4.0 * most <= dem->period[c] ? 0.25 : 0.5) * dem->period[c];
-            at->margin = fmin(at->margin, room - radius);
+            const double limit = (4.0 * most <= dem->period[c] ? 0.25 : 0.5) * dem->period[c];
+            at->margin = fmin(at->margin, limit - radius);
         }
     }
     for (int c = 0; c < 3 && dem->cell != NULL; ++c) {
@@ -409,7 +409,7 @@ done:
     return status;
 }
 
-clast_status clx_neighbour_list_check_room(const clast_dem *dem)
+clast_status clx_neighbour_list_check_width(const clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     const clx_periodic_cell *cell = dem->cell;
@@ -449,7 +449,7 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
-    CLX_TRY(clx_neighbour_list_check_room(dem));
+    CLX_TRY(clx_neighbour_list_check_width(dem));
     clx_neighbour_list_mark(dem);
     CLX_TRY(clx_neighbour_list_search(dem));
 done:

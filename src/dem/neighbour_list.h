@@ -54,7 +54,7 @@ typedef struct clx_neighbour_list {
 clast_status clx_neighbour_list_refresh(clast_dem *dem);
 
 /// Refuses a cell that has become too narrow for its grains; other domains have room.
-clast_status clx_neighbour_list_check_room(const clast_dem *dem);
+clast_status clx_neighbour_list_check_width(const clast_dem *dem);
 
 /// The refresh in two steps: marks these items and sets their anchors, but of ghosts; then
 /// searches.

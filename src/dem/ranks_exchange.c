@@ -43,7 +43,7 @@ static void read_grain(clast_dem *dem, int32_t i, int32_t width, const double *i
     if (width == TURNED) {
         memcpy(dem->motion[i].orientation, in + 11, 4 * sizeof *in);
         if (g->kind != CLAST_SHAPE_SPHERE) {
-            q_matrix(g->turn, dem->motion[i].orientation);
+            q_matrix(g->rotation, dem->motion[i].orientation);
         }
     }
     if (dem->item != NULL) {

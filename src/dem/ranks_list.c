@@ -65,24 +65,24 @@ static box box_of_own(const clx_ranks *r)
             continue;
         }
         const clx_anchor *at = &dem->list.anchor[i];
-        const double reach = clx_item_radius(dem, i) + at->margin;
+        const double margin_radius = clx_item_radius(dem, i) + at->margin;
         double x[3];
         wrap_place(dem, at->position, r->middle, x);
         for (int c = 0; c < 3; ++c) {
-            b.low[c] = fmin(b.low[c], x[c] - reach);
-            b.high[c] = fmax(b.high[c], x[c] + reach);
+            b.low[c] = fmin(b.low[c], x[c] - margin_radius);
+            b.high[c] = fmax(b.high[c], x[c] + margin_radius);
         }
     }
     return b;
 }
 
-static bool meets(const clast_dem *dem, const clx_anchor *at, double reach, const box *b)
+static bool meets(const clast_dem *dem, const clx_anchor *at, double margin_radius, const box *b)
 {
     double off[3], most[3];
     for (int c = 0; c < 3; ++c) {
         const double half = 0.5 * (b->high[c] - b->low[c]);
         off[c] = at->position[c] - 0.5 * (b->low[c] + b->high[c]);
-        most[c] = half + reach + SLACK * (half + reach + fabs(at->position[c]));
+        most[c] = half + margin_radius + SLACK * (half + margin_radius + fabs(at->position[c]));
     }
     return is_within(dem, off, most);
 }
@@ -93,9 +93,9 @@ static bool boxes_meet(const clast_dem *dem, const box *a, const box *b)
     double off[3], most[3];
     for (int c = 0; c < 3; ++c) {
         const double middle = 0.5 * (a->low[c] + a->high[c]);
-        const double reach = 0.5 * (a->high[c] - a->low[c] + b->high[c] - b->low[c]);
+        const double half_span = 0.5 * (a->high[c] - a->low[c] + b->high[c] - b->low[c]);
         off[c] = middle - 0.5 * (b->low[c] + b->high[c]);
-        most[c] = reach + 4.0 * SLACK * (reach + fabs(middle));
+        most[c] = half_span + 4.0 * SLACK * (half_span + fabs(middle));
     }
     return is_within(dem, off, most);
 }
@@ -470,7 +470,7 @@ clast_status clx_ranks_refresh(clast_dem *whole)
     clx_gathered in = {0};
     clx_arrivals a = {0};
     clx_inner_unpack(r->local);
-    CLX_TRY(clx_neighbour_list_check_room(whole));
+    CLX_TRY(clx_neighbour_list_check_width(whole));
     CLX_TRY(clast_comm_agree(r->comm, clx_neighbour_list_reserve(&r->local->list, r->local->n_item),
                              NULL));
     clx_neighbour_list_mark(r->local);

@@ -187,7 +187,7 @@ void clx_wire_set_state(clast_dem *dem, int32_t i, const clx_wire_grain *from)
     dem->travel[i] = from->state[16];
     g->held = from->state[17];
     if (g->kind != CLAST_SHAPE_SPHERE) {
-        q_matrix(g->turn, m->orientation);
+        q_matrix(g->rotation, m->orientation);
     }
     if (dem->item != NULL) {
         clx_items_place(dem, i);

@@ -75,8 +75,8 @@ static void take_items(clast_dem *dem, const removal *r)
         if (dem->convex != NULL) {
             dem->convex[to] = dem->convex[i];
         }
-        if (dem->item_turn != NULL) {
-            memcpy(dem->item_turn[to], dem->item_turn[i], sizeof dem->item_turn[to]);
+        if (dem->item_rotation != NULL) {
+            memcpy(dem->item_rotation[to], dem->item_rotation[i], sizeof dem->item_rotation[to]);
         }
         n = to + 1;
     }

@@ -13,9 +13,9 @@ void clx_rounding_prepare(clx_dem_body *body)
         const clx_core_edge *e = &core->edge[i];
         const double *n0 = core->face[e->face[0]].normal;
         const double *n1 = core->face[e->face[1]].normal;
-        double turn[3];
-        v3_cross(turn, n0, n1);
-        const double angle = atan2(sqrt(v3_norm2(turn)), v3_dot(n0, n1));
+        double cross[3];
+        v3_cross(cross, n0, n1);
+        const double angle = atan2(sqrt(v3_norm2(cross)), v3_dot(n0, n1));
         const double length = sqrt(v3_norm2(e->along));
         for (int k = 0; k < 2; ++k) { // a face is its sides' triangles about a point of its plane
             body->steiner[0] += 0.5 * length * v3_dot(e->out[k], e->from);

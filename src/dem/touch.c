@@ -12,8 +12,8 @@ static void touch(const clast_dem *dem, const clx_dem_pair *pair, bool is_new,
     clx_contact contact;
     clx_pair shapes = {.a = &dem->convex[pair->a],
                        .b = &dem->convex[pair->b],
-                       .turn_a = clx_item_turn(dem, pair->a),
-                       .turn_b = clx_item_turn(dem, pair->b)};
+                       .rotation_a = clx_item_rotation(dem, pair->a),
+                       .rotation_b = clx_item_rotation(dem, pair->b)};
     clx_pair_offset(dem, pair, shapes.offset);
     const double ra = clx_item_radius(dem, pair->a);
     const double rb = clx_item_radius(dem, pair->b);
@@ -45,7 +45,7 @@ void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
     static const double axis[2] = {0.0, 0.0};
     static const double nowhere[3] = {0.0, 0.0, 0.0};
     const clx_wall *wall = &dem->wall[-1 - pair->b];
-    clx_placed body = {.shape = &dem->convex[pair->a], .turn = clx_item_turn(dem, pair->a)};
+    clx_placed body = {.shape = &dem->convex[pair->a], .rotation = clx_item_rotation(dem, pair->a)};
     clx_contact contact;
     v3_copy(body.position, clx_item_position(dem, pair->a));
     if (wall->kind == CLX_WALL_PLANE) {

@@ -25,8 +25,8 @@ static double cold_gap(const clast_dem *dem, const clx_dem_pair *pair)
     clx_contact contact;
     clx_pair shapes = {.a = &dem->convex[pair->a],
                        .b = &dem->convex[pair->b],
-                       .turn_a = clx_item_turn(dem, pair->a),
-                       .turn_b = clx_item_turn(dem, pair->b)};
+                       .rotation_a = clx_item_rotation(dem, pair->a),
+                       .rotation_b = clx_item_rotation(dem, pair->b)};
     clx_pair_offset(dem, pair, shapes.offset);
     (void)clx_pair_contact(&shapes, INFINITY, NULL, &contact);
     return contact.gap;

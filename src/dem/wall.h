@@ -27,7 +27,7 @@ typedef struct clx_wall_body {
     bool runs, is_open;
     double offset[3], drift[3]; ///< by the drive's velocity; this velocity [m], [m/s]
     // now
-    double pivot[3], angle, turn[3][3];
+    double pivot[3], angle, rotation[3][3];
     double velocity[3], omega[3]; ///< of the pivot; in the step
     // what grains do
     double force[3], torque[3];   ///< in the last step; about the pivot
@@ -37,7 +37,7 @@ typedef struct clx_wall_body {
     clx_wall rest;              ///< of the domain, at rest
     struct clx_wall_mesh *mesh; ///< at rest; NULL: of the domain
     int32_t first;              ///< of its triangles among all
-    double reach;               ///< of the mesh from its pivot [m]
+    double bounding_radius;     ///< of the mesh from its pivot [m]
     int32_t material;
 } clx_wall_body;
 

@@ -47,10 +47,10 @@ static bool triangles_cut(int32_t n, const clx_wall_triangle *a, int32_t m,
 {
     for (int32_t i = 0; i < n; ++i) {
         for (int32_t k = 0; k < m; ++k) {
-            const double reach = a[i].bounding_radius + b[k].bounding_radius;
+            const double contact_distance = a[i].bounding_radius + b[k].bounding_radius;
             double x[3][3];
             double y[3][3];
-            if (v3_distance2(a[i].centroid, b[k].centroid) > reach * reach) {
+            if (v3_distance2(a[i].centroid, b[k].centroid) > contact_distance * contact_distance) {
                 continue;
             }
             shrink(&a[i], x);
@@ -77,7 +77,7 @@ bool clx_walls_cross(const clast_dem *dem, int32_t i, int32_t k)
     const clx_wall_triangle *now = dem->container->tri;
     if (a->mesh == NULL) { // a surface that began inside
         const clx_wall *wall = &dem->wall[i < k ? i : k];
-        const double slack = SHRUNK * b->reach;
+        const double slack = SHRUNK * b->bounding_radius;
         return least_distance(&a->rest, b->mesh->n_tri, b->mesh->tri) >= -slack &&
                least_distance(wall, b->mesh->n_tri, now + b->first) < -slack;
     }

@@ -52,7 +52,7 @@ clast_status clx_walls_begin(clast_dem *dem)
     w->n = dem->n_wall;
     for (int32_t i = 0; i < w->n; ++i) {
         w->body[i].rest = dem->wall[i];
-        identity(w->body[i].turn);
+        identity(w->body[i].rotation);
     }
 done:
     return status;
@@ -137,12 +137,12 @@ static void place_triangles(clast_dem *dem, clx_wall_body *w)
             const double *from = k < 3 ? rest->corner[k] : rest->centroid;
             double *to = k < 3 ? now->corner[k] : now->centroid;
             v3_sub(x, from, w->motion.pivot);
-            m3_to_world(to, w->turn, x);
+            m3_to_world(to, w->rotation, x);
             v3_add(to, to, w->pivot);
         }
-        m3_to_world(now->normal, w->turn, rest->normal);
+        m3_to_world(now->normal, w->rotation, rest->normal);
         for (int k = 0; k < 3; ++k) {
-            m3_to_world(now->out[k], w->turn, rest->out[k]);
+            m3_to_world(now->out[k], w->rotation, rest->out[k]);
         }
     }
 }
@@ -158,7 +158,7 @@ void clx_wall_place(clast_dem *dem, int32_t wall)
     v3_add(w->pivot, w->pivot, value);
     w->angle = value[3];
     if (v3_norm2(w->motion.axis) > 0.0) {
-        rotation(w->motion.axis, w->angle, w->turn);
+        rotation(w->motion.axis, w->angle, w->rotation);
     }
     if (w->mesh != NULL && is_at_rest) { // to the last bit where it was given
         memcpy(dem->container->tri + w->first, w->mesh->tri,
@@ -204,7 +204,8 @@ void clx_walls_end_step(clast_dem *dem)
         v3_axpy(w->offset, w->offset, dem->config.time_step, w->drift);
         clx_wall_place(dem, i);
         v3_sub(moved, w->pivot, before);
-        const double path = w->mesh != NULL ? v3_norm(moved) + fabs(w->angle - angle) * w->reach
+        const double path = w->mesh != NULL
+                                ? v3_norm(moved) + fabs(w->angle - angle) * w->bounding_radius
                             : w->rest.kind == CLX_WALL_PLANE ? fabs(v3_dot(moved, w->rest.normal))
                                                              : 0.0;
         most = fmax(most, w->is_open ? 0.0 : path);
@@ -361,7 +362,7 @@ static clast_status check_motion(const clx_wall_body *w, const clast_dem_wall_mo
     if (is_plane && turning > 0.0) {
         CLX_CHECK(
             fabs(v3_dot(m->axis, w->rest.normal)) > 1.0 - 1e-12, CLAST_E_CONFIG,
-            "a plane of the domain turns about its normal alone; give a surface in its place");
+            "a plane of the domain rotates about its normal alone; give a surface instead");
     }
     if (!is_plane) {
         bool is_along = m->velocity[0] == 0.0 && m->velocity[1] == 0.0 && m->amplitude[0] == 0.0 &&
@@ -372,14 +373,14 @@ static clast_status check_motion(const clx_wall_body *w, const clast_dem_wall_mo
         is_along = is_along && (turning == 0.0 || (fabs(m->axis[2]) > 1.0 - 1e-12 &&
                                                    m->pivot[0] == 0.0 && m->pivot[1] == 0.0));
         CLX_CHECK(is_along, CLAST_E_CONFIG,
-                  "the domain's cylinder moves along z and turns about its own axis alone; give a "
-                  "surface in its place");
+                  "the domain's cylinder moves along z and rotates about its own axis alone; give a "
+                  "surface instead");
     }
 done:
     return status;
 }
 
-static double reach_of(const clx_wall_mesh *mesh, const double pivot[3])
+static double bounding_radius_of(const clx_wall_mesh *mesh, const double pivot[3])
 {
     double most = 0.0;
     for (int32_t i = 0; i < mesh->n_tri; ++i) {
@@ -453,7 +454,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     w->motion.place = place;
     time = NULL;
     place = NULL;
-    w->reach = w->mesh != NULL ? reach_of(w->mesh, motion->pivot) : 0.0;
+    w->bounding_radius = w->mesh != NULL ? bounding_radius_of(w->mesh, motion->pivot) : 0.0;
     dem->walls.can_move = true;
     dem->walls.is_watched = true;
     search_anew(dem);

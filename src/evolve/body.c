@@ -59,7 +59,7 @@ clast_status clx_evolve_kinds(clast_evolve *e)
         clx_evolve_kind *kind = &e->kind[k];
         kind->volume = group->volume;
         kind->mass = group->mass;
-        kind->reach = group->radius;
+        kind->bounding_radius = group->radius;
         CLX_CHECK(group->volume > 0.0 && group->mass > 0.0, CLAST_E_GEOMETRY,
                   "shape %d has no volume or no mass", k + 1);
         for (int32_t i = 0; i < group->n_part; ++i) {
@@ -160,7 +160,7 @@ void clx_evolve_update(const clast_evolve *e, clx_evolve_body *body)
     body->radius = e->config->collision_radius == CLAST_COLLISION_GYRATION
                        ? sqrt(5.0 / 3.0) * body->gyration
                    : e->config->collision_radius == CLAST_COLLISION_ENCLOSING
-                       ? body->reach
+                       ? body->bounding_radius
                        : cbrt(0.75 * body->volume / CLAST_PI);
     body->speed = speed_of(e, &o, &drag);
     body->diffusivity = e->config->eddy_diffusivity;
@@ -183,7 +183,7 @@ void clx_evolve_single(const clast_evolve *e, int32_t i, clx_evolve_body *body)
     body->node = i;
     body->mass = kind->mass * s * s * s;
     body->volume = kind->volume * s * s * s;
-    body->reach = kind->reach * s;
+    body->bounding_radius = kind->bounding_radius * s;
     for (int k = 0; k < 6; ++k) {
         body->second[k] = kind->second[k] * s * s;
     }

@@ -30,7 +30,7 @@ static int32_t cell_of(const int32_t *cell, int32_t i)
 static clast_status sort_by_cell(clast_evolve *e, int32_t n, const int32_t *cell)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&e->start, &e->start_room, (int64_t)n + 1, sizeof *e->start));
+    CLX_TRY(clx_grow(&e->start, &e->start_capacity, (int64_t)n + 1, sizeof *e->start));
     memset(e->start, 0, ((size_t)n + 1) * sizeof *e->start);
     for (int32_t i = 0; i < e->n_live; ++i) {
         if (cell_of(cell, i) >= 0) {

@@ -51,7 +51,7 @@ const clast_field clast_evolve_fields[] = {
      "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed surface, or an aggregate "
      "(state.h5)",
      "sphere", .common = true, .group = "particles"},
-    LIST(shape_weight, 0, DBL_MAX, "-", "", "chance of each shape; none: all equal"),
+    LIST(shape_weight, 0, DBL_MAX, "-", "", "probability of each shape; none: all equal"),
     LIST(density, 1e-6, 1e6, "kg/m^3", "2500", "of the solid: one for all shapes, or one each",
          .common = true),
     TEXT(unit, "", "length unit of surface files; may be left out: sizes come from the curve"),
@@ -69,7 +69,7 @@ const clast_field clast_evolve_fields[] = {
            "bodies and events the mass of one",
            .common = true),
     TEXT(release, "",
-         "domain in which they start evenly (as domain), as far as it lies in that; a box in a box "
+         "domain in which they start uniformly distributed (as domain), as far as it lies in that; a box in a box "
          "lies in it all; none: all of the domain"),
     TEXT(points, "", "file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)"),
     {FIELD(TEXT_LIST, columns), 0, 0, 0, "-",
@@ -113,7 +113,7 @@ const clast_field clast_evolve_fields[] = {
          "product, brownian, shear_laminar, shear_turbulent, settling, inertial, ...",
          .common = true, .group = "encounters"),
     MEDIUM(shear, medium.shear, 0, 1e12, "1/s",
-           "shear rate that kernels see; 0: that of wind_shear"),
+           "shear rate that kernels use; 0: that of wind_shear"),
     MEDIUM(dissipation, medium.dissipation, 0, 1e12, "m^2/s^3", "turbulent dissipation"),
     MEDIUM(speed_rms, medium.speed_rms, 0, 1e6, "m/s", "turbulent velocity, one component"),
     MEDIUM(efficiency, medium.efficiency, 0, 1, "-",
@@ -125,9 +125,9 @@ const clast_field clast_evolve_fields[] = {
      "kernels and sticking beyond where they hold", "error|extrapolate"},
     CHOICE(
         collision_radius, 0, "gyration|enclosing|volume",
-        "radius that kernels see: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere"),
+        "radius that kernels use: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere"),
     CHOICE(even, 0, "tree|boxes|whole",
-           "where bodies count as evenly spread: cells that a test splits, boxes of bins, or the "
+           "where bodies count as uniformly distributed: cells that a test splits, boxes of bins, or the "
            "whole domain"),
     NUMBER(change_level, 0.01, 1e-12, 0.5, "-",
            "false alarms of the test that finds the cells out of date"),
@@ -158,9 +158,9 @@ const clast_field clast_evolve_fields[] = {
     CHOICE(
         meeting, 0, "auto|ballistic|diffusive|central|reaction",
         "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
-        "lines over the cross-section; reaction: all contacts alike, as where few touches stick"),
+        "lines over the cross-section; reaction: all contacts equally likely, as where few touches stick"),
     NUMBER(walk_step, 0.1, 1e-4, 1, "-",
-           "diffusive: least step of the walk, in radii of the smallest thrown grain"),
+           "diffusive: least step of the walk, in radii of the smallest released particle"),
     COUNT(max_tries, 100, 1, 1e6,
           "paths or contacts tried before a pair is given up, in thousands; central lines: one by "
           "one"),
@@ -180,7 +180,7 @@ const clast_field clast_evolve_fields[] = {
     NUMBER(bed_width, 0, 0, 1e6, "m",
            "width of the column in deposit.h5 (that of its widest body at least; a periodic bed "
            "asks for 2.25 of them), where all bodies of the floor wait for clast pack --start, "
-           "each above its place (modulo the width) and those that came before; 0: none"),
+           "each above its position (modulo the width) and those that came before; 0: none"),
     COUNT(frames, 0, 0, 1e6, "a frame for ParaView at each so many rows; 0: none"),
     NUMBER(checkpoint_time, 60, 0, 1e9, "s", "between checkpoints, of the clock"),
     TEXT(resume, "", "run folder to go on with"),

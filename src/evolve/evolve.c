@@ -198,14 +198,14 @@ static clast_status check_widths(const clast_evolve *e)
     int32_t n = 0;
     int32_t widest = 0;
     for (int32_t i = 0; i < e->n_start; ++i) {
-        n += 2.0 * e->body[i].reach > width ? 1 : 0;
-        widest = e->body[i].reach > e->body[widest].reach ? i : widest;
+        n += 2.0 * e->body[i].bounding_radius > width ? 1 : 0;
+        widest = e->body[i].bounding_radius > e->body[widest].bounding_radius ? i : widest;
     }
     CLX_CHECK(n == 0, CLAST_E_CONFIG,
               "%d of %d particles are wider than the domain, whose least width is %s (particle %d: "
               "%s, the diameter of the sphere about it); take a larger domain or smaller particles",
               n, e->n_start, clx_unit_text(width, "m"), widest + 1,
-              clx_unit_text(2.0 * e->body[widest].reach, "m"));
+              clx_unit_text(2.0 * e->body[widest].bounding_radius, "m"));
 done:
     return status;
 }

@@ -102,7 +102,7 @@ static clast_status search(const clast_evolve *e, const clx_evolve_body *large,
                             .cone = CLAST_PI},
                     .n_orientation = 1,
                     .approach = approach[e->meeting],
-                    .reach = large->reach,
+                    .bounding_radius = large->bounding_radius,
                     .walk_step = e->config->walk_step,
                     .on_one_thread = true};
     CLX_TRY(clx_walk_or_search(&s, tries, landing));
@@ -168,12 +168,13 @@ static void place_grains(clast_evolve *e, clx_evolve_body *large, const clx_evol
     }
     e->grain[large->last].next = small->first;
     large->last = small->last;
-    large->reach = 0.0;
+    large->bounding_radius = 0.0;
     for (int32_t g = large->first; g >= 0; g = e->grain[g].next) {
         clx_evolve_grain *grain = &e->grain[g];
         v3_sub(grain->position, grain->position, shift);
-        large->reach = fmax(large->reach,
-                            v3_norm(grain->position) + grain->scale * e->kind[grain->kind].reach);
+        large->bounding_radius =
+            fmax(large->bounding_radius,
+                 v3_norm(grain->position) + grain->scale * e->kind[grain->kind].bounding_radius);
     }
 }
 
@@ -194,7 +195,7 @@ static clast_status touch(clast_evolve *e, clx_evolve_body *large, clx_evolve_bo
                                  .part = coming.part,
                                  .volume = small->volume,
                                  .mass = small->mass,
-                                 .radius = small->reach,
+                                 .radius = small->bounding_radius,
                                  .is_round = is_ball};
     CLX_TRY(search(e, large, scene, &group, &landing));
     note_contact(e, &landing, there.grain[landing.touch.body], coming.grain[landing.part], event);
@@ -214,7 +215,7 @@ static void merge_drops(clast_evolve *e, clx_evolve_body *large, const clx_evolv
     const double radius = cbrt(0.75 * (large->volume + small->volume) / CLAST_PI);
     e->grain[large->last].next = small->first;
     large->last = small->last;
-    large->reach = radius;
+    large->bounding_radius = radius;
     for (int k = 0; k < 6; ++k) {
         large->second[k] = k < 3 ? 0.2 * radius * radius : 0.0;
     }
@@ -243,7 +244,7 @@ clast_status clx_evolve_join(clast_evolve *e, int32_t i, int32_t j, double time,
     clx_evolve_body *large = &e->body[is_first ? i : j];
     clx_evolve_body *small = &e->body[is_first ? j : i];
     const double chance = small->mass / (small->mass + large->mass);
-    CLX_TRY(clx_grow(&e->event, &e->event_room, e->n_event + 1, sizeof *e->event));
+    CLX_TRY(clx_grow(&e->event, &e->event_capacity, e->n_event + 1, sizeof *e->event));
     clx_evolve_event event = {
         .time = time, .node = {large->node, small->node}, .body = (int32_t)(large - e->body)};
     if (e->config->structure) {

@@ -9,7 +9,7 @@ clast_status clx_rows_add(clx_rows *rows, double **row)
     CLAST_ASSERT(rows->n_column > 0 && rows->n >= 0);
     const int64_t n = rows->n_column;
     const clast_status status =
-        clx_grow(&rows->value, &rows->room, rows->n + 1, (size_t)n * sizeof *rows->value);
+        clx_grow(&rows->value, &rows->capacity, rows->n + 1, (size_t)n * sizeof *rows->value);
     if (status == CLAST_OK) {
         *row = &rows->value[rows->n++ * n];
         memset(*row, 0, (size_t)n * sizeof **row);

@@ -6,7 +6,7 @@
 typedef struct clx_rows {
     int32_t n_column;
     const char *const (*column)[2]; ///< [n_column] name and unit
-    int64_t n, room;
+    int64_t n, capacity;
     double *value; ///< [n][n_column]
 } clx_rows;
 

@@ -82,7 +82,7 @@ static const member body_member[] = {
     NUMBER(body, "yz", "m^2", second[3]),
     NUMBER(body, "xz", "m^2", second[4]),
     NUMBER(body, "xy", "m^2", second[5]),
-    NUMBER(body, "reach", "m", reach),
+    NUMBER(body, "reach", "m", bounding_radius),
 };
 static const member event_member[] = {
     NUMBER(event, "time", "s", time),
@@ -279,9 +279,10 @@ static clast_status load_bodies(const clast_table *table, clast_evolve *e)
     CLX_TRY(load(&layouts[BODIES], table, e->n_start, e->n_start, e->body));
     for (int32_t i = 0; i < e->n_start; ++i) {
         body *b = &e->body[i];
-        CLX_CHECK(b->mass > 0.0 && b->volume > 0.0 && isfinite(b->mass + b->volume + b->reach),
+        CLX_CHECK(b->mass > 0.0 && b->volume > 0.0 &&
+                      isfinite(b->mass + b->volume + b->bounding_radius),
                   CLAST_E_FORMAT, "the saved body %d has no mass or volume", i + 1);
-        CLX_CHECK(v3_is_finite(b->x) && isfinite(b->time) && b->reach >= 0.0 &&
+        CLX_CHECK(v3_is_finite(b->x) && isfinite(b->time) && b->bounding_radius >= 0.0 &&
                       v3_is_finite(b->second) && v3_is_finite(b->second + 3),
                   CLAST_E_FORMAT, "the saved body %d has no place, time or extent", i + 1);
         clx_evolve_update(e, b);
@@ -297,7 +298,7 @@ static clast_status load_events(const clast_table *table, clast_evolve *e)
     const int64_t n = table->n_row;
     CLX_CHECK(n < e->n_start, CLAST_E_FORMAT, "%lld saved events of %d particles", (long long)n,
               e->n_start);
-    CLX_TRY(clx_grow(&e->event, &e->event_room, n, sizeof *e->event));
+    CLX_TRY(clx_grow(&e->event, &e->event_capacity, n, sizeof *e->event));
     CLX_TRY(load(&layouts[EVENTS], table, e->n_start, n, e->event));
     for (int64_t k = 0; k < n; ++k) {
         const event *v = &e->event[k];

@@ -17,7 +17,7 @@
 typedef struct clx_evolve_kind {
     double second[6]; ///< integral of x x^T over the mass, by the mass: xx, yy, zz, yz, xz, xy
     double form[3];   ///< L, I, S of a single shape; 0 of a group
-    double volume, mass, reach;
+    double volume, mass, bounding_radius;
 } clx_evolve_kind;
 
 /// A particle of the start, for ever: what it is, and where it sits in the body it is part of.
@@ -62,7 +62,7 @@ typedef struct clx_evolve_body {
     double time;            ///< when it came to be in this state
     double mass, volume;    ///< of one real particle, solid
     double second[6];       ///< as of a kind, in the frame of its grains
-    double reach;           ///< greatest distance of its surface from the centre of mass
+    double bounding_radius; ///< greatest distance of its surface from the centre of mass
     double envelope;    ///< volume of the solid ellipsoid of equal moments, not below the solid's
     double gyration;    ///< radius of
     double radius;      ///< that kernels see
@@ -110,7 +110,7 @@ struct clast_evolve {
     int32_t n_start;
     clx_evolve_grain *grain; ///< [n_start]
     clx_evolve_body *body;   ///< [n_start] the larger of a pair lives on in its place
-    int64_t n_event, event_room;
+    int64_t n_event, event_capacity;
     clx_evolve_event *event; ///< [n_event]
 
     clast_workspace *workspace;
@@ -121,7 +121,7 @@ struct clast_evolve {
     double (*at)[3]; ///< [n_live] where
     int32_t *order;  ///< [n_start] scratch: bodies by cell
     int64_t *start;  ///< [cells + 1] scratch
-    int64_t start_room;
+    int64_t start_capacity;
     int32_t n_cell; ///< last
     clx_evolve_cells cells;
     int32_t leg_step; ///< steps of this leg

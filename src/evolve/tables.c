@@ -90,7 +90,7 @@ static void body_row(const clx_evolve_body *b, double *row)
                             b->mass,
                             b->volume,
                             b->gyration,
-                            b->reach,
+                            b->bounding_radius,
                             size_of(b->envelope),
                             1.0 - b->volume / b->envelope,
                             b->mass / b->envelope,
@@ -229,9 +229,9 @@ static clast_status add_contacts(const clast_evolve *e, int64_t node, const int3
 {
     clast_status status = CLAST_OK;
     int64_t *stack = NULL;
-    int64_t room = 0;
+    int64_t capacity = 0;
     int64_t n = 0;
-    CLX_TRY(clx_grow(&stack, &room, 1, sizeof *stack));
+    CLX_TRY(clx_grow(&stack, &capacity, 1, sizeof *stack));
     stack[n++] = node;
     while (n > 0) {
         const int64_t at = stack[--n];
@@ -245,7 +245,7 @@ static clast_status add_contacts(const clast_evolve *e, int64_t node, const int3
         v3_add(point, point, grain->position);
         CLX_TRY(clast_assembly_add_contact(assembly, first[event->contact[0]],
                                            first[event->contact[1]], point));
-        CLX_TRY(clx_grow(&stack, &room, n + 2, sizeof *stack));
+        CLX_TRY(clx_grow(&stack, &capacity, n + 2, sizeof *stack));
         stack[n++] = event->node[0];
         stack[n++] = event->node[1];
     }

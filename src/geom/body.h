@@ -26,14 +26,14 @@ static inline void clx_body_sphere(clx_body *body, const double centre[3], doubl
 }
 
 /// Ellipsoid of these semi-axes in its frame, turned and moved.
-static inline void clx_body_ellipsoid(clx_body *body, const double centre[3], double turn[3][3],
+static inline void clx_body_ellipsoid(clx_body *body, const double centre[3], double rotation[3][3],
                                       const double axes[3])
 {
     *body = (clx_body){0};
     v3_copy(body->centre, centre);
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
-            body->half[i][k] = turn[i][k] * axes[k];
+            body->half[i][k] = rotation[i][k] * axes[k];
         }
         body->radius = fmax(body->radius, axes[i]);
     }

@@ -22,7 +22,7 @@ static clast_status check_vertex(const clast_mesh *mesh, int32_t v, double *larg
     return CLAST_OK;
 }
 
-static clast_status check_mesh(const clast_mesh *mesh, double *reach)
+static clast_status check_mesh(const clast_mesh *mesh, double *max_abs)
 {
     clast_status status = CLAST_OK;
     double largest = 0.0;
@@ -33,7 +33,7 @@ static clast_status check_mesh(const clast_mesh *mesh, double *reach)
                   "triangle %lld names vertex %d of %d", (long long)(i / 3), v, mesh->n_vert);
         CLX_TRY(check_vertex(mesh, v, &largest));
     }
-    *reach = largest;
+    *max_abs = largest;
 done:
     return status;
 }
@@ -80,8 +80,8 @@ bool clx_bvh_is_closed(const clast_mesh *mesh)
 
 static void fill_boxes(const clast_bvh *bvh, clx_tree_box *box)
 {
-    CLAST_ASSERT(bvh->reach >= 0.0);
-    const double pad = 0x1p-50 * bvh->reach;
+    CLAST_ASSERT(bvh->max_abs >= 0.0);
+    const double pad = 0x1p-50 * bvh->max_abs;
     for (int32_t t = 0; t < bvh->mesh->n_tri; ++t) {
         const int32_t *tri = bvh->mesh->tri[t];
         for (int k = 0; k < 3; ++k) {
@@ -115,12 +115,12 @@ clast_status clast_bvh_create(const clast_mesh *mesh, clast_bvh **bvh)
     clast_status status = CLAST_OK;
     clast_bvh *made = NULL;
     clx_tree_box *box = NULL;
-    double reach = 0.0;
+    double max_abs = 0.0;
     int64_t capacity = 0;
-    CLX_TRY(check_mesh(mesh, &reach));
+    CLX_TRY(check_mesh(mesh, &max_abs));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->mesh = mesh;
-    made->reach = reach;
+    made->max_abs = max_abs;
     made->rule = rule_of(mesh);
     CLX_TRY(clx_alloc(&box, mesh->n_tri, sizeof *box));
     fill_boxes(made, box);

@@ -23,7 +23,7 @@ struct clast_bvh {
     clx_tree tree;          ///< item i of the tree is triangle tree.item[i] of the mesh; boxes are
                             ///< padded by 2^-50 of the largest coordinate
     double (*corner)[3][3]; ///< [n_tri] corners of triangle tree.item[i], in leaf order
-    double reach;           ///< largest absolute coordinate
+    double max_abs;         ///< largest absolute coordinate
     clx_bvh_rule rule;
     clx_bvh_moment *moment; ///< [n_node], for CLX_BVH_SOLID_ANGLE only
 };

@@ -17,9 +17,9 @@ static bool frame_of(const clast_bvh *bvh, const double origin[3], const double 
                      double t_low, double t_high, ray_frame *frame)
 {
     // The triangle test moves a corner by less than 8 ulp of the largest number in play.
-    const double reach =
-        fmax(fmax(fabs(origin[0]), fabs(origin[1])), fmax(fabs(origin[2]), bvh->reach));
-    const double widen = 0x1p-49 * reach;
+    const double max_abs =
+        fmax(fmax(fabs(origin[0]), fabs(origin[1])), fmax(fabs(origin[2]), bvh->max_abs));
+    const double widen = 0x1p-49 * max_abs;
     for (int k = 0; k < 3; ++k) {
         const bool is_negative = signbit(direction[k]);
         frame->inverse[k] = 1.0 / direction[k];

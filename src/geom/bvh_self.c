@@ -27,7 +27,7 @@ static void flat(const double a[3], int axis, double out[2])
     out[1] = a[(axis + 2) % 3];
 }
 
-static int turn(const double a[3], const double b[3], const double c[3], int axis)
+static int orientation(const double a[3], const double b[3], const double c[3], int axis)
 {
     double p[3][2];
     flat(a, axis, p[0]);
@@ -48,7 +48,7 @@ static int shadow_axis(double t[3][3])
     int axis = fabs(n[0]) > fabs(n[1]) ? 0 : 1;
     axis = fabs(n[2]) > fabs(n[axis]) ? 2 : axis;
     for (int i = 0; i < 3; ++i) {
-        if (turn(t[0], t[1], t[2], (axis + i) % 3) != 0) {
+        if (orientation(t[0], t[1], t[2], (axis + i) % 3) != 0) {
             return (axis + i) % 3;
         }
     }
@@ -70,8 +70,8 @@ static bool is_between(const double a[3], const double b[3], const double p[3])
 static bool segments_meet(const double a[3], const double b[3], const double p[3],
                           const double q[3], int axis)
 {
-    const int o[4] = {turn(a, b, p, axis), turn(a, b, q, axis), turn(p, q, a, axis),
-                      turn(p, q, b, axis)};
+    const int o[4] = {orientation(a, b, p, axis), orientation(a, b, q, axis),
+                      orientation(p, q, a, axis), orientation(p, q, b, axis)};
     if (o[0] * o[1] < 0 && o[2] * o[3] < 0) {
         return true;
     }
@@ -83,8 +83,8 @@ static bool segments_meet(const double a[3], const double b[3], const double p[3
 static bool flat_meet(const double p[3], const double q[3], double t[3][3])
 {
     const int axis = shadow_axis(t);
-    const int s[3] = {turn(t[0], t[1], p, axis), turn(t[1], t[2], p, axis),
-                      turn(t[2], t[0], p, axis)};
+    const int s[3] = {orientation(t[0], t[1], p, axis), orientation(t[1], t[2], p, axis),
+                      orientation(t[2], t[0], p, axis)};
     if (s[0] == s[1] && s[1] == s[2]) {
         return true; // p strictly inside; on the border the edges below tell
     }
@@ -164,8 +164,8 @@ static bool edge_pair_overlaps(double a[3][3], double b[3][3], const int match[3
         return false;
     }
     const int axis = shadow_axis(a);
-    return turn(a[(i + 1) % 3], a[(i + 2) % 3], a[i], axis) ==
-           turn(a[(i + 1) % 3], a[(i + 2) % 3], b[j], axis);
+    return orientation(a[(i + 1) % 3], a[(i + 2) % 3], a[i], axis) ==
+           orientation(a[(i + 1) % 3], a[(i + 2) % 3], b[j], axis);
 }
 
 bool clx_triangles_meet(double a[3][3], double b[3][3])

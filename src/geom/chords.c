@@ -52,10 +52,10 @@ static void fill_arcs(clx_chords *chords)
         for (int k = 0; k < 3; ++k) {
             const double y = (a + 0.5 * k) / CLX_N_ARC;
             const double length = hypot(1.0 - y, y);
-            chords->turn[k][0][a] = (1.0 - y) / length;
-            chords->turn[k][1][a] = y / length;
-            chords->turn[k][0][CLX_N_ARC + a] = -y / length;
-            chords->turn[k][1][CLX_N_ARC + a] = (1.0 - y) / length;
+            chords->arc[k][0][a] = (1.0 - y) / length;
+            chords->arc[k][1][a] = y / length;
+            chords->arc[k][0][CLX_N_ARC + a] = -y / length;
+            chords->arc[k][1][CLX_N_ARC + a] = (1.0 - y) / length;
         }
     }
 }
@@ -101,9 +101,9 @@ CLX_INLINE void find_chords(const clx_chords *chords, const clx_lanes d[3], clx_
 CLX_INLINE void bound_widths(const clx_chords *chords, int from, const double u[3],
                              const double v[3], clx_lanes width[2])
 {
-    const double(*begin)[2 * CLX_N_ARC] = chords->turn[0];
-    const double(*middle)[2 * CLX_N_ARC] = chords->turn[1];
-    const double(*end)[2 * CLX_N_ARC] = chords->turn[2];
+    const double(*begin)[2 * CLX_N_ARC] = chords->arc[0];
+    const double(*middle)[2 * CLX_N_ARC] = chords->arc[1];
+    const double(*end)[2 * CLX_N_ARC] = chords->arc[2];
     const clx_lanes along = lanes_load(middle[0] + from);
     const clx_lanes across = lanes_load(middle[1] + from);
     clx_lanes d[3];

@@ -22,7 +22,7 @@ typedef struct clx_chords {
     double longest;  ///< chord: no more than the longest caliper
     double shortest; ///< width along a cell's middle: no less than the shortest caliper
     double radius;   ///< of the vertex farthest from the origin
-    double turn[3][2][2 * CLX_N_ARC]; ///< begin, middle and end of arcs of a half turn: x, y
+    double arc[3][2][2 * CLX_N_ARC]; ///< begin, middle and end of arcs of a half turn: x, y
     clx_chord cell[CLX_N_CHORD];
 } clx_chords;
 

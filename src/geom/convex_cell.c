@@ -62,11 +62,11 @@ clast_status clx_cell_box(const double low[3], const double high[3], clx_cell *c
             clx_cell_face *f = NULL;
             CLX_TRY(begin_face(cell, -(2 * axis + side) - 1, &f));
             for (int k = 0; k < 4; ++k) {
-                const int turn = side == 1 ? k : 3 - k; // outward
+                const int corner = side == 1 ? k : 3 - k; // outward
                 double x[3];
                 x[axis] = side == 1 ? high[axis] : low[axis];
-                x[u] = turn == 1 || turn == 2 ? high[u] : low[u];
-                x[v] = turn >= 2 ? high[v] : low[v];
+                x[u] = corner == 1 || corner == 2 ? high[u] : low[u];
+                x[v] = corner >= 2 ? high[v] : low[v];
                 CLX_TRY(append_corner(f, x));
             }
             ++cell->n_face;
@@ -204,11 +204,11 @@ double clx_cell_volume(const clx_cell *cell)
 
 double clx_cell_reach2(const clx_cell *cell)
 {
-    double reach = 0.0;
+    double radius2 = 0.0;
     for (int32_t i = 0; i < cell->n_face; ++i) {
         for (int32_t k = 0; k < cell->face[i].n; ++k) {
-            reach = fmax(reach, v3_norm2(cell->face[i].corner[k]));
+            radius2 = fmax(radius2, v3_norm2(cell->face[i].corner[k]));
         }
     }
-    return reach;
+    return radius2;
 }

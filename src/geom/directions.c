@@ -14,11 +14,11 @@ CLX_INLINE void load(const double direction[CLX_LANES][3], clx_lanes out[3])
     }
 }
 
-CLX_INLINE void take_reach(const double p[3], const clx_lanes d[3], clx_lanes *low, clx_lanes *high)
+CLX_INLINE void extend(const double p[3], const clx_lanes d[3], clx_lanes *low, clx_lanes *high)
 {
-    const clx_lanes reach = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
-    *low = lanes_lesser(reach, *low);
-    *high = lanes_pick(reach > *high, reach, *high);
+    const clx_lanes along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
+    *low = lanes_lesser(along, *low);
+    *high = lanes_pick(along > *high, along, *high);
 }
 
 CLX_FOR_EACH_MACHINE
@@ -31,8 +31,8 @@ void clx_hull_body_widths(const clx_hull_body *body, const double direction[CLX_
     load(direction, d[0]);
     load(direction + CLX_LANES, d[1]);
     for (int32_t v = 0; v < body->n_vert; ++v) {
-        take_reach(body->vert[v], d[0], &low[0], &high[0]);
-        take_reach(body->vert[v], d[1], &low[1], &high[1]);
+        extend(body->vert[v], d[0], &low[0], &high[0]);
+        extend(body->vert[v], d[1], &low[1], &high[1]);
     }
     for (int i = 0; i < CLX_LANES; ++i) {
         width[i] = high[0][i] - low[0][i];

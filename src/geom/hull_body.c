@@ -262,13 +262,13 @@ int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[
 {
     CLAST_ASSERT(start >= 0 && start < body->n_vert);
     int32_t at = start;
-    double reach = v3_dot(body->vert[at], direction);
+    double along = v3_dot(body->vert[at], direction);
     for (int32_t step = 0; step < body->n_vert; ++step) {
         int32_t best = at;
         for (int32_t i = body->begin[at]; i < body->begin[at + 1]; ++i) {
             const double r = v3_dot(body->vert[body->neighbour[i]], direction);
-            if (r > reach) {
-                reach = r;
+            if (r > along) {
+                along = r;
                 best = body->neighbour[i];
             }
         }
@@ -299,9 +299,9 @@ double clx_hull_body_width(const clx_hull_body *body, const double direction[3])
     double low = INFINITY;
     double high = -INFINITY;
     for (int32_t v = 0; v < body->n_vert; ++v) { // comparisons: fmin is a call
-        const double reach = v3_dot(body->vert[v], direction);
-        low = reach < low ? reach : low;
-        high = reach > high ? reach : high;
+        const double along = v3_dot(body->vert[v], direction);
+        low = along < low ? along : low;
+        high = along > high ? along : high;
     }
     return high - low;
 }

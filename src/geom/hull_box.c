@@ -77,7 +77,7 @@ static void box_in_frame(const clx_hull_body *body, double frame[3][3], clx_box 
 static void turn_down(surroundings *s, int idle, clx_box *box)
 {
     int axis = idle;
-    for (int turn = 0; turn < MOST_TURNS && idle < 3; ++turn) {
+    for (int pass = 0; pass < MOST_TURNS && idle < 3; ++pass) {
         clx_box next;
         const double limit = box_volume(box) * (1.0 - GAIN);
         if (box_along(s, box->axis[axis], box->edge[axis], limit, &next) &&
@@ -127,7 +127,7 @@ typedef struct {
 
 typedef struct {
     int32_t n;
-    int64_t room;
+    int64_t capacity;
     face_box *at;              ///< [n]
     double volume[CANDIDATES]; ///< of the least so far, rising
 } face_boxes;
@@ -153,7 +153,7 @@ static clast_status try_face(surroundings *s, int32_t f, face_boxes *boxes)
     const clx_chord *chord = &s->chords->cell[clx_chord_cell(n)];
     double back[3];
     double across[3];
-    CLX_TRY(clx_grow(&boxes->at, &boxes->room, (int64_t)boxes->n + 1, sizeof *boxes->at));
+    CLX_TRY(clx_grow(&boxes->at, &boxes->capacity, (int64_t)boxes->n + 1, sizeof *boxes->at));
     v3_scale(back, -1.0, n);
     const int32_t low =
         clx_hull_body_support(s->body, back, v3_dot(chord->d, n) > 0.0 ? chord->low : chord->high);

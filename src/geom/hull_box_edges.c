@@ -93,7 +93,7 @@ static void try_family(const family *f, double *limit, clx_box *best)
 }
 
 /// The turn about an edge from one of its faces to the other; false where they lie in one plane.
-static bool turn_about(const clx_hull_body *body, const clx_hull_body_edge *edge, family *f)
+static bool rotate_about(const clx_hull_body *body, const clx_hull_body_edge *edge, family *f)
 {
     const double *a = body->normal[edge->face[0]];
     const double *b = body->normal[edge->face[1]];
@@ -112,7 +112,7 @@ void clx_hull_body_box_on_edges(const clx_hull_body *body, clx_box *best)
     double limit = best->edge[0] * best->edge[1] * best->edge[2];
     for (int32_t i = 0; i < body->n_edge; ++i) {
         family f = {.body = body};
-        if (!turn_about(body, &body->edge[i], &f)) {
+        if (!rotate_about(body, &body->edge[i], &f)) {
             continue;
         }
         for (int32_t j = 0; j < body->n_edge; ++j) {

@@ -49,7 +49,7 @@ static bool is_outside(const clx_hull_inc *hull, const clx_hull_facet *facet, co
 {
     CLAST_ASSERT(facet->vert[0] >= 0);
     const double distance = signed_distance(hull, facet, point);
-    const double doubt = facet->tolerance * hull->reach;
+    const double doubt = facet->tolerance * hull->diagonal;
     if (distance > doubt) {
         return true;
     }
@@ -108,8 +108,9 @@ static clast_status reserve_facets(clx_hull_inc *hull, int32_t n)
 {
     clast_status status = CLAST_OK;
     const int64_t need = (int64_t)hull->facet_end + n;
-    CLX_TRY(clx_grow(&hull->facet, &hull->facet_room, need, sizeof *hull->facet));
-    CLX_TRY(clx_grow(&hull->free_facet, &hull->free_facet_room, need, sizeof *hull->free_facet));
+    CLX_TRY(clx_grow(&hull->facet, &hull->facet_capacity, need, sizeof *hull->facet));
+    CLX_TRY(
+        clx_grow(&hull->free_facet, &hull->free_facet_capacity, need, sizeof *hull->free_facet));
 done:
     return status;
 }
@@ -118,8 +119,8 @@ static clast_status reserve_vertex(clx_hull_inc *hull, int32_t n)
 {
     clast_status status = CLAST_OK;
     const int64_t need = (int64_t)hull->vert_end + n;
-    CLX_TRY(clx_grow(&hull->vert, &hull->vert_room, need, sizeof *hull->vert));
-    CLX_TRY(clx_grow(&hull->free_vert, &hull->free_vert_room, need, sizeof *hull->free_vert));
+    CLX_TRY(clx_grow(&hull->vert, &hull->vert_capacity, need, sizeof *hull->vert));
+    CLX_TRY(clx_grow(&hull->free_vert, &hull->free_vert_capacity, need, sizeof *hull->free_vert));
 done:
     return status;
 }
@@ -131,9 +132,11 @@ static clast_status reserve_hull(clx_hull_inc *hull, int32_t n)
     clast_status status = CLAST_OK;
     CLX_TRY(reserve_vertex(hull, n));
     CLX_TRY(reserve_facets(hull, 2 * n));
-    CLX_TRY(clx_grow(&hull->work, &hull->work_room, 2 * (int64_t)n, sizeof *hull->work));
-    CLX_TRY(clx_grow(&hull->visible, &hull->visible_room, 2 * (int64_t)n, sizeof *hull->visible));
-    CLX_TRY(clx_grow(&hull->horizon, &hull->horizon_room, 6 * (int64_t)n, sizeof *hull->horizon));
+    CLX_TRY(clx_grow(&hull->work, &hull->work_capacity, 2 * (int64_t)n, sizeof *hull->work));
+    CLX_TRY(
+        clx_grow(&hull->visible, &hull->visible_capacity, 2 * (int64_t)n, sizeof *hull->visible));
+    CLX_TRY(
+        clx_grow(&hull->horizon, &hull->horizon_capacity, 6 * (int64_t)n, sizeof *hull->horizon));
 done:
     return status;
 }
@@ -195,8 +198,9 @@ static clast_status find_horizon(clx_hull_inc *hull, int32_t first, const double
     CLAST_ASSERT(hull->facet[first].vert[0] >= 0);
     clast_status status = CLAST_OK;
     const int64_t seen = 2 * ++hull->stamp;
-    CLX_TRY(clx_grow(&hull->visible, &hull->visible_room, hull->facet_end, sizeof *hull->visible));
-    CLX_TRY(clx_grow(&hull->horizon, &hull->horizon_room, (int64_t)hull->facet_end * 3,
+    CLX_TRY(
+        clx_grow(&hull->visible, &hull->visible_capacity, hull->facet_end, sizeof *hull->visible));
+    CLX_TRY(clx_grow(&hull->horizon, &hull->horizon_capacity, (int64_t)hull->facet_end * 3,
                      sizeof *hull->horizon));
     hull->n_visible = 0;
     hull->n_horizon = 0;
@@ -250,7 +254,7 @@ static clast_status push_work(clx_hull_inc *hull, int32_t f)
 {
     CLAST_ASSERT(f >= 0 && f < hull->facet_end);
     const clast_status status =
-        clx_grow(&hull->work, &hull->work_room, (int64_t)hull->n_work + 1, sizeof *hull->work);
+        clx_grow(&hull->work, &hull->work_capacity, (int64_t)hull->n_work + 1, sizeof *hull->work);
     if (status == CLAST_OK) {
         hull->work[hull->n_work++] = f;
     }
@@ -314,7 +318,7 @@ static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double 
     CLX_TRY(find_horizon(hull, f, point[best]));
     CLX_TRY(reserve_vertex(hull, 1));
     CLX_TRY(reserve_facets(hull, hull->n_horizon));
-    CLX_TRY(clx_grow(&hull->fresh, &hull->fresh_room, hull->n_horizon, sizeof *hull->fresh));
+    CLX_TRY(clx_grow(&hull->fresh, &hull->fresh_capacity, hull->n_horizon, sizeof *hull->fresh));
     const int32_t list = leave_visible(hull, point[best]);
     raise_cone(hull, point[best],
                tag[best]); // before the old ones go: a slot must not change hands
@@ -341,8 +345,8 @@ static clast_status find_candidates(clx_hull_inc *hull, const double low[3], con
     double centre[3];
     double half[3];
     int32_t n = 0;
-    CLX_TRY(
-        clx_grow(&hull->candidate, &hull->candidate_room, hull->n_facet, sizeof *hull->candidate));
+    CLX_TRY(clx_grow(&hull->candidate, &hull->candidate_capacity, hull->n_facet,
+                     sizeof *hull->candidate));
     for (int k = 0; k < 3; ++k) {
         centre[k] = 0.5 * (low[k] + high[k]);
         half[k] = 0.5 * (high[k] - low[k]);
@@ -355,7 +359,7 @@ static clast_status find_candidates(clx_hull_inc *hull, const double low[3], con
         const double *normal = facet->normal;
         const double most = signed_distance(hull, facet, centre) + fabs(normal[0]) * half[0] +
                             fabs(normal[1]) * half[1] + fabs(normal[2]) * half[2];
-        if (most >= -2.0 * facet->tolerance * hull->reach) {
+        if (most >= -2.0 * facet->tolerance * hull->diagonal) {
             hull->candidate[n++] = f;
         }
     }
@@ -384,12 +388,12 @@ done:
 static clast_status set_planes(clx_hull_inc *hull, int32_t n)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&hull->plane, &hull->plane_room, (int64_t)n / 4 + 1, sizeof *hull->plane));
+    CLX_TRY(clx_grow(&hull->plane, &hull->plane_capacity, (int64_t)n / 4 + 1, sizeof *hull->plane));
     for (int32_t i = 0; i < n; ++i) {
         const clx_hull_facet *facet = &hull->facet[hull->candidate[i]];
         double to[3];
         v3_sub(to, hull->vert[facet->vert[0]].point, hull->low);
-        const double doubt = facet->tolerance * hull->reach;
+        const double doubt = facet->tolerance * hull->diagonal;
         clx_lanes_set(hull->plane, i, facet->normal, 2.0 * doubt - v3_dot(facet->normal, to));
     }
 done:
@@ -441,7 +445,7 @@ static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*p
         }
     }
     CLX_TRY(find_candidates(hull, low, high, &n_candidate));
-    CLX_TRY(clx_grow(&hull->next, &hull->next_room, n, sizeof *hull->next));
+    CLX_TRY(clx_grow(&hull->next, &hull->next_capacity, n, sizeof *hull->next));
     CLX_TRY(set_planes(hull, n_candidate));
     hull->n_work = 0;
     for (int32_t i = 0; i < n && n_candidate > 0; ++i) {
@@ -552,8 +556,9 @@ static clast_status keep_pending(clx_hull_inc *hull, int32_t n, const double (*p
 {
     clast_status status = CLAST_OK;
     const int64_t need = (int64_t)hull->n_pending + n;
-    CLX_TRY(clx_grow(&hull->pending, &hull->pending_room, need, sizeof *hull->pending));
-    CLX_TRY(clx_grow(&hull->pending_tag, &hull->pending_tag_room, need, sizeof *hull->pending_tag));
+    CLX_TRY(clx_grow(&hull->pending, &hull->pending_capacity, need, sizeof *hull->pending));
+    CLX_TRY(
+        clx_grow(&hull->pending_tag, &hull->pending_tag_capacity, need, sizeof *hull->pending_tag));
     for (int32_t i = 0; i < n; ++i) {
         v3_copy(hull->pending[hull->n_pending], point[i]);
         hull->pending_tag[hull->n_pending++] = tag[i];
@@ -575,7 +580,7 @@ static void extend_box(clx_hull_inc *hull, int32_t n, const double (*point)[3])
             hull->high[k] = greater_of(point[i][k], hull->high[k]);
         }
     }
-    hull->reach = v3_distance(hull->low, hull->high);
+    hull->diagonal = v3_distance(hull->low, hull->high);
 }
 
 static clast_status check_finite(int32_t n, const double (*point)[3])
@@ -626,7 +631,7 @@ clast_status clx_hull_inc_insert(clx_hull_inc *hull, const double point[3], int3
     CLX_TRY(check_finite(1, (const double(*)[3])point));
     extend_box(hull, 1, (const double(*)[3])point);
     if (is_outside(hull, &hull->facet[facet], point)) {
-        CLX_TRY(clx_grow(&hull->next, &hull->next_room, 1, sizeof *hull->next));
+        CLX_TRY(clx_grow(&hull->next, &hull->next_capacity, 1, sizeof *hull->next));
         hull->next[0] = -1;
         hull->facet[facet].outside = 0;
         CLX_TRY(insert_farthest(hull, facet, (const double(*)[3])point, &tag));

@@ -45,32 +45,32 @@ typedef struct clx_hull_inc {
     // The rest is scratch.
     double volume, volume_low; ///< running sum and its rounding
     double low[3], high[3];    ///< box of all points seen
-    double reach;              ///< its diagonal
-    int64_t facet_room, vert_room;
+    double diagonal;           ///< its diagonal
+    int64_t facet_capacity, vert_capacity;
     int32_t *free_facet, *free_vert;
     int32_t n_free_facet, n_free_vert;
-    int64_t free_facet_room, free_vert_room;
+    int64_t free_facet_capacity, free_vert_capacity;
     double (*pending)[3]; ///< points kept while all are coplanar
     int32_t *pending_tag;
     int32_t n_pending;
-    int64_t pending_room, pending_tag_room;
+    int64_t pending_capacity, pending_tag_capacity;
     int32_t *next; ///< [batch] links of the outside lists
-    int64_t next_room;
+    int64_t next_capacity;
     int32_t *candidate;
-    int64_t candidate_room;
+    int64_t candidate_capacity;
     clx_lanes *plane; ///< [n_candidate / 4] the candidates' normals and minus offsets from `low`
-    int64_t plane_room;
+    int64_t plane_capacity;
     int32_t *work;
     int32_t n_work;
-    int64_t work_room;
+    int64_t work_capacity;
     int32_t *visible;
     int32_t n_visible;
-    int64_t visible_room;
+    int64_t visible_capacity;
     clx_hull_edge *horizon;
     int32_t n_horizon;
-    int64_t horizon_room;
+    int64_t horizon_capacity;
     int32_t *fresh; ///< [n_horizon] new facets
-    int64_t fresh_room;
+    int64_t fresh_capacity;
     int64_t stamp;
     int64_t n_made; ///< facets ever
 } clx_hull_inc;

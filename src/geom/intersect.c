@@ -54,12 +54,12 @@ static bool stretches_overlap(double a[3][3], int lone_a, bool a_above, double b
 /// Does an edge of plane triangle a have all of b on its outer side or on itself?
 static bool parted_by_edge(double a[3][2], double b[3][2])
 {
-    const int turn = sign(clx_orient2d(a[0], a[1], a[2]));
+    const int orientation = sign(clx_orient2d(a[0], a[1], a[2]));
     for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
         bool outside = true;
         for (int i = 0; i < 3 && outside; ++i) {
-            outside = turn * sign(clx_orient2d(a[k], a[next], b[i])) <= 0;
+            outside = orientation * sign(clx_orient2d(a[k], a[next], b[i])) <= 0;
         }
         if (outside) {
             return true;

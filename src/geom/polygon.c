@@ -76,16 +76,16 @@ static void flatten(clx_polygon_cutter *c, const double (*vert)[3], int32_t n,
     newell(vert, n, corner, normal);
     int k = fabs(normal[1]) > fabs(normal[0]) ? 1 : 0;
     k = fabs(normal[2]) > fabs(normal[k]) ? 2 : k;
-    const bool turn = normal[k] < 0.0;
-    const int a = turn ? (k + 2) % 3 : (k + 1) % 3;
-    const int b = turn ? (k + 1) % 3 : (k + 2) % 3;
+    const bool is_flipped = normal[k] < 0.0;
+    const int a = is_flipped ? (k + 2) % 3 : (k + 1) % 3;
+    const int b = is_flipped ? (k + 1) % 3 : (k + 2) % 3;
     for (int32_t i = 0; i < n; ++i) {
         c->flat[i][0] = vert[corner[i]][a];
         c->flat[i][1] = vert[corner[i]][b];
     }
 }
 
-static double turn_at(const clx_polygon_cutter *c, int32_t i, int32_t j, int32_t k)
+static double orientation_at(const clx_polygon_cutter *c, int32_t i, int32_t j, int32_t k)
 {
     return clx_orient2d(c->flat[i], c->flat[j], c->flat[k]);
 }
@@ -95,7 +95,7 @@ static bool is_fan(const clx_polygon_cutter *c, int32_t n)
 {
     bool fan = true;
     for (int32_t i = 1; i + 1 < n && fan; ++i) {
-        fan = turn_at(c, 0, i, i + 1) > 0.0;
+        fan = orientation_at(c, 0, i, i + 1) > 0.0;
     }
     return fan;
 }
@@ -124,7 +124,7 @@ static bool turns_once(const clx_polygon_cutter *c, int32_t n)
 
 static void classify(clx_polygon_cutter *c, int32_t i)
 {
-    const bool reflex = !(turn_at(c, c->prev[i], i, c->next[i]) > 0.0);
+    const bool reflex = !(orientation_at(c, c->prev[i], i, c->next[i]) > 0.0);
     if (reflex && !c->is_reflex[i]) {
         c->reflex[c->n_reflex++] = i;
     }
@@ -173,7 +173,7 @@ static bool is_ear(clx_polygon_cutter *c, int32_t j, int stage)
         return true;
     }
     if (c->is_reflex[j]) {
-        return stage == STAGE_FLAT && turn_at(c, ear[0], ear[1], ear[2]) == 0.0;
+        return stage == STAGE_FLAT && orientation_at(c, ear[0], ear[1], ear[2]) == 0.0;
     }
     for (int32_t r = 0; r < c->n_reflex; ++r) {
         ++c->n_test;
@@ -236,7 +236,7 @@ static clast_status cut_ears(clx_polygon_cutter *c, int32_t n, int32_t (*tri)[3]
         tri[t][0] = c->prev[j];
         tri[t][1] = j;
         tri[t][2] = c->next[j];
-        if (turn_at(c, tri[t][0], tri[t][1], tri[t][2]) < 0.0) {
+        if (orientation_at(c, tri[t][0], tri[t][1], tri[t][2]) < 0.0) {
             *kind = CLX_POLYGON_CROSSING;
         }
         unlink_corner(c, j);

@@ -29,7 +29,7 @@ static int32_t following(const clx_shadow *s, int32_t i)
     return i + 1 < s->n ? i + 1 : 0;
 }
 
-static double reach_along(const clx_shadow *s, int32_t i, const double d[2])
+static double extent_along(const clx_shadow *s, int32_t i, const double d[2])
 {
     return s->point[i][0] * d[0] + s->point[i][1] * d[1];
 }
@@ -117,8 +117,8 @@ static void weigh(calipers *c, int k, const double d[2])
 {
     const clx_shadow *s = c->outline;
     const double across[2] = {-d[1], d[0]};
-    const double along = reach_along(s, c->corner[1], d) - reach_along(s, c->corner[3], d);
-    const double up = reach_along(s, c->corner[2], across) - reach_along(s, c->corner[0], across);
+    const double along = extent_along(s, c->corner[1], d) - extent_along(s, c->corner[3], d);
+    const double up = extent_along(s, c->corner[2], across) - extent_along(s, c->corner[0], across);
     keep_rectangle(c, k, d, along * up);
 }
 
@@ -143,7 +143,7 @@ static double width_along(const clx_shadow *s, const double d[2])
     double low = (double)INFINITY;
     double high = -(double)INFINITY;
     for (int32_t i = 0; i < s->n; ++i) {
-        const double r = reach_along(s, i, d);
+        const double r = extent_along(s, i, d);
         low = r < low ? r : low;
         high = r > high ? r : high;
     }
@@ -167,7 +167,7 @@ CLX_INLINE void begin_row(edge_row *r, const double (*edge)[2])
     }
 }
 
-CLX_INLINE void reach_row(edge_row *r, const double p[2])
+CLX_INLINE void extend_row(edge_row *r, const double p[2])
 {
     const clx_lanes along = p[0] * r->x + p[1] * r->y;
     const clx_lanes across = p[1] * r->x - p[0] * r->y;
@@ -187,8 +187,8 @@ static void measure_edges(int32_t n, const double (*point)[2], const double (*ed
     begin_row(&row[0], edge);
     begin_row(&row[1], edge + CLX_LANES);
     for (int32_t i = 0; i < n; ++i) {
-        reach_row(&row[0], point[i]);
-        reach_row(&row[1], point[i]);
+        extend_row(&row[0], point[i]);
+        extend_row(&row[1], point[i]);
     }
     for (int k = 0; k < 2; ++k) {
         lanes_store(area + (size_t)k * CLX_LANES,

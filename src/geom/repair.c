@@ -33,7 +33,7 @@ const clast_field clast_mesh_repair_fields[] = {
     {FIELD(F64, split_tolerance), 1e-6, 0.0, 0.01, "-",
      "how far from the edge such a vertex may lie, times the extent", NULL},
     {FIELD(BOOL, loose), 1.0, 0, 1, "-", "drop triangles that share no edge with others", NULL},
-    {FIELD(BOOL, orient), 1.0, 0, 1, "-", "turn neighbours alike and closed parts outward", NULL},
+    {FIELD(BOOL, orient), 1.0, 0, 1, "-", "orient neighbours consistently and closed parts outward", NULL},
     {FIELD(BOOL, fill), 1.0, 0, 1, "-", "fill holes with the triangles of least area", NULL},
     {FIELD(F64, fill_size), 1.0, 0.0, 1.0, "-", "largest hole to fill, times the extent", NULL},
     {FIELD(BOOL, separate), 1.0, 0, 1, "-",

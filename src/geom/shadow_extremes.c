@@ -240,7 +240,7 @@ typedef struct {
     double lying[3];        ///< direction of the greatest
     double (*side)[2];      ///< [n_face] scratch
     cone *part;             ///< [room] first come, first divided
-    int32_t first, n, room;
+    int32_t first, n, capacity;
 } search;
 
 /// The area is convex and grows with the direction's length, so it lies below the linear function
@@ -266,7 +266,7 @@ static void add_cone(search *s, const cone *c)
 {
     const bool may_be_less = c->least < s->least * (1.0 - CLOSER);
     const bool may_be_greater = c->most > s->greatest * (1.0 + CLOSER);
-    if ((may_be_less || may_be_greater) && s->n < s->room) {
+    if ((may_be_less || may_be_greater) && s->n < s->capacity) {
         s->part[s->n++] = *c;
     }
 }
@@ -343,8 +343,8 @@ static clast_status look_everywhere(search *s)
     static const double sign[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     clast_status status = CLAST_OK;
     const int32_t by_faces = FACES / s->body->n_face;
-    s->room = 4 + 2 * (FEW + (by_faces < MANY ? by_faces : MANY));
-    CLX_TRY(clx_realloc(&s->part, s->room, sizeof *s->part));
+    s->capacity = 4 + 2 * (FEW + (by_faces < MANY ? by_faces : MANY));
+    CLX_TRY(clx_realloc(&s->part, s->capacity, sizeof *s->part));
     for (int q = 0; q < 4; ++q) {
         cone c = {.corner = {{sign[q][0], 0, 0}, {0, sign[q][1], 0}, {0, 0, 1}}, .most = INFINITY};
         for (int k = 0; k < 3; ++k) {
@@ -352,7 +352,7 @@ static clast_status look_everywhere(search *s)
         }
         add_cone(s, &c);
     }
-    while (s->first < s->n && s->n + 2 * CLX_DIRECTIONS <= s->room) {
+    while (s->first < s->n && s->n + 2 * CLX_DIRECTIONS <= s->capacity) {
         divide(s);
     }
 done:

@@ -26,8 +26,8 @@ void clx_smooth_hull_free(clx_smooth_hull *hull)
 clast_status clx_smooth_hull_reserve(clx_smooth_hull *hull, int64_t n)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow(&hull->touch, &hull->touch_room, n, sizeof *hull->touch));
-    CLX_TRY(clx_grow(&hull->touch_tag, &hull->touch_tag_room, n, sizeof *hull->touch_tag));
+    CLX_TRY(clx_grow(&hull->touch, &hull->touch_capacity, n, sizeof *hull->touch));
+    CLX_TRY(clx_grow(&hull->touch_tag, &hull->touch_tag_capacity, n, sizeof *hull->touch_tag));
 done:
     return status;
 }
@@ -41,7 +41,7 @@ static double facet_offset(const clx_hull_inc *inner, const clx_hull_facet *face
 /// Looks from a facet at one body; keeps the farthest.
 static void look(clx_smooth_hull *hull, clx_hull_facet *facet, double offset, int32_t b)
 {
-    CLAST_ASSERT(b >= 0 && b < hull->body_room);
+    CLAST_ASSERT(b >= 0 && b < hull->body_capacity);
     clx_body *body = &hull->body[b];
     if (v3_dot(facet->normal, body->centre) + body->radius - offset > facet->excess) {
         const double excess = clx_body_support(body, facet->normal) - offset;
@@ -124,7 +124,7 @@ static clast_status push_wait(clx_smooth_hull *hull, int32_t f)
     const clx_hull_facet *facet = &hull->inner.facet[f];
     const clx_hull_wait item = {facet->gap, f, facet->serial};
     const clast_status status =
-        clx_grow(&hull->wait, &hull->wait_room, hull->n_wait + 1, sizeof *hull->wait);
+        clx_grow(&hull->wait, &hull->wait_capacity, hull->n_wait + 1, sizeof *hull->wait);
     if (status == CLAST_OK) {
         int64_t i = hull->n_wait++;
         for (; i > 0 && waits_longer(&hull->wait[(i - 1) / 2], &item); i = (i - 1) / 2) {
@@ -357,10 +357,10 @@ clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *bod
     clast_status status = CLAST_OK;
     const int32_t b = hull->n_body;
     bool shows = true;
-    CLX_TRY(clx_grow(&hull->body, &hull->body_room, (int64_t)b + 1, sizeof *hull->body));
-    CLX_TRY(clx_grow(&hull->exposed, &hull->exposed_room, (int64_t)hull->n_exposed + 1,
+    CLX_TRY(clx_grow(&hull->body, &hull->body_capacity, (int64_t)b + 1, sizeof *hull->body));
+    CLX_TRY(clx_grow(&hull->exposed, &hull->exposed_capacity, (int64_t)hull->n_exposed + 1,
                      sizeof *hull->exposed));
-    CLX_TRY(clx_grow(&hull->balls, &hull->balls_room, (int64_t)hull->n_exposed / 4 + 1,
+    CLX_TRY(clx_grow(&hull->balls, &hull->balls_capacity, (int64_t)hull->n_exposed / 4 + 1,
                      sizeof *hull->balls));
     hull->body[b] = *body;
     if (hull->inner.is_solid) {

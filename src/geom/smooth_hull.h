@@ -17,22 +17,22 @@ typedef struct clx_smooth_hull {
     clx_hull_inc inner; ///< hull of touch points; a vertex's tag is its body, or -1 - k for point k
     clx_body *body;     ///< [n_body] smooth ones
     int32_t n_body;
-    int64_t body_room;
+    int64_t body_capacity;
     int32_t *exposed; ///< [n_exposed] bodies that may stick out of the inner hull
     int32_t n_exposed, n_pruned;
-    int64_t exposed_room;
+    int64_t exposed_capacity;
     clx_lanes *balls; ///< [ceil(n_exposed / 4)] centres and radii in the order of exposed
-    int64_t balls_room;
+    int64_t balls_capacity;
     int32_t n_point;      ///< points added so far
     double centre[3];     ///< inside the inner hull: apex of the facets' cones
     double centre_volume; ///< inner volume when it was chosen
     double gap;           ///< outer minus inner volume
     bool is_surveyed;     ///< every facet's excess and gap are known
     clx_hull_wait *wait;  ///< [n_wait] heap, greatest gap first
-    int64_t n_wait, wait_room;
+    int64_t n_wait, wait_capacity;
     double (*touch)[3]; ///< scratch
     int32_t *touch_tag;
-    int64_t touch_room, touch_tag_room;
+    int64_t touch_capacity, touch_tag_capacity;
 } clx_smooth_hull;
 
 /// Bounds and value of a hull's volume.

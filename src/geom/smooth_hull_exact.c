@@ -75,7 +75,7 @@ static clast_status scratch_alloc(const clx_smooth_hull *hull, scratch *s)
     CLX_TRY(clx_alloc(&s->dual, hull->inner.facet_end, sizeof *s->dual));
     CLX_TRY(clx_alloc(&s->patch, hull->n_body, sizeof *s->patch));
     CLX_TRY(clx_alloc(&s->is_bad, hull->inner.facet_end, sizeof *s->is_bad));
-    s->size = hull->inner.reach;
+    s->size = hull->inner.diagonal;
     s->step = STEP;
 done:
     return status;

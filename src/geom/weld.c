@@ -24,7 +24,7 @@ static const double WELD_LIMIT_PARTIAL = 1e-5; // of the extent, when open edges
 
 typedef struct {
     const clast_mesh *mesh;
-    const double *reach; ///< [n_vert] or NULL
+    const double *max_shift; ///< [n_vert] or NULL
     double low[3];
     double cell; ///< side of a grid cell
     uint64_t mask;
@@ -72,8 +72,9 @@ static int32_t nearest_in(const weld_grid *grid, const int64_t cell[3], int32_t 
          at = grid->next[at - 1], ++n_seen) {
         const int32_t kept = at - 1;
         const double d2 = v3_distance2(grid->mesh->vert[kept], grid->mesh->vert[v]);
-        const double reach = grid->reach != NULL ? fmin(grid->reach[v], grid->reach[kept]) : 0.0;
-        if (grid->reach != NULL && d2 > reach * reach) {
+        const double max_shift =
+            grid->max_shift != NULL ? fmin(grid->max_shift[v], grid->max_shift[kept]) : 0.0;
+        if (grid->max_shift != NULL && d2 > max_shift * max_shift) {
             continue;
         }
         if (d2 < *best2 || (d2 == *best2 && (found < 0 || kept < found))) {
@@ -104,7 +105,8 @@ clast_status clx_weld_map(const clast_mesh *mesh, const clx_weld_rule *rule, int
     CLAST_ASSERT(rule->n_order >= 0);
     clast_status status = CLAST_OK;
     double high[3];
-    weld_grid grid = {.mesh = mesh, .reach = rule->reach, .cell = rule->tolerance, .mask = 63};
+    weld_grid grid = {
+        .mesh = mesh, .max_shift = rule->max_shift, .cell = rule->tolerance, .mask = 63};
     const int32_t n = rule->order != NULL ? rule->n_order : mesh->n_vert;
     while (grid.mask < (uint64_t)n) {
         grid.mask = 2 * grid.mask + 1;
@@ -178,7 +180,7 @@ typedef struct {
     bool *open;     ///< [n_vert] end of an edge with an odd number of users
     int32_t *order; ///< [n_order] those vertices, most triangles first
     int32_t n_order;
-    double *reach; ///< [n_vert] a quarter of the shortest edge
+    double *max_shift; ///< [n_vert] a quarter of the shortest edge
     clast_mesh rim;
     int32_t (*scratch)[3]; ///< [rim.n_tri]
     int32_t *map;          ///< [n_vert]
@@ -188,7 +190,7 @@ static void search_free(weld_search *w)
 {
     clx_free(w->open);
     clx_free(w->order);
-    clx_free(w->reach);
+    clx_free(w->max_shift);
     clx_free(w->rim.tri);
     clx_free(w->scratch);
     clx_free(w->map);
@@ -241,16 +243,16 @@ static clast_status find_open(const clast_mesh *mesh, weld_search *w)
     clx_topology topology = {0};
     CLX_TRY(clx_topology_build(mesh, &topology));
     CLX_TRY(clx_alloc(&w->open, mesh->n_vert, sizeof *w->open));
-    CLX_TRY(clx_alloc(&w->reach, mesh->n_vert, sizeof *w->reach));
+    CLX_TRY(clx_alloc(&w->max_shift, mesh->n_vert, sizeof *w->max_shift));
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
-        w->reach[v] = INFINITY;
+        w->max_shift[v] = INFINITY;
     }
     for (int32_t e = 0; e < topology.n_edge; ++e) {
         const int32_t *end = topology.edge[e];
-        const double reach = 0.25 * v3_distance(mesh->vert[end[0]], mesh->vert[end[1]]);
+        const double max_shift = 0.25 * v3_distance(mesh->vert[end[0]], mesh->vert[end[1]]);
         for (int k = 0; k < 2; ++k) {
             w->open[end[k]] = w->open[end[k]] || clx_edge_use(&topology, e) % 2 == 1;
-            w->reach[end[k]] = fmin(w->reach[end[k]], reach);
+            w->max_shift[end[k]] = fmin(w->max_shift[end[k]], max_shift);
         }
     }
     status = order_open(mesh, w);
@@ -316,7 +318,7 @@ static clast_status try_tolerances(const clast_mesh *mesh, weld_search *w, clx_w
     const int32_t n_over = best->n_over;
     for (int i = 0; i < 26 && w->n_order > 0; ++i) { // 1e-9 to 0.034 of the extent
         const double step = ldexp(1e-9, i);
-        const clx_weld_rule rule = {step * extent, w->order, w->n_order, w->reach};
+        const clx_weld_rule rule = {step * extent, w->order, w->n_order, w->max_shift};
         clx_weld_choice now = {.tolerance = rule.tolerance};
         CLX_TRY(clx_weld_map(mesh, &rule, w->map));
         CLX_TRY(count_bad(&w->rim, w->open, w->map, w->scratch, &now));
@@ -343,7 +345,7 @@ clast_status clx_weld_search(const clast_mesh *mesh, clx_weld_choice *choice, in
     CLX_TRY(clx_alloc(&w.scratch, w.rim.n_tri, sizeof *w.scratch));
     CLX_TRY(try_tolerances(mesh, &w, &best));
     const clx_weld_rule rule = {best.tolerance, w.order, best.tolerance > 0.0 ? w.n_order : 0,
-                                w.reach};
+                                w.max_shift};
     CLX_TRY(clx_weld_map(mesh, &rule, w.map));
     best.tolerance = 0.0; // from here on the greatest distance that a vertex went
     for (int32_t v = 0; v < mesh->n_vert; ++v) {

@@ -6,7 +6,7 @@ typedef struct clx_weld_rule {
     double tolerance;     ///< model units; 0 merges bit-equal vertices (-0 equals 0)
     const int32_t *order; ///< [n_order] vertices that take part, in this order; NULL: all
     int32_t n_order;
-    const double *reach; ///< [n_vert] how far a vertex may go or be gone to; NULL: tolerance
+    const double *max_shift; ///< [n_vert] how far a vertex may go or be gone to; NULL: tolerance
 } clx_weld_rule;
 
 /// map [n_vert]: the vertex that stands for each vertex. In order, a vertex goes to the nearest

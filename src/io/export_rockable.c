@@ -22,7 +22,7 @@
 static const double ALIGNED = 1e-9;
 
 /// Rotation of the shape's principal axes to its frame: identity where they are the same.
-static void principal_turn(const clast_shape *shape, double turn[4])
+static void principal_rotation(const clast_shape *shape, double rotation[4])
 {
     double axis[3][3];
     double value[3];
@@ -31,8 +31,8 @@ static void principal_turn(const clast_shape *shape, double turn[4])
     memcpy(inertia, shape->inertia, sizeof inertia);
     const double trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
     const double off = fmax(fabs(inertia[0][1]), fmax(fabs(inertia[0][2]), fabs(inertia[1][2])));
-    turn[0] = 1.0;
-    turn[1] = turn[2] = turn[3] = 0.0;
+    rotation[0] = 1.0;
+    rotation[1] = rotation[2] = rotation[3] = 0.0;
     if (shape->kind == CLAST_SHAPE_SPHERE || off <= ALIGNED * trace) {
         return;
     }
@@ -42,13 +42,13 @@ static void principal_turn(const clast_shape *shape, double turn[4])
             m[i][k] = axis[k][i];
         }
     }
-    q_from_matrix(turn, m);
-    q_unit(turn);
+    q_from_matrix(rotation, m);
+    q_unit(rotation);
 }
 
-static bool is_turned(const double turn[4])
+static bool is_rotated(const double rotation[4])
 {
-    return turn[1] != 0.0 || turn[2] != 0.0 || turn[3] != 0.0;
+    return rotation[1] != 0.0 || rotation[2] != 0.0 || rotation[3] != 0.0;
 }
 
 /// Whether a text is one word of Rockable's files, where # begins a comment.
@@ -82,7 +82,7 @@ static clast_status check_names(const clast_assembly *a, const char *path)
     }
     for (int32_t i = 1; i < a->n_shape; ++i) {
         CLX_CHECK(strcmp(name[i], name[i - 1]) != 0, CLAST_E_USAGE,
-                  "%s: two shapes have the name %s, by which Rockable's grains tell theirs", path,
+                  "%s: two shapes have the name %s, by which Rockable's grains refer to theirs", path,
                   name[i]);
     }
 done:
@@ -202,14 +202,15 @@ static clast_status put_sphere(clx_file *file, const clast_shape *shape)
     return clx_file_print(file, ">\n");
 }
 
-static clast_status put_polyhedron(clx_file *file, const clast_shape *shape, const double turn[4])
+static clast_status put_polyhedron(clx_file *file, const clast_shape *shape,
+                                   const double rotation[4])
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     clast_mass mass = {0};
-    const double back[4] = {turn[0], -turn[1], -turn[2], -turn[3]};
+    const double back[4] = {rotation[0], -rotation[1], -rotation[2], -rotation[3]};
     CLX_TRY(clast_mesh_copy(&shape->mesh, &mesh));
-    for (int32_t i = 0; i < mesh.n_vert && is_turned(turn); ++i) {
+    for (int32_t i = 0; i < mesh.n_vert && is_rotated(rotation); ++i) {
         double x[3];
         v3_copy(x, mesh.vert[i]);
         q_rotate(mesh.vert[i], back, x);
@@ -237,14 +238,14 @@ done:
     return status;
 }
 
-static clast_status put_library(clx_file *file, const clast_assembly *a, double (*turn)[4])
+static clast_status put_library(clx_file *file, const clast_assembly *a, double (*rotation)[4])
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < a->n_shape; ++i) {
         const clast_shape *shape = &a->shape[i];
         (void)clx_file_print(file, "<\nname %s\n", shape->name);
         CLX_TRY(shape->kind == CLAST_SHAPE_SPHERE ? put_sphere(file, shape)
-                                                  : put_polyhedron(file, shape, turn[i]));
+                                                  : put_polyhedron(file, shape, rotation[i]));
     }
 done:
     return status;
@@ -274,16 +275,16 @@ done:
 
 /// name group cluster homothety position velocity acceleration Q vrot arot, at rest.
 static clast_status put_particles(clx_file *file, const clast_assembly *a, const int32_t *group,
-                                  double (*turn)[4])
+                                  double (*rotation)[4])
 {
     static const double rest[6] = {0.0};
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "Particles %d\n", a->n_grain);
     for (int32_t i = 0; i < a->n_grain; ++i) {
         double q[4];
-        const double *own = turn[a->shape_id[i]];
+        const double *own = rotation[a->shape_id[i]];
         memcpy(q, a->orientation[i], sizeof q);
-        if (is_turned(own)) {
+        if (is_rotated(own)) {
             q_mul(q, a->orientation[i], own);
             q_unit(q);
         }
@@ -300,7 +301,7 @@ done:
 }
 
 static clast_status put_configuration(clx_file *file, const clast_assembly *a, const char *library,
-                                      double (*turn)[4])
+                                      double (*rotation)[4])
 {
     clast_status status = CLAST_OK;
     int32_t *group = NULL;
@@ -317,7 +318,7 @@ static clast_status put_configuration(clx_file *file, const clast_assembly *a, c
         clx_export_numbers(file, &density[g], 1);
         (void)clx_file_print(file, "\n");
     }
-    CLX_TRY(put_particles(file, a, group, turn));
+    CLX_TRY(put_particles(file, a, group, rotation));
 done:
     clx_free(group);
     clx_free(density);
@@ -328,7 +329,7 @@ clast_status clx_export_rockable(const clast_assembly *a, const char *path)
 {
     clast_status status = CLAST_OK;
     char library[4096];
-    double(*turn)[4] = NULL;
+    double(*rotation)[4] = NULL;
     clx_file shapes = {0};
     clx_file grains = {0};
     const char *dot = strrchr(path, '.');
@@ -337,19 +338,19 @@ clast_status clx_export_rockable(const clast_assembly *a, const char *path)
     CLX_CHECK(n > 0 && n < (int)sizeof library, CLAST_E_USAGE, "%.60s...: the path is too long",
               path);
     CLX_TRY(check_shapes(a, path));
-    CLX_TRY(clx_alloc(&turn, a->n_shape, sizeof *turn));
+    CLX_TRY(clx_alloc(&rotation, a->n_shape, sizeof *rotation));
     for (int32_t i = 0; i < a->n_shape; ++i) {
-        principal_turn(&a->shape[i], turn[i]);
+        principal_rotation(&a->shape[i], rotation[i]);
     }
     CLX_TRY(clx_file_begin(library, &shapes));
     CLX_TRY(clx_file_begin(path, &grains));
-    CLX_TRY(put_library(&shapes, a, turn));
-    CLX_TRY(put_configuration(&grains, a, library, turn));
+    CLX_TRY(put_library(&shapes, a, rotation));
+    CLX_TRY(put_configuration(&grains, a, library, rotation));
     CLX_TRY(clx_file_commit(&shapes)); // both are whole before either takes an old one's place
     CLX_TRY(clx_file_commit(&grains));
 done:
     clx_file_abandon(&shapes);
     clx_file_abandon(&grains);
-    clx_free(turn);
+    clx_free(rotation);
     return status;
 }

@@ -40,7 +40,7 @@ static void matrix_quaternion(double m[3][3], double q[4])
 
 /// Semi-axes and orientation of the ellipsoid with a shape's volume and moments: `turn` takes the
 /// ellipsoid's frame, a >= b >= c along x, y, z, to the shape's.
-static void shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4])
+static void shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double rotation[4])
 {
     double c[3][3];
     double value[3];
@@ -49,8 +49,8 @@ static void shape_ellipsoid(const clast_shape *shape, double semi_axes[3], doubl
     const double half = 0.5 * (shape->inertia[0][0] + shape->inertia[1][1] + shape->inertia[2][2]);
     v3_copy(semi_axes, shape->semi_axes);
     if (shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_ELLIPSOID) {
-        turn[0] = 1.0; // along x, y, z already
-        turn[1] = turn[2] = turn[3] = 0.0;
+        rotation[0] = 1.0; // along x, y, z already
+        rotation[1] = rotation[2] = rotation[3] = 0.0;
         return;
     }
     for (int i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ static void shape_ellipsoid(const clast_shape *shape, double semi_axes[3], doubl
             m[i][k] = axis[k][i];
         }
     }
-    matrix_quaternion(m, turn);
+    matrix_quaternion(m, rotation);
 }
 
 /// Adds a number column called `name`, or name_unit for lengths to the given power.
@@ -257,10 +257,10 @@ double clx_ellipsoid_ratio(const clast_shape *shape)
 void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3], double q[4])
 {
     double axes[3];
-    double turn[4];
+    double rotation[4];
     CLAST_ASSERT(i >= 0 && i < a->n_grain);
-    shape_ellipsoid(&a->shape[a->shape_id[i]], axes, turn);
-    q_mul(q, a->orientation[i], turn);
+    shape_ellipsoid(&a->shape[a->shape_id[i]], axes, rotation);
+    q_mul(q, a->orientation[i], rotation);
     v3_scale(diameter, 2.0 * a->scale[i], axes);
 }
 

@@ -27,7 +27,7 @@ clast_status clx_folder_list(const char *path, clx_folder *folder)
 {
     clast_status status = CLAST_OK;
     clx_folder made = {0};
-    int64_t room = 0;
+    int64_t capacity = 0;
     DIR *open = opendir(path);
     CLX_CHECK(open != NULL, CLAST_E_IO, "cannot read the folder %s: %s", path, clx_errno_text());
     // NOLINTNEXTLINE(concurrency-mt-unsafe): one stream, used by this thread alone
@@ -36,7 +36,7 @@ clast_status clx_folder_list(const char *path, clx_folder *folder)
             continue;
         }
         CLX_CHECK(made.n < LIMIT, CLAST_E_LIMIT, "%s holds more than %d files", path, LIMIT);
-        CLX_TRY(clx_grow(&made.name, &room, made.n + 1, sizeof *made.name));
+        CLX_TRY(clx_grow(&made.name, &capacity, made.n + 1, sizeof *made.name));
         CLX_TRY(clx_alloc_text(&made.name[made.n], entry->d_name));
         ++made.n;
     }

@@ -59,14 +59,14 @@ void clast_grains_free(clast_grains *grains)
 }
 
 /// Keeps a line about a file in a list of faults or notes.
-static clast_status add_line(clast_grain_fault **list, int64_t *n, int64_t *room,
+static clast_status add_line(clast_grain_fault **list, int64_t *n, int64_t *capacity,
                              clast_status about, const char *path, const char *text)
 {
     clast_status status = CLAST_OK;
     char *copy = NULL;
     const size_t size = strlen(path) + strlen(text) + 3;
     const bool is_named = strncmp(text, path, strlen(path)) == 0;
-    CLX_TRY(clx_grow(list, room, *n + 1, sizeof **list));
+    CLX_TRY(clx_grow(list, capacity, *n + 1, sizeof **list));
     CLX_TRY(clx_alloc(&copy, (int64_t)size, 1));
     (void)snprintf(copy, size, "%s%s%s", is_named ? "" : path, is_named ? "" : ": ", text);
     (*list)[(*n)++] = (clast_grain_fault){about, copy};
@@ -79,13 +79,13 @@ clast_status clx_grains_fault(clx_grains_task *task, clast_status about)
     if (about == CLAST_E_MEMORY || about == CLAST_E_STOPPED) {
         return about;
     }
-    return add_line(&task->grains.fault, &task->grains.n_fault, &task->fault_room, about,
+    return add_line(&task->grains.fault, &task->grains.n_fault, &task->fault_capacity, about,
                     task->path, clast_error_detail());
 }
 
 clast_status clx_grains_note(clx_grains_task *task, const char *text)
 {
-    return add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_OK,
+    return add_line(&task->grains.note, &task->grains.n_note, &task->note_capacity, CLAST_OK,
                     task->path, text);
 }
 
@@ -94,7 +94,7 @@ clast_status clx_grains_add(clx_grains_task *task, const char *suffix, clast_gra
     clast_status status = CLAST_OK;
     char *name = NULL;
     const size_t size = strlen(task->path) + strlen(suffix) + 1;
-    CLX_TRY(clx_grow(&task->grains.record, &task->record_room, task->grains.n + 1,
+    CLX_TRY(clx_grow(&task->grains.record, &task->record_capacity, task->grains.n + 1,
                      sizeof *task->grains.record));
     CLX_TRY(clx_alloc(&name, (int64_t)size, 1));
     (void)snprintf(name, size, "%s%s", task->path, suffix);
@@ -131,8 +131,8 @@ done:
 /// Keeps a line about what a surface's measures mean.
 static clast_status warn(clx_grains_task *task, const char *text)
 {
-    return add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_E_GEOMETRY,
-                    task->path, text);
+    return add_line(&task->grains.note, &task->grains.n_note, &task->note_capacity,
+                    CLAST_E_GEOMETRY, task->path, text);
 }
 
 /// Tells a surface of a file that is not one grain.

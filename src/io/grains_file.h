@@ -11,7 +11,7 @@ typedef struct clx_grains_task {
     int64_t n_byte;
     char unit[16]; ///< that a surface says of itself, or ""
     clast_grains grains;
-    int64_t record_room, fault_room, note_room;
+    int64_t record_capacity, fault_capacity, note_capacity;
 } clx_grains_task;
 
 /// A new record named after the file and a suffix, with a surface and a size.

@@ -23,7 +23,7 @@ done:
     return status;
 }
 
-static uint32_t turn(uint32_t x, int k)
+static uint32_t rotate_left(uint32_t x, int k)
 {
     return (x << k) | (x >> (32 - k));
 }
@@ -45,24 +45,24 @@ uint32_t clx_h5_sum(const char *bytes, int64_t n)
     uint32_t c = a;
     for (; n > 12; n -= 12, bytes += 12) {
         a += word_of(bytes, 12, 0), b += word_of(bytes, 12, 1), c += word_of(bytes, 12, 2);
-        a = (a - c) ^ turn(c, 4), c += b;
-        b = (b - a) ^ turn(a, 6), a += c;
-        c = (c - b) ^ turn(b, 8), b += a;
-        a = (a - c) ^ turn(c, 16), c += b;
-        b = (b - a) ^ turn(a, 19), a += c;
-        c = (c - b) ^ turn(b, 4), b += a;
+        a = (a - c) ^ rotate_left(c, 4), c += b;
+        b = (b - a) ^ rotate_left(a, 6), a += c;
+        c = (c - b) ^ rotate_left(b, 8), b += a;
+        a = (a - c) ^ rotate_left(c, 16), c += b;
+        b = (b - a) ^ rotate_left(a, 19), a += c;
+        c = (c - b) ^ rotate_left(b, 4), b += a;
     }
     if (n == 0) {
         return c;
     }
     a += word_of(bytes, n, 0), b += word_of(bytes, n, 1), c += word_of(bytes, n, 2);
-    c = (c ^ b) - turn(b, 14);
-    a = (a ^ c) - turn(c, 11);
-    b = (b ^ a) - turn(a, 25);
-    c = (c ^ b) - turn(b, 16);
-    a = (a ^ c) - turn(c, 4);
-    b = (b ^ a) - turn(a, 14);
-    return (c ^ b) - turn(b, 24);
+    c = (c ^ b) - rotate_left(b, 14);
+    a = (a ^ c) - rotate_left(c, 11);
+    b = (b ^ a) - rotate_left(a, 25);
+    c = (c ^ b) - rotate_left(b, 16);
+    a = (a ^ c) - rotate_left(c, 4);
+    b = (b ^ a) - rotate_left(a, 14);
+    return (c ^ b) - rotate_left(b, 24);
 }
 
 uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n)

@@ -71,11 +71,11 @@ static clast_status read_counts(clx_text *text, int64_t *n_vert, int64_t *n_face
     CLX_TRY(clx_text_integer(text, "vertex count", 0, INT64_MAX, n_vert));
     CLX_TRY(clx_text_integer(text, "face count", 0, INT64_MAX, n_face));
     CLX_TRY(clx_text_integer(text, "edge count", INT64_MIN, INT64_MAX, &n_edge));
-    const int64_t room = text->end - text->at;
-    CLX_CHECK(*n_vert <= room / 6 + 1 && *n_face <= room / 2 + 1, CLAST_E_FORMAT,
+    const int64_t n_left = text->end - text->at;
+    CLX_CHECK(*n_vert <= n_left / 6 + 1 && *n_face <= n_left / 2 + 1, CLAST_E_FORMAT,
               "line %" PRId64 ": %" PRId64 " vertices and %" PRId64
               " faces are promised but only %" PRId64 " bytes follow",
-              text->line, *n_vert, *n_face, room);
+              text->line, *n_vert, *n_face, n_left);
     (void)clx_text_next_line(text);
 done:
     return status;

@@ -145,7 +145,7 @@ static void sort_down(double x[3])
 }
 
 /// Rotation that takes the axes as clast sorts them, longest along x, to those of the file.
-static void sorting_turn(const double axes[3], double turn[4])
+static void sorting_rotation(const double axes[3], double rotation[4])
 {
     int order[3] = {0, 1, 2};
     double m[3][3] = {{0.0}};
@@ -162,9 +162,9 @@ static void sorting_turn(const double axes[3], double turn[4])
     const bool is_even = (order[1] - order[0] + 3) % 3 == 1;
     m[order[2]][2] = is_even ? 1.0 : -1.0;
     if (order[0] == 0 && order[1] == 1) {
-        memcpy(turn, UPRIGHT, sizeof UPRIGHT);
+        memcpy(rotation, UPRIGHT, sizeof UPRIGHT);
     } else {
-        q_from_matrix(turn, m);
+        q_from_matrix(rotation, m);
     }
 }
 
@@ -242,11 +242,11 @@ static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a)
     }
     CLX_TRY(make_shapes(n, rows, true, a, shape));
     for (int32_t i = 0; i < n; ++i) {
-        double turn[4];
+        double rotation[4];
         double turned[4];
         CLX_TRY(read_pose(&c, i, x, axes, q));
-        sorting_turn(axes, turn);
-        q_mul(turned, q, turn);
+        sorting_rotation(axes, rotation);
+        q_mul(turned, q, rotation);
         CLX_TRY(clast_assembly_add_grain(a, shape[i], x, turned, 1.0, 1.0));
     }
 done:

@@ -527,10 +527,10 @@ static clast_status reserve(const body *b)
 {
     const clx_ply_element *vertex = find_element(b->ply, "vertex");
     const clx_ply_element *face = find_element(b->ply, "face");
-    const int64_t room = ((const char *)b->end - b->ply->body) / 4;
+    const int64_t n_left = ((const char *)b->end - b->ply->body) / 4;
     const int64_t n_face = face != NULL ? face->n_row : 0;
     return clx_build_reserve(b->build, vertex != NULL ? vertex->n_row : 0,
-                             n_face < room ? n_face : room);
+                             n_face < n_left ? n_face : n_left);
 }
 
 clast_status clx_ply_parse(const void *bytes, size_t n, clast_mesh *mesh,

@@ -123,16 +123,16 @@ static int64_t least_row(const clx_ply *ply, const clx_ply_element *e)
 
 static clast_status check_counts(const clx_ply *ply, const char *end)
 {
-    const int64_t room = end - ply->body + 1; // the last row of a text may lack its line end
+    const int64_t n_left = end - ply->body + 1; // the last row of a text may lack its line end
     for (int32_t k = 0; k < ply->n_element; ++k) {
         const clx_ply_element *e = &ply->element[k];
         const int64_t row = least_row(ply, e);
         char shown[CLX_WORD_SHOWN];
-        if (row == 0 ? e->n_row > 0 : e->n_row > room / row) {
+        if (row == 0 ? e->n_row > 0 : e->n_row > n_left / row) {
             return clx_fail(CLAST_E_FORMAT,
                             "the header promises %" PRId64
                             " rows of '%s' (%d properties) but only %" PRId64 " bytes follow",
-                            e->n_row, clx_word_show(e->name, shown), e->n_property, room - 1);
+                            e->n_row, clx_word_show(e->name, shown), e->n_property, n_left - 1);
         }
     }
     return CLAST_OK;

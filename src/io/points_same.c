@@ -32,9 +32,9 @@ static clast_status identify(const char *path, identity *own)
     own->size = (int64_t)ftello(file);
     CLX_TRY(clx_alloc(&block, BLOCK, 1));
     for (int k = 0; k < N_BLOCK; ++k) {
-        const int64_t room = own->size - (int64_t)N_BLOCK * BLOCK;
+        const int64_t n_left = own->size - (int64_t)N_BLOCK * BLOCK;
         const int64_t at =
-            (int64_t)k * BLOCK + (room > 0 ? (int64_t)((double)room * k / (N_BLOCK - 1)) : 0);
+            (int64_t)k * BLOCK + (n_left > 0 ? (int64_t)((double)n_left * k / (N_BLOCK - 1)) : 0);
         CLX_CHECK(fseeko(file, (off_t)at, SEEK_SET) == 0, CLAST_E_IO, "cannot read %s: %s", path,
                   clx_errno_text());
         clx_sha256_add(&sha, block, fread(block, 1, BLOCK, file));

@@ -82,7 +82,7 @@ done:
 }
 
 /// Before memory is taken for n numbers: can the rest of the file hold them?
-static clast_status check_room(const vtk *v, int64_t n, clx_vtk_number type)
+static clast_status check_bytes_left(const vtk *v, int64_t n, clx_vtk_number type)
 {
     clast_status status = CLAST_OK;
     const int64_t left = v->text.end - v->text.at;
@@ -104,7 +104,7 @@ static clast_status read_points(vtk *v)
     CLX_TRY(type_of(v, &type));
     CLX_CHECK(!v->has_points, CLAST_E_FORMAT, "%s:%" PRId64 ": a second list of points", v->name,
               v->text.line);
-    CLX_TRY(check_room(v, 3 * n, type));
+    CLX_TRY(check_bytes_left(v, 3 * n, type));
     CLX_TRY(clx_alloc(&value, 3 * n, sizeof *value));
     CLX_TRY(values(v, 3 * n, type, value));
     CLX_TRY(clast_table_init(&v->table, v->name, n));
@@ -125,7 +125,7 @@ static clast_status read_array(vtk *v, clx_word name, int64_t width, int64_t n, 
     CLX_CHECK(width <= 1024 && (width == 0 || n <= INT64_MAX / 16384), CLAST_E_FORMAT,
               "%s:%" PRId64 ": an array of %" PRId64 " x %" PRId64 " numbers", v->name,
               v->text.line, n, width);
-    CLX_TRY(check_room(v, n * width, type));
+    CLX_TRY(check_bytes_left(v, n * width, type));
     if (is_kept) {
         CLX_TRY(clx_alloc(&value, n * width, sizeof *value));
     }
@@ -272,7 +272,7 @@ static clast_status read_cell_types(vtk *v)
     double *type = NULL;
     int64_t n = 0;
     CLX_TRY(count_of(v, "number of cells", &n));
-    CLX_TRY(check_room(v, n, CLX_VTK_I32));
+    CLX_TRY(check_bytes_left(v, n, CLX_VTK_I32));
     CLX_TRY(clx_alloc(&type, n, sizeof *type));
     CLX_TRY(values(v, n, CLX_VTK_I32, type));
     for (int64_t i = 0; i < n; ++i) {

@@ -181,13 +181,13 @@ static clast_status inflate_blocks(const vtx *v, const uint8_t *bytes, int64_t n
     int64_t filled = 0;
     for (uint64_t k = 0; k < n_block; ++k) {
         const uint64_t packed = header_number(v, bytes + (3 + (int64_t)k) * h);
-        uLongf room = (uLongf)(size - filled);
+        uLongf n_out = (uLongf)(size - filled);
         CLX_CHECK(packed <= (uint64_t)(n - at), CLAST_E_FORMAT,
                   "%s: block %" PRIu64 " of a compressed array is cut short", v->name, k + 1);
-        CLX_CHECK(uncompress(out + filled, &room, bytes + at, (uLong)packed) == Z_OK,
+        CLX_CHECK(uncompress(out + filled, &n_out, bytes + at, (uLong)packed) == Z_OK,
                   CLAST_E_FORMAT, "%s: block %" PRIu64 " of a compressed array is damaged", v->name,
                   k + 1);
-        filled += (int64_t)room;
+        filled += (int64_t)n_out;
         at += (int64_t)packed;
     }
     CLX_CHECK(filled == size, CLAST_E_FORMAT,
@@ -284,7 +284,7 @@ done:
 
 /// Before memory is taken for n more numbers: no file of this size holds all of them (deflate packs
 /// 1032 to 1), even if arrays share their bytes.
-static clast_status check_room(vtx *v, int64_t n)
+static clast_status check_count(vtx *v, int64_t n)
 {
     clast_status status = CLAST_OK;
     v->n_value += n;
@@ -316,7 +316,7 @@ static clast_status read_array(vtx *v, stretch tag, stretch content, bool is_poi
     }
     CLX_CHECK(!is_points || width == 3, CLAST_E_FORMAT, "%s: points have %" PRId64 " coordinates",
               v->name, width);
-    CLX_TRY(check_room(v, v->n * width));
+    CLX_TRY(check_count(v, v->n * width));
     CLX_TRY(clx_alloc(&value, v->n * width, sizeof *value));
     CLX_TRY(read_values(v, tag, content, type, v->n * width, value));
     if (!is_points && attribute(tag, "Name", &text)) {
@@ -408,7 +408,7 @@ static clast_status read_cell_types(vtx *v, stretch tag, const char *at, int64_t
                   clx_vtk_number_of(text.at, (size_t)(text.end - text.at), &type),
               CLAST_E_FORMAT, "%s: the array of the cells' types has no end or no type of number",
               v->name);
-    CLX_TRY(check_room(v, n));
+    CLX_TRY(check_count(v, n));
     CLX_TRY(clx_alloc(&value, n, sizeof *value));
     CLX_TRY(read_values(v, tag, (stretch){at, last}, type, n, value));
     for (int64_t i = 0; i < n; ++i) {

@@ -235,7 +235,7 @@ static clast_status read_model(const reader *r, clast_porosity_model *model)
     CLX_TRY(text(r, r->root, "source", &source));
     CLX_TRY(list(r, "terms", &n_term));
     CLX_TRY(list(r, "ranges", &n_range));
-    CLX_TRY(clx_model_room(name, source, n_term, n_range, has_covariance, &m));
+    CLX_TRY(clx_model_alloc(name, source, n_term, n_range, has_covariance, &m));
     CLX_TRY(read_kind(r, &m.kind));
     CLX_TRY(read_figures(r, &m));
     CLX_TRY(read_terms(r, &m));

@@ -15,7 +15,7 @@ static const uint32_t constant[64] = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-static uint32_t turn(uint32_t x, int k)
+static uint32_t rotate_left(uint32_t x, int k)
 {
     return (x >> k) | (x << (32 - k));
 }
@@ -27,8 +27,10 @@ static void expand(const unsigned char block[64], uint32_t w[64])
                (uint32_t)block[4 * t + 2] << 8 | (uint32_t)block[4 * t + 3];
     }
     for (int t = 16; t < 64; ++t) {
-        const uint32_t s0 = turn(w[t - 15], 7) ^ turn(w[t - 15], 18) ^ (w[t - 15] >> 3);
-        const uint32_t s1 = turn(w[t - 2], 17) ^ turn(w[t - 2], 19) ^ (w[t - 2] >> 10);
+        const uint32_t s0 =
+            rotate_left(w[t - 15], 7) ^ rotate_left(w[t - 15], 18) ^ (w[t - 15] >> 3);
+        const uint32_t s1 =
+            rotate_left(w[t - 2], 17) ^ rotate_left(w[t - 2], 19) ^ (w[t - 2] >> 10);
         w[t] = w[t - 16] + s0 + w[t - 7] + s1;
     }
 }
@@ -40,10 +42,10 @@ static void compress(uint32_t state[8], const unsigned char block[64])
     memcpy(v, state, sizeof v);
     expand(block, w);
     for (int t = 0; t < 64; ++t) {
-        const uint32_t s1 = turn(v[4], 6) ^ turn(v[4], 11) ^ turn(v[4], 25);
+        const uint32_t s1 = rotate_left(v[4], 6) ^ rotate_left(v[4], 11) ^ rotate_left(v[4], 25);
         const uint32_t choice = (v[4] & v[5]) ^ (~v[4] & v[6]);
         const uint32_t t1 = v[7] + s1 + choice + constant[t] + w[t];
-        const uint32_t s0 = turn(v[0], 2) ^ turn(v[0], 13) ^ turn(v[0], 22);
+        const uint32_t s0 = rotate_left(v[0], 2) ^ rotate_left(v[0], 13) ^ rotate_left(v[0], 22);
         const uint32_t majority = (v[0] & v[1]) ^ (v[0] & v[2]) ^ (v[1] & v[2]);
         memmove(v + 1, v, 7 * sizeof v[0]);
         v[4] += t1;

@@ -30,7 +30,7 @@ typedef struct {
     clx_length_unit unit[2]; ///< of low and high
     clx_sizes_columns columns;
     clast_sizes sizes; ///< as far as read
-    int64_t low_room, high_room, count_room, density_room;
+    int64_t low_capacity, high_capacity, count_capacity, density_capacity;
 } reader;
 
 static bool is_mark(char c)
@@ -454,7 +454,7 @@ static clast_status add_density(reader *r)
     CLX_CHECK(is_number(word) && isfinite(density) && density > 0.0, CLAST_E_FORMAT,
               "%s:%lld: the density '%s' is not a number above 0", r->name, (long long)r->line,
               word);
-    CLX_TRY(clx_grow(&s->density, &r->density_room, s->n, sizeof *s->density));
+    CLX_TRY(clx_grow(&s->density, &r->density_capacity, s->n, sizeof *s->density));
     s->density[s->n - 1] = density;
 done:
     return status;
@@ -464,9 +464,9 @@ static clast_status add_row(reader *r, double low, double high, double count)
 {
     clast_status status = CLAST_OK;
     clast_sizes *s = &r->sizes;
-    CLX_TRY(clx_grow(&s->low, &r->low_room, s->n + 1, sizeof *s->low));
-    CLX_TRY(clx_grow(&s->high, &r->high_room, s->n + 1, sizeof *s->high));
-    CLX_TRY(clx_grow(&s->count, &r->count_room, s->n + 1, sizeof *s->count));
+    CLX_TRY(clx_grow(&s->low, &r->low_capacity, s->n + 1, sizeof *s->low));
+    CLX_TRY(clx_grow(&s->high, &r->high_capacity, s->n + 1, sizeof *s->high));
+    CLX_TRY(clx_grow(&s->count, &r->count_capacity, s->n + 1, sizeof *s->count));
     s->low[s->n] = fmin(low, high);
     s->high[s->n] = fmax(low, high);
     s->count[s->n] = count;

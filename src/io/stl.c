@@ -175,12 +175,12 @@ static clast_status parse_binary(const uint8_t *bytes, size_t n, gather *g)
     const int64_t size = binary_size(bytes);
     CLX_CHECK(size <= (int64_t)n, CLAST_E_FORMAT,
               "byte 80: the header promises %" PRId64 " facets (%" PRId64
-              " bytes) but the file has %zu bytes, room for %" PRId64
+              " bytes) but the file has %zu bytes, enough for %" PRId64
               "; it is cut off or not an STL",
               n_facet, size, n, ((int64_t)n - BODY_START) / FACET_SIZE);
     CLX_CHECK((int64_t)n - size < FACET_SIZE, CLAST_E_FORMAT,
               "byte 80: the header promises %" PRId64 " facets but %" PRId64
-              " bytes follow them, room for %" PRId64 " more: the count is wrong",
+              " bytes follow them, enough for %" PRId64 " more: the count is wrong",
               n_facet, (int64_t)n - size, ((int64_t)n - size) / FACET_SIZE);
     CLX_CHECK(n_facet <= INT32_MAX / 3, CLAST_E_LIMIT,
               "%" PRId64 " facets are more than the %d that one mesh holds", n_facet,

@@ -193,7 +193,7 @@ static clast_status count_pages(TIFF *file, const source *s, page *first, int32_
             *first = next;
         }
         CLX_CHECK(next.width == first->width && next.height == first->height, CLAST_E_FORMAT,
-                  "TIFF: page %d is %u x %u, the first %u x %u: slices of a volume are alike",
+                  "TIFF: page %d is %u x %u, the first %u x %u: slices of a volume have one size",
                   *n_page + 1, next.width, next.height, first->width, first->height);
         CLX_CHECK((double)first->width * first->height * (*n_page + 1) <= held, CLAST_E_FORMAT,
                   "TIFF: pages promise more values than %" PRIu64 " bytes can hold", s->n);
@@ -250,18 +250,19 @@ done:
 }
 
 /// Room for the greatest strip or tile; one that the file cannot hold is refused.
-static clast_status make_scratch(const source *s, const page *p, uint8_t **scratch, int64_t *room)
+static clast_status make_scratch(const source *s, const page *p, uint8_t **scratch,
+                                 int64_t *capacity)
 {
     clast_status status = CLAST_OK;
     const double n =
         (double)(p->tile_width > 0 ? p->tile_width : p->width) * (double)p->rows * p->size;
     CLX_CHECK(n <= (double)s->n * CLX_MOST_RATIO, CLAST_E_FORMAT,
               "TIFF: a strip or tile of %.0f bytes in a file of %" PRIu64, n, s->n);
-    if ((int64_t)n > *room) {
+    if ((int64_t)n > *capacity) {
         clx_free(*scratch);
         *scratch = NULL;
-        *room = (int64_t)n;
-        CLX_TRY(clx_alloc(scratch, *room, 1));
+        *capacity = (int64_t)n;
+        CLX_TRY(clx_alloc(scratch, *capacity, 1));
     }
 done:
     return status;
@@ -273,7 +274,7 @@ clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume
     source s = {.bytes = bytes, .n = n};
     TIFF *file = NULL;
     uint8_t *scratch = NULL;
-    int64_t room = 0;
+    int64_t capacity = 0;
     page p = {0};
     int32_t n_page = 0;
     CLX_TRY(open_source(&s, &file));
@@ -290,7 +291,7 @@ clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume
         CLX_CHECK(k == 0 || TIFFReadDirectory(file), CLAST_E_FORMAT, "TIFF: page %d: %s", k + 1,
                   s.fault);
         CLX_TRY(read_page(file, k + 1, &p));
-        CLX_TRY(make_scratch(&s, &p, &scratch, &room));
+        CLX_TRY(make_scratch(&s, &p, &scratch, &capacity));
         CLX_TRY(read_values(file, &s, &p, k, scratch, volume));
     }
 done:

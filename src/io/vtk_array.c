@@ -97,17 +97,17 @@ void clx_vtk_head(clx_file *file, const char *type)
 static clast_status pack(clx_vtk_array *a)
 {
     clast_status status = CLAST_OK;
-    uLongf room = compressBound((uLong)a->used);
+    uLongf n_byte = compressBound((uLong)a->used);
     if (a->used == 0) {
         return CLAST_OK;
     }
-    CLX_TRY(clx_grow(&a->packed, &a->packed_capacity, a->n_packed + (int64_t)room, 1));
+    CLX_TRY(clx_grow(&a->packed, &a->packed_capacity, a->n_packed + (int64_t)n_byte, 1));
     CLX_TRY(clx_grow(&a->size, &a->size_capacity, a->n_block + 1, sizeof *a->size));
-    CLX_CHECK(compress2((Bytef *)a->packed + a->n_packed, &room, (const Bytef *)a->block,
+    CLX_CHECK(compress2((Bytef *)a->packed + a->n_packed, &n_byte, (const Bytef *)a->block,
                         (uLong)a->used, LEVEL) == Z_OK,
               CLAST_E_MEMORY, "zlib cannot compress a block");
-    a->size[a->n_block++] = room;
-    a->n_packed += (int64_t)room;
+    a->size[a->n_block++] = n_byte;
+    a->n_packed += (int64_t)n_byte;
     a->last = a->used;
     a->used = 0;
 done:
@@ -120,8 +120,8 @@ clast_status clx_vtk_add(clx_vtk_array *array, const void *bytes, int64_t n)
     clast_status status = CLAST_OK;
     const char *from = bytes;
     while (n > 0) {
-        const int64_t room = CLX_VTK_BLOCK - array->used;
-        const int64_t part = n < room ? n : room;
+        const int64_t n_free = CLX_VTK_BLOCK - array->used;
+        const int64_t part = n < n_free ? n : n_free;
         memcpy(array->block + array->used, from, (size_t)part);
         array->used += part;
         from += part;

@@ -102,7 +102,7 @@ void clast_statistics_free(clast_statistics *statistics)
     *statistics = (clast_statistics){0};
 }
 
-static clast_status room(clast_statistics *s)
+static clast_status allocate(clast_statistics *s)
 {
     clast_status status = CLAST_OK;
     const int64_t square = (int64_t)s->n * s->n;
@@ -178,7 +178,7 @@ clast_status clast_statistics_of(const clast_table *table, const clast_bootstrap
     CLX_CHECK(s.n > 0 && table->n_row > 0, CLAST_E_FORMAT,
               "statistics of table %s: %d number columns, %lld rows; both are needed", table->name,
               s.n, (long long)table->n_row);
-    CLX_TRY(room(&s));
+    CLX_TRY(allocate(&s));
     for (int32_t c = 0, k = 0; c < table->n_column; ++c) {
         if (table->column[c].number != NULL) {
             column[k] = table->column[c].number;

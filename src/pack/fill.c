@@ -132,13 +132,13 @@ static bool is_clear_of(const clast_pack *p, const filling *f, int32_t i, const 
     const clast_dem_config *d = &p->config.dem;
     const double period[3] = {d->width, d->depth > 0.0 ? d->depth : d->width, d->height};
     const int n_period = d->domain == CLAST_DEM_CELL ? 3 : d->domain == CLAST_DEM_PERIODIC ? 2 : 0;
-    const double reach = radius + f->radius[i];
+    const double contact_distance = radius + f->radius[i];
     double r[3];
     v3_sub(r, x, f->grain[i].position);
     for (int k = 0; k < n_period; ++k) {
         r[k] -= period[k] * floor(r[k] / period[k] + 0.5);
     }
-    return v3_norm2(r) >= reach * reach;
+    return v3_norm2(r) >= contact_distance * contact_distance;
 }
 
 /// Whether a sphere is clear of all others in the region.
@@ -195,14 +195,15 @@ static bool is_full(const clast_pack *p, filling *f)
 static bool place_on_lattice(const clast_pack *p, filling *f, double radius, double x[3])
 {
     CLAST_ASSERT(radius > 0.0 && p->spacing > 0.0);
-    const double room = fmax(radius, 0.5 * p->spacing);
+    const double clearance = fmax(radius, 0.5 * p->spacing);
     const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0 || f->n_old > 0;
     for (int64_t k = f->first; lattice_point(p, f, k, x); ++k) {
         if (f->taken[k] != FREE) {
             continue;
         }
-        if (!is_inside(p, x, room)) {
-            f->taken[k] = room > 0.5 * p->spacing ? FREE : BARRED; // too near a side for any grain
+        if (!is_inside(p, x, clearance)) {
+            f->taken[k] =
+                clearance > 0.5 * p->spacing ? FREE : BARRED; // too near a side for any grain
             continue;
         }
         if (is_barred(p, f, x)) {
@@ -216,7 +217,7 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
         }
     }
     // a wide grain may fit between walls where the lattice has no point: on the axis
-    v3_set(x, p->middle[0], p->middle[1], f->low + room);
+    v3_set(x, p->middle[0], p->middle[1], f->low + clearance);
     if (f->n == f->n_old && is_clear(p, f, x, radius) && is_inside(p, x, radius) &&
         x[2] + radius <= f->high) {
         return true;
@@ -323,8 +324,8 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
     }
     f->refused = fmin(f->refused, radius);
     CLX_CHECK(f->n > 0, CLAST_E_CONFIG,
-              "no grain fits between %s and %s: grain %lld needs more room than the domain has (it "
-              "reaches %s across, spacing %s); take a taller or wider domain%s",
+              "no grain fits between %s and %s: grain %lld does not fit into the domain (its "
+              "bounding diameter is %s, spacing %s); take a taller or wider domain%s",
               clx_unit_text(f->low, "m"), clx_unit_text(f->high, "m"), (long long)number->index,
               clx_unit_text(2.0 * radius, "m"), clx_unit_text(p->spacing, "m"),
               p->config.spacing > 2.0 * radius ? ", or a smaller spacing" : "");

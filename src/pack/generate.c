@@ -187,7 +187,7 @@ done:
 }
 
 /// Greatest reach from its centre that the domain's sides leave a grain.
-static double reach_limit(const clast_dem_config *d)
+static double largest_bounding_radius(const clast_dem_config *d)
 {
     const double depth = d->depth > 0.0 ? d->depth : d->width;
     const double skin = clx_least_skin(d);
@@ -204,7 +204,7 @@ static const int64_t SAMPLE = 1 << 20;
 static const double MOST_GRAINS = 1e8;
 
 /// Greatest distance from the origin once the axes are stretched by these factors.
-static double stretched_reach(const clast_mesh *mesh, const double factor[3])
+static double stretched_bounding_radius(const clast_mesh *mesh, const double factor[3])
 {
     double r2 = 0.0;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -220,8 +220,9 @@ static double stretched_reach(const clast_mesh *mesh, const double factor[3])
 /// Grains as they are drawn, of a form law too, without making their shapes.
 typedef struct {
     clast_mesh *principal; ///< [n_shape] in its principal frame, made when a grain needs it
-    double limit;          ///< greatest reach
-    double reach, mass; ///< of the grain at hand; the reach no less than it is, exact above limit
+    double limit;          ///< greatest bounding radius
+    double bounding_radius,
+        mass; ///< of the grain at hand; no less than it is, exact above limit
 } draws;
 
 /// A stretched shape has the axes of its form, and the volume follows them (see `stretch`).
@@ -244,15 +245,15 @@ static clast_status measure_form(const clast_pack *p, draws *all, int64_t index)
                           : CLAST_PI / 6.0 * lis[0] * lis[1] * lis[2];
     const double scale = size / clx_pack_size_of(&form, p->config.size_meaning);
     all->mass = clx_pack_density(p, index, number, size) * form.volume * scale * scale * scale;
-    all->reach =
+    all->bounding_radius =
         scale * (is_mesh ? fmax(factor[0], fmax(factor[1], factor[2])) * shape->bounding_radius
                          : form.semi_axes[0]);
-    if (is_mesh && all->reach > all->limit) {
+    if (is_mesh && all->bounding_radius > all->limit) {
         clast_mesh *principal = &all->principal[number];
         if (principal->n_tri == 0) {
             CLX_TRY(clast_reform_principal(&shape->mesh, principal, was));
         }
-        all->reach = scale * stretched_reach(principal, factor);
+        all->bounding_radius = scale * stretched_bounding_radius(principal, factor);
     }
 done:
     return status;
@@ -269,7 +270,7 @@ static clast_status measure_draw(clast_pack *p, draws *all, int64_t index)
     }
     CLX_TRY(clx_pack_draw(p, &number, &g));
     clx_dem_shape_measures(p->dem, g.shape, measures);
-    all->reach = g.scale * measures[0];
+    all->bounding_radius = g.scale * measures[0];
     all->mass = g.density * measures[1] * g.scale * g.scale * g.scale;
 done:
     return status;
@@ -279,15 +280,15 @@ clast_status clx_pack_check_draws(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const clast_dem_config *d = &p->config.dem;
-    draws all = {.limit = reach_limit(d)};
+    draws all = {.limit = largest_bounding_radius(d)};
     double mass = 0.0;
     CLX_TRY(clx_alloc(&all.principal, p->input.n_shape, sizeof *all.principal));
     for (int64_t i = 0; mass < p->config.mass; ++i) {
         CLX_TRY(measure_draw(p, &all, i));
-        CLX_CHECK(all.reach <= all.limit, CLAST_E_GEOMETRY,
-                  "grain %lld of this seed reaches %s across, more than %s of %s; take a wider "
+        CLX_CHECK(all.bounding_radius <= all.limit, CLAST_E_GEOMETRY,
+                  "grain %lld of this seed has a bounding diameter of %s, more than %s of %s; take a wider "
                   "domain, or another seed if few grains are as large",
-                  (long long)i, clx_unit_text(2.0 * all.reach, "m"),
+                  (long long)i, clx_unit_text(2.0 * all.bounding_radius, "m"),
                   d->domain == CLAST_DEM_CELL       ? "half the period, less the skin,"
                   : d->domain == CLAST_DEM_PERIODIC ? "the period, less the skin,"
                                                     : "the width",

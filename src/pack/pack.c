@@ -71,14 +71,14 @@ clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
 /// Rows that a profile may have: 1 km in slices of 1 mm.
 static const double MOST_SLICES = 1e6;
 
-static clast_status check_room(const clast_pack *p)
+static clast_status check_mass_fits(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const clast_pack_config *c = &p->config;
     const clast_bed bed = clast_pack_bed(p);
     const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
     const double edge[2] = {p->base, p->base + (is_cell ? 1.0 : c->fill_low) * p->tall};
-    double room = 0.0;
+    double volume = 0.0;
     double light = 0.0;
     double heavy = 0.0;
     CLX_CHECK(is_cell || p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
@@ -93,14 +93,14 @@ static clast_status check_room(const clast_pack *p)
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic, box or cell, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell || p->input.n_wall > 0, CLAST_E_CONFIG,
-              "a packing needs a floor, or a wall in its place");
-    clast_bed_volumes(&bed, 1, edge, &room);
+              "a packing needs a floor, or a wall instead of it");
+    clast_bed_volumes(&bed, 1, edge, &volume);
     CLX_CHECK(
-        0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
-        "%s cannot fit: at a porosity of 0.5 the room below z = %s, where grains are made "
+        0.5 * heavy * volume >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
+        "%s cannot fit: at a porosity of 0.5 the volume below z = %s, where grains are made "
         "(fill_low of height), takes %s; take a taller or wider domain, or a greater fill_low",
         clx_unit_text(c->mass, "kg"), clx_unit_text(edge[1], "m"),
-        clx_unit_text(0.5 * heavy * room, "kg"));
+        clx_unit_text(0.5 * heavy * volume, "kg"));
     CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
               "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", light,
               c->dem.fluid_density);
@@ -123,7 +123,7 @@ clast_status clx_pack_create_again(const clast_pack_config *config, const clast_
     }
     CLX_TRY(clx_pack_contain(made));
     made->dem->may_touch_old = true; // shelves begin where grains of the last fill may still reach
-    CLX_TRY(check_room(made));
+    CLX_TRY(check_mass_fits(made));
     CLX_TRY(clx_pack_prepare(made));
     if (input->start == NULL) {
         CLX_TRY(clx_pack_check_draws(made));
@@ -284,12 +284,12 @@ static clast_status check_waiting(clast_pack *p, double low)
     const double sinking = sinking_time(p, low);
     CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
               "nothing draws the grains of fill %d down from above %s (gravity %g m/s^2, "
-              "initial_speed %s): no room comes for the others",
+              "initial_speed %s): no free space appears for the others",
               p->n_fill, clx_unit_text(low, "m"), gravity,
               clx_unit_text(p->config.initial_speed, "m/s"));
     CLX_CHECK(waited <= PATIENCE * sinking, CLAST_E_CONVERGE,
               "grains of fill %d still lie above %s after %s, %g times what sinking through the "
-              "height takes: the bed has grown into the place where grains are made; take a taller "
+              "height takes: the bed has grown into the region where grains are made; take a taller "
               "or wider domain",
               p->n_fill, clx_unit_text(low, "m"), clx_unit_text(waited, "s"), PATIENCE);
 done:
@@ -366,7 +366,7 @@ static clast_status look(clast_pack *p)
         return begin_phase(p, CLAST_PACK_DONE);
     }
     CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
-              "the bed is not still after %s of damping: its mean height has moved by %s in %s "
+              "the bed is not at rest after %s of damping: its mean height has moved by %s in %s "
               "(height_change %s), its fastest grain moves at %s (still_speed %s)",
               clx_unit_text(c->max_damping_time, "s"), clx_unit_text(moved, "m"),
               clx_unit_text(c->check_time, "s"), clx_unit_text(c->height_change, "m"),

@@ -190,10 +190,10 @@ static clast_status check(const clast_pack_config *c, int32_t i, const clx_wall_
     const clast_dem_wall_motion *m = &w->wall.motion;
     const bool has_axis = v3_norm2(m->axis) > 0.0;
     if (!has_axis && (m->rate != 0.0 || m->swing != 0.0)) {
-        return fail(c, i, "it turns about no axis; give axis 0,1,0 (and about X,Y,Zmm)", "");
+        return fail(c, i, "it rotates about no axis; give axis 0,1,0 (and about X,Y,Zmm)", "");
     }
     if (has_axis && m->rate == 0.0 && m->swing == 0.0 && w->table[0] == '\0') {
-        return fail(c, i, "it has an axis and does not turn; give rotate, swing or a table", "");
+        return fail(c, i, "it has an axis and does not rotate; give rotate, swing or a table", "");
     }
     for (int32_t k = 0; k < i; ++k) {
         char name[sizeof w->wall.name];

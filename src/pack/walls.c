@@ -61,10 +61,10 @@ static double area_of(const clast_pack *p, const clast_pack_wall *wall)
 static double speed_of(const clast_pack_wall *wall)
 {
     const clast_dem_wall_motion *m = &wall->motion;
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     double slope[2] = {0.0, 0.0};
     for (int32_t i = 0; i < wall->mesh.n_vert; ++i) {
-        reach = fmax(reach, v3_distance(wall->mesh.vert[i], m->pivot));
+        bounding_radius = fmax(bounding_radius, v3_distance(wall->mesh.vert[i], m->pivot));
     }
     for (int32_t i = 1; i < m->n; ++i) {
         const double time = m->time[i] - m->time[i - 1];
@@ -73,7 +73,7 @@ static double speed_of(const clast_pack_wall *wall)
     }
     const double w = m->period > 0.0 ? 2.0 * CLAST_PI / m->period : 0.0;
     return v3_norm(m->velocity) + w * v3_norm(m->amplitude) + slope[0] +
-           reach * (fabs(m->rate) + w * fabs(m->swing) + slope[1]);
+           bounding_radius * (fabs(m->rate) + w * fabs(m->swing) + slope[1]);
 }
 
 /// A pressure acts on what a wall shows in the direction in which it presses.

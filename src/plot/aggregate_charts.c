@@ -115,7 +115,7 @@ static void free_drawing(drawing *d)
     *d = (drawing){0};
 }
 
-static clast_status room(line *l, int64_t n)
+static clast_status allocate(line *l, int64_t n)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&l->x, n, sizeof *l->x));
@@ -183,7 +183,7 @@ static clast_status mean_line(const double *x, const double *y, int64_t n_row, d
     pair *p = NULL;
     int64_t n = 0;
     CLX_TRY(clx_alloc(&p, n_row, sizeof *p));
-    CLX_TRY(room(&l, n_row));
+    CLX_TRY(allocate(&l, n_row));
     for (int64_t i = 0; i < n_row; ++i) {
         if (isfinite(x[i]) && isfinite(y[i]) && x[i] <= last) {
             p[n++] = (pair){x[i], y[i]};
@@ -252,7 +252,7 @@ static clast_status placed_line(const clast_table *history, line *out)
     const double *size = clast_table_numbers(history, "size_m");
     const double *place = clast_table_numbers(history, "n");
     line l = {.label = "placed", .is_step = true};
-    CLX_TRY(room(&l, history->n_row));
+    CLX_TRY(allocate(&l, history->n_row));
     for (int64_t i = 0; i < history->n_row; ++i) {
         if (isfinite(size[i]) && (place == NULL || place[i] > 0.0)) {
             l.x[l.n++] = size[i];
@@ -298,7 +298,7 @@ static clast_status wanted_line(const clast_table *wanted, line *out)
     CLX_CHECK(low != NULL && high != NULL && count != NULL, CLAST_E_FORMAT,
               "table %s: wanted sizes need the columns low_m, high_m and count (or wanted)",
               wanted->name);
-    CLX_TRY(room(&l, 2 * wanted->n_row));
+    CLX_TRY(allocate(&l, 2 * wanted->n_row));
     CLX_TRY(clx_alloc(&bins, wanted->n_row, sizeof *bins));
     for (int64_t i = 0; i < wanted->n_row; ++i) {
         bins[i] = (size_bin){low[i], high[i], count[i]};

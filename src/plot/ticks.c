@@ -84,9 +84,9 @@ static void logarithmic(double low, double high, bool widen, int wanted, clx_tic
         a = floor(a + 1e-9);
         b = ceil(b - 1e-9);
     } else if (widen) { // or the first and the last point would lie on the frame
-        const double room = 0.04 * (b - a);
-        a -= room;
-        b += room;
+        const double margin = 0.04 * (b - a);
+        a -= margin;
+        b += margin;
     }
     t->low = pow(10.0, a);
     t->high = pow(10.0, b);

@@ -130,9 +130,9 @@ void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
     for (int k = 2; k >= 0; --k) { // z first: it moves a sheared bed's grains along x
         for (int32_t i = 0; i < assembly->n_grain && period[k] > 0.0; ++i) {
             double *x = &assembly->position[i][k];
-            const double turn = floor((*x - low[k]) / period[k]);
-            *x = fmin(*x - period[k] * turn, low[k] + period[k]);
-            assembly->position[i][0] -= k == 2 ? turn * bed->shift : 0.0;
+            const double image = floor((*x - low[k]) / period[k]);
+            *x = fmin(*x - period[k] * image, low[k] + period[k]);
+            assembly->position[i][0] -= k == 2 ? image * bed->shift : 0.0;
         }
     }
 }

@@ -79,9 +79,9 @@ static void add_contact(bed_chains *b, int64_t k)
     for (int i = 2; i >= 0; --i) { // z first: it moves a sheared bed's images along x
         const double way =
             c->point[i][k] - b->assembly->position[first][i] - (i == 0 ? along : 0.0);
-        const double turn = b->period[i] > 0.0 ? floor(way / b->period[i] + 0.5) : 0.0;
-        arm[i] = way - b->period[i] * turn;
-        along = i == 2 ? turn * b->shift : along;
+        const double image = b->period[i] > 0.0 ? floor(way / b->period[i] + 0.5) : 0.0;
+        arm[i] = way - b->period[i] * image;
+        along = i == 2 ? image * b->shift : along;
         force[i] = c->force[i][k];
     }
     b->force_norm[k] = v3_norm(force);

@@ -74,7 +74,7 @@ static int64_t wrapped(const grid *g, int axis, int64_t k)
 }
 
 /// Periods above the first image that row k of the grid lies.
-static double turn_of(const grid *g, int64_t k)
+static double image_of(const grid *g, int64_t k)
 {
     return g->is_periodic[2] ? floor((double)k / (double)g->n[2]) : 0.0;
 }
@@ -90,9 +90,9 @@ static void spread(grid *g, const double x[3], int first, int n_value, const dou
     }
     for (int k = 0; k < n[2]; ++k) {
         const int64_t at_z = wrapped(g, 2, begin[2] + k);
-        const double turn = turn_of(g, begin[2] + k);
-        if (g->shift != 0.0 && (k == 0 || turn != turn_of(g, begin[2] + k - 1))) {
-            n[0] = shares(g, 0, x[0] - turn * g->shift, &begin[0], share[0]);
+        const double image = image_of(g, begin[2] + k);
+        if (g->shift != 0.0 && (k == 0 || image != image_of(g, begin[2] + k - 1))) {
+            n[0] = shares(g, 0, x[0] - image * g->shift, &begin[0], share[0]);
         }
         for (int j = 0; j < n[1]; ++j) {
             const int64_t row = (at_z * g->n[1] + wrapped(g, 1, begin[1] + j)) * g->n[0];

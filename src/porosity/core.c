@@ -322,12 +322,12 @@ static clast_status add_grain(core_sum *c, int32_t i)
                               ? cbrt(0.75 / CLAST_PI * clx_grain_volume(a, i))
                               : a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
     const double inside = distance(c->bed, a->position[i]) - c->depth;
-    const double reach = radius + 0.5 * c->ramp;
+    const double outer_radius = radius + 0.5 * c->ramp;
     const double z = a->position[i][2];
-    if (inside <= -reach || z + radius <= c->edge[0] || z - radius >= c->edge[1]) {
+    if (inside <= -outer_radius || z + radius <= c->edge[0] || z - radius >= c->edge[1]) {
         return CLAST_OK;
     }
-    if (inside >= reach) { // cut by the heights at most
+    if (inside >= outer_radius) { // cut by the heights at most
         return clx_grain_slabs(a, i, c->method, 1, c->edge, &c->solid);
     }
     add_cut(c, i);

@@ -26,7 +26,7 @@ void clx_fit_end(clx_fit *fit)
     *fit = (clx_fit){0};
 }
 
-static clast_status room(clx_fit *f)
+static clast_status allocate(clx_fit *f)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&f->r, f->m, sizeof *f->r));
@@ -93,7 +93,7 @@ clast_status clx_fit_begin(const clx_fit_sample *sample, const clast_porosity_fi
               (long long)f.n, config->n_fold);
     CLX_CHECK(!m.is_constant, CLAST_E_FORMAT, "fit: all %lld beds have the same porosity %g",
               (long long)f.n, m.mean);
-    CLX_TRY(room(&f));
+    CLX_TRY(allocate(&f));
     for (int32_t k = 0; k < config->n_repeat; ++k) {
         CLX_TRY(clx_folds(config->seed, k, f.n, config->n_fold, f.fold + k * f.n));
     }

@@ -301,7 +301,7 @@ clast_status clast_porosity_fit_data(const clast_fit_data *data, const char *nam
     CLX_TRY(start_table(&out.trials, "trials", 0, "feature", number, 4));
     f.trials = &out.trials;
     CLX_TRY(clx_fit_select(&f));
-    CLX_TRY(clx_model_room(name, source, f.n_chosen, f.n_chosen + 2, true, &out.model));
+    CLX_TRY(clx_model_alloc(name, source, f.n_chosen, f.n_chosen + 2, true, &out.model));
     CLX_TRY(report(&f, data, &out));
     *fit = out;
     out = (clast_porosity_fit){0};

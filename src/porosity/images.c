@@ -125,12 +125,14 @@ done:
 static void count_images(image_search *s)
 {
     const clast_assembly *a = s->grains;
-    double reach = 0.0;
+    double bounding_radius = 0.0;
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        reach = fmax(reach, a->scale[i] * a->shape[a->shape_id[i]].bounding_radius);
+        bounding_radius =
+            fmax(bounding_radius, a->scale[i] * a->shape[a->shape_id[i]].bounding_radius);
     }
     for (int k = 0; k < 3; ++k) {
-        s->most[k] = s->period[k] > 0.0 ? 1 + (int32_t)fmin(2.0 * reach / s->period[k], 2.0) : 0;
+        s->most[k] =
+            s->period[k] > 0.0 ? 1 + (int32_t)fmin(2.0 * bounding_radius / s->period[k], 2.0) : 0;
     }
     s->most[0] += s->bed->shift != 0.0 ? 1 : 0;
 }

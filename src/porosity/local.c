@@ -65,9 +65,9 @@ static void wrap(const diagram *d, double x[3])
 {
     const double low[3] = {d->bed->low[0], d->bed->low[1], d->bed->floor};
     for (int k = d->n_period - 1; k >= 0; --k) {
-        const double turn = floor((x[k] - low[k]) / d->period[k]);
-        x[k] = fmin(x[k] - d->period[k] * turn, low[k] + d->period[k]);
-        x[0] -= k == 2 ? turn * d->bed->shift : 0.0;
+        const double image = floor((x[k] - low[k]) / d->period[k]);
+        x[k] = fmin(x[k] - d->period[k] * image, low[k] + d->period[k]);
+        x[0] -= k == 2 ? image * d->bed->shift : 0.0;
     }
 }
 
@@ -239,9 +239,9 @@ static bool image(const diagram *d, int axis, int32_t index, int32_t *in_grid, d
     *in_grid = index;
     if (axis < d->n_period) {
         const int32_t n = d->size[axis];
-        const int32_t turn = index >= 0 ? index / n : -((n - 1 - index) / n);
-        *in_grid = index - turn * n;
-        *shift = turn * d->period[axis];
+        const int32_t image = index >= 0 ? index / n : -((n - 1 - index) / n);
+        *in_grid = index - image * n;
+        *shift = image * d->period[axis];
         return true;
     }
     return index >= 0 && index < d->size[axis];
@@ -307,8 +307,8 @@ static clast_status make_cell(const diagram *d, int32_t i, clx_cell *cell)
         // Whatever lies in this ring and beyond is at least (ring - 1) steps away, or one less
         // where cells of images lie between those of the grid.
         const double away = (ring - (is_sheared(d) ? 2 : 1)) * d->least;
-        const double reach = sqrt(clx_cell_reach2(cell));
-        if (away > 0.0 && (away * away - gain) / (2.0 * away) > reach && away * away > gain) {
+        const double radius = sqrt(clx_cell_reach2(cell));
+        if (away > 0.0 && (away * away - gain) / (2.0 * away) > radius && away * away > gain) {
             break;
         }
         CLX_TRY(cut_ring(d, i, ring, cell));

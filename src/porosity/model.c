@@ -78,8 +78,8 @@ void clast_porosity_model_free(clast_porosity_model *model)
     *model = (clast_porosity_model){0};
 }
 
-clast_status clx_model_room(const char *name, const char *source, int32_t n_term, int32_t n_range,
-                            bool has_covariance, clast_porosity_model *model)
+clast_status clx_model_alloc(const char *name, const char *source, int32_t n_term, int32_t n_range,
+                             bool has_covariance, clast_porosity_model *model)
 {
     CLAST_ASSERT(n_term >= 0 && n_range >= 0);
     clast_status status = CLAST_OK;
@@ -128,8 +128,8 @@ clast_status clast_porosity_model_published(int32_t number, clast_porosity_model
     const bool is_single = p->kind == CLAST_MODEL_SINGLE;
     const int32_t n_term = is_single ? 2 : 4;
     const int32_t n_range = is_single ? N_SINGLE_RANGE : N_MIXTURE_RANGE;
-    CLX_TRY(clx_model_room(p->name, "Rettinger et al., Granular Matter 24 (2022) 118", n_term,
-                           n_range, false, &m));
+    CLX_TRY(clx_model_alloc(p->name, "Rettinger et al., Granular Matter 24 (2022) 118", n_term,
+                            n_range, false, &m));
     for (int32_t k = 0; k < n_term; ++k) {
         CLX_TRY(
             clx_alloc_text(&m.term[k].feature, is_single ? single_feature[k] : mixture_feature[k]));

@@ -7,8 +7,8 @@ typedef struct clast_porosity_model clast_porosity_model;
 typedef struct clast_prediction clast_prediction;
 
 /// Room for terms, ranges and a covariance of an empty model, texts not yet set.
-clast_status clx_model_room(const char *name, const char *source, int32_t n_term, int32_t n_range,
-                            bool has_covariance, clast_porosity_model *model);
+clast_status clx_model_alloc(const char *name, const char *source, int32_t n_term, int32_t n_range,
+                             bool has_covariance, clast_porosity_model *model);
 
 /// Porosity for given values of terms and ranged features. Outside its ranges, or where the values
 /// together lie farther out than those of any bed that it was fitted to (by their leverage

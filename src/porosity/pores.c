@@ -65,9 +65,9 @@ static double along_x(const search *s, double x, int k)
 }
 
 /// Distance of a point to the nearest grain or image of one within `reach`, or HUGE_VAL; -1 inside.
-static double nearest_within(const search *s, const double x[3], double reach, double dust)
+static double nearest_within(const search *s, const double x[3], double max_distance, double dust)
 {
-    CLAST_ASSERT(dust >= 0.0 && reach >= 0.0);
+    CLAST_ASSERT(dust >= 0.0 && max_distance >= 0.0);
     const double upright[4] = {1.0, 0.0, 0.0, 0.0};
     nearest_visit v = {.set = s->set, .nearest = HUGE_VAL};
     clx_touch_body probe = clx_touch_body_sphere(dust);
@@ -82,7 +82,7 @@ static double nearest_within(const search *s, const double x[3], double reach, d
         v3_set(v.x, along_x(s, x[0], k) + i * s->period[0], x[1] + j * s->period[1],
                x[2] + k * s->period[2]);
         clx_touch_body_place(&probe, v.x, upright, 1.0);
-        (void)clx_touch_scene_contacts(s->set->scene, &probe, reach, visit, &v);
+        (void)clx_touch_scene_contacts(s->set->scene, &probe, max_distance, visit, &v);
     }
     return v.held ? -1.0 : v.nearest + dust;
 }
@@ -101,10 +101,10 @@ static void measure_range(int64_t begin, int64_t end, int32_t worker, void *cont
             continue;
         }
         double found = HUGE_VAL;
-        double reach = s->first;
-        for (int tries = 0; tries < 20 && found > reach; ++tries) {
-            reach *= tries > 0 ? 2.0 : 1.0;
-            found = nearest_within(s, x, reach, 1e-9 * s->first);
+        double max_distance = s->first;
+        for (int tries = 0; tries < 20 && found > max_distance; ++tries) {
+            max_distance *= tries > 0 ? 2.0 : 1.0;
+            found = nearest_within(s, x, max_distance, 1e-9 * s->first);
         }
         s->delta[k] = found;
     }

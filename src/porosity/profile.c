@@ -55,10 +55,10 @@ static void range_of(const gathering *g, int32_t i, double shift, int32_t range[
     const clast_shape *shape = &g->assembly->shape[g->assembly->shape_id[i]];
     const double equal = cbrt(0.75 / CLAST_PI * shape->volume); // radius of its volume's sphere
     const double z = g->assembly->position[i][2] + shift;
-    const double reach = g->assembly->scale[i] * fmax(shape->bounding_radius, equal);
-    const double rounding = 1e-12 * (fabs(z) + reach);
-    range[0] = clx_slice_of(g->n_slice, g->edge, z - reach - rounding);
-    range[1] = clx_slice_of(g->n_slice, g->edge, z + reach + rounding);
+    const double bounding_radius = g->assembly->scale[i] * fmax(shape->bounding_radius, equal);
+    const double rounding = 1e-12 * (fabs(z) + bounding_radius);
+    range[0] = clx_slice_of(g->n_slice, g->edge, z - bounding_radius - rounding);
+    range[1] = clx_slice_of(g->n_slice, g->edge, z + bounding_radius + rounding);
     range[1] += range[1] < g->n_slice ? 1 : 0;
 }
 
@@ -255,13 +255,13 @@ static clast_status check_images(const clast_assembly *assembly, const clast_bed
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < assembly->n_grain && bed->kind == CLAST_BED_PERIODIC_3D; ++i) {
         const double z = assembly->position[i][2];
-        const double reach =
+        const double bounding_radius =
             assembly->scale[i] * assembly->shape[assembly->shape_id[i]].bounding_radius;
         CLX_CHECK(z >= bed->floor && z <= bed->ceiling, CLAST_E_USAGE,
                   "grain %d lies at z = %g, outside of the first image: call clast_bed_wrap", i, z);
-        CLX_CHECK(reach <= bed->ceiling - bed->floor, CLAST_E_GEOMETRY,
-                  "grain %d reaches %g from its centre, farther than the period of %g", i, reach,
-                  bed->ceiling - bed->floor);
+        CLX_CHECK(bounding_radius <= bed->ceiling - bed->floor, CLAST_E_GEOMETRY,
+                  "grain %d has a bounding radius of %g, more than the period of %g", i,
+                  bounding_radius, bed->ceiling - bed->floor);
     }
 done:
     return status;

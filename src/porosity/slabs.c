@@ -140,14 +140,14 @@ static void add_facet(const slices *s, const facet *f, double z)
 }
 
 /// @param share  of the surface's volume that counts
-static void add_mesh(const slices *s, const clast_mesh *mesh, double turn[3][3], double scale,
+static void add_mesh(const slices *s, const clast_mesh *mesh, double rotation[3][3], double scale,
                      double z, double share)
 {
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         double p[3][3];
         facet f;
         for (int k = 0; k < 3; ++k) {
-            m3_to_world(p[k], turn, mesh->vert[mesh->tri[t][k]]);
+            m3_to_world(p[k], rotation, mesh->vert[mesh->tri[t][k]]);
             v3_scale(p[k], scale, p[k]);
         }
         sort_facet(p, &f);
@@ -222,7 +222,7 @@ static void add_crossing(world_clump *c, int32_t i, int32_t j)
 }
 
 static clast_status place_clump(const clast_spheres *spheres, const double position[3],
-                                double turn[3][3], double scale, world_clump *c)
+                                double rotation[3][3], double scale, world_clump *c)
 {
     clast_status status = CLAST_OK;
     const int64_t n = spheres->n;
@@ -234,7 +234,7 @@ static clast_status place_clump(const clast_spheres *spheres, const double posit
     CLX_TRY(clx_alloc(&c->disc, n, sizeof *c->disc));
     for (int32_t i = 0; i < c->n; ++i) {
         double x[3];
-        m3_to_world(x, turn, spheres->centre[i]);
+        m3_to_world(x, rotation, spheres->centre[i]);
         v3_axpy(c->centre[i], position, scale, x);
         c->radius[i] = scale * spheres->radius[i];
         c->knot[c->n_knot++] = c->centre[i][2] - c->radius[i];
@@ -249,11 +249,11 @@ done:
 }
 
 static clast_status add_clump(const slices *s, const clast_spheres *spheres,
-                              const double position[3], double turn[3][3], double scale)
+                              const double position[3], double rotation[3][3], double scale)
 {
     clast_status status = CLAST_OK;
     world_clump c = {0};
-    CLX_TRY(place_clump(spheres, position, turn, scale, &c));
+    CLX_TRY(place_clump(spheres, position, rotation, scale, &c));
     const double top = c.knot[c.n_knot - 1];
     for (int32_t k = clx_slice_of(s->n, s->edge, c.knot[0]); k < s->n && s->edge[k] < top; ++k) {
         double volume = 0.0;
@@ -279,13 +279,13 @@ static bool is_disjoint(const clast_shape *shape)
     return fabs(sum - shape->volume) <= 1e-10 * shape->volume;
 }
 
-static void add_spheres(const slices *s, const clast_spheres *spheres, double z, double turn[3][3],
-                        double scale)
+static void add_spheres(const slices *s, const clast_spheres *spheres, double z,
+                        double rotation[3][3], double scale)
 {
     for (int32_t i = 0; i < spheres->n; ++i) {
         const double r = scale * spheres->radius[i];
         double x[3];
-        m3_to_world(x, turn, spheres->centre[i]);
+        m3_to_world(x, rotation, spheres->centre[i]);
         add_ellipsoid(s, 4.0 / 3.0 * CLAST_PI * r * r * r, z + scale * x[2], r);
     }
 }
@@ -331,23 +331,23 @@ clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
     const double volume = scale * scale * scale * shape->volume;
     const double z = assembly->position[i][2];
     const slices s = {n, edge, solid};
-    double turn[3][3];
-    q_matrix(turn, assembly->orientation[i]);
+    double rotation[3][3];
+    q_matrix(rotation, assembly->orientation[i]);
     if (method == CLAST_POROSITY_SPHERES) {
         add_ellipsoid(&s, volume, z, cbrt(0.75 / CLAST_PI * volume));
     } else if (shape->kind == CLAST_SHAPE_MESH) {
         const bool is_rigid = shape->parts.n > 0; // what its parts share counts once
-        add_mesh(&s, &shape->mesh, turn, scale, z,
+        add_mesh(&s, &shape->mesh, rotation, scale, z,
                  is_rigid ? shape->volume / clast_mesh_volume(&shape->mesh) : 1.0);
     } else if (shape->kind == CLAST_SHAPE_CLUMP && is_disjoint(shape)) {
-        add_spheres(&s, &shape->spheres, z, turn, scale);
+        add_spheres(&s, &shape->spheres, z, rotation, scale);
     } else if (shape->kind == CLAST_SHAPE_CLUMP) {
-        return add_clump(&s, &shape->spheres, assembly->position[i], turn, scale);
+        return add_clump(&s, &shape->spheres, assembly->position[i], rotation, scale);
     } else {
         double h = 0.0;
         for (int k = 0; k < 3; ++k) {
             const double a = shape->semi_axes[shape->kind == CLAST_SHAPE_SPHERE ? 0 : k];
-            h += turn[2][k] * a * (turn[2][k] * a);
+            h += rotation[2][k] * a * (rotation[2][k] * a);
         }
         add_ellipsoid(&s, volume, z, scale * sqrt(h));
     }

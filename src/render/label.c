@@ -71,7 +71,7 @@ clast_status clx_label_layout(const clast_render_config *config, const clx_legen
     CLX_CHECK(layout->frame.right - layout->frame.left > 0.3 * config->width &&
                   layout->frame.bottom - layout->frame.top > 0.3 * config->height,
               CLAST_E_CONFIG,
-              "a picture of %d x %d leaves no room beside its labels; enlarge it or leave out "
+              "a picture of %d x %d leaves no space beside its labels; enlarge it or leave out "
               "colour_bar and scale_bar",
               config->width, config->height);
     const double height = fmin(legend_height * text, config->height - 2.0 * margin);

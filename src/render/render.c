@@ -47,7 +47,7 @@ const clast_field clast_render_fields[] = {
      "cut away the half nearer to the viewer: by a plane across this axis", "none|x|y|z|view",
      .common = true},
     {FIELD(CLAST_FIELD_F64, cut_position), 0.5, 0.0, 1.0, "-",
-     "place of the cut in the extent along its axis", NULL},
+     "position of the cut in the extent along its axis", NULL},
     {FIELD(CLAST_FIELD_BOOL, colour_bar), 1, 0, 1, "-", "legend of the colours", NULL},
     {FIELD(CLAST_FIELD_BOOL, scale_bar), 1, 0, 1, "-",
      "bar of a round length, in perspective at the centre", NULL},

@@ -58,7 +58,7 @@ static clast_status build_mesh(const clast_mesh *mesh, clast_render_shading shad
     CLX_TRY(clast_bvh_create(mesh, &shape->bvh));
     CLX_TRY(clx_wide_build(&shape->bvh->tree, CLX_WIDE_LANES, &shape->wide));
     CLX_TRY(clx_grow_lines(&shape->block, &capacity, shape->wide.n_leaf, sizeof *shape->block));
-    shape->block_unit = shape->wide.reach > 0.0 ? ldexp(1.0, -ilogb(shape->wide.reach)) : 1.0;
+    shape->block_unit = shape->wide.max_abs > 0.0 ? ldexp(1.0, -ilogb(shape->wide.max_abs)) : 1.0;
     clx_parallel_for(shape->wide.n_leaf, BLOCK, fill_blocks, shape);
     if (shading == CLAST_RENDER_SMOOTH) {
         CLX_TRY(clx_corner_normals(shape->bvh, &shape->normal));
@@ -196,7 +196,7 @@ static clast_status place_grain(const clast_assembly *assembly, int32_t g, clx_s
         box->low[k] -= pad;
         box->high[k] += pad;
         CLX_CHECK(box->high[k] - box->low[k] < 1e30 && grain->scale > 0.0, CLAST_E_GEOMETRY,
-                  "grain %d of %d has no finite size and place", g, assembly->n_grain);
+                  "grain %d of %d has no finite size and position", g, assembly->n_grain);
     }
     box->item = g;
 done:

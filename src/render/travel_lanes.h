@@ -278,15 +278,15 @@ CLX_INLINE uint32_t rays_that_enter(const legs *l, const clx_wide_node *node, in
 CLX_INLINE void set_floats(const clx_scene_shape *shape, leg *l)
 {
     const double unit = shape->block_unit;
-    double reach = shape->wide.reach * unit;
+    double max_abs = shape->wide.max_abs * unit;
     for (int k = 0; k < 3; ++k) {
         const double at = l->ray.origin[l->ray.axis[k]] * unit;
-        reach = fabs(at) > reach ? fabs(at) : reach;
+        max_abs = fabs(at) > max_abs ? fabs(at) : max_abs;
         l->from[k] = (float)at;
     }
     l->shear[0] = (float)l->ray.shear[0];
     l->shear[1] = (float)l->ray.shear[1];
-    l->error = reach < 0x1p40 ? (float)(0x1p-19 * reach) : INFINITY;
+    l->error = max_abs < 0x1p40 ? (float)(0x1p-19 * max_abs) : INFINITY;
 }
 
 /// Bits of a block's triangles that the ray's line may meet: those not surely passed on one side of

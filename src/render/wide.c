@@ -118,11 +118,11 @@ clast_status clx_wide_build(const clx_tree *tree, int32_t leaf_size, clx_wide *w
     int64_t capacity = 0;
     const collapse_state s = {tree, leaf_size, &made};
     for (int k = 0; k < 3; ++k) {
-        made.reach = fmax(made.reach, fabs(tree->node[0].low[k]));
-        made.reach = fmax(made.reach, fabs(tree->node[0].high[k]));
+        made.max_abs = fmax(made.max_abs, fabs(tree->node[0].low[k]));
+        made.max_abs = fmax(made.max_abs, fabs(tree->node[0].high[k]));
     }
-    CLX_CHECK(made.reach < 1e30, CLAST_E_GEOMETRY,
-              "a coordinate of %g is too large to draw; it must be below 1e30", made.reach);
+    CLX_CHECK(made.max_abs < 1e30, CLAST_E_GEOMETRY,
+              "a coordinate of %g is too large to draw; it must be below 1e30", made.max_abs);
     const int32_t n_leaf = count_leaves(&s);
     CLX_TRY(clx_alloc(&made.leaf, n_leaf, sizeof *made.leaf));
     CLX_TRY(clx_grow_lines(&made.node, &capacity, n_leaf, sizeof *made.node)); // each opens one

@@ -27,7 +27,7 @@ typedef struct clx_wide {
     int32_t n_leaf;
     clx_wide_node *node;
     clx_wide_leaf *leaf;
-    double reach; ///< largest absolute coordinate of the root's box
+    double max_abs; ///< largest absolute coordinate of the root's box
 } clx_wide;
 
 /// Merges levels of a binary tree; subtrees of at most leaf_size items become leaves, and so do
@@ -49,14 +49,14 @@ typedef struct clx_wide_beam {
 /// How much wider boxes must seem to rays from between these ends: 4 ulp of a float.
 static inline double clx_wide_margin(const clx_wide *wide, double origin[2][3])
 {
-    double reach = wide->reach;
+    double max_abs = wide->max_abs;
     for (int k = 0; k < 3; ++k) {
         const double low = fabs(origin[0][k]);
         const double high = fabs(origin[1][k]);
-        reach = low > reach ? low : reach;
-        reach = high > reach ? high : reach;
+        max_abs = low > max_abs ? low : max_abs;
+        max_abs = high > max_abs ? high : max_abs;
     }
-    return 0x1p-21 * reach;
+    return 0x1p-21 * max_abs;
 }
 
 /// Ends [low, high] of the rays' origins and directions.

@@ -12,11 +12,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, ROOM = 12000000 };
+enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, BYTE_BUDGET = 12000000 };
 
 /// Bytes a grain takes on the page; with its own number, shape and scale, which the end does not
 /// tell.
-enum { GRAIN_ROOM = 14, STRANGER_ROOM = 30 };
+enum { GRAIN_BYTES = 14, STRANGER_BYTES = 30 };
 static const int64_t PVD_LIMIT = (int64_t)256 << 20;
 
 typedef struct {
@@ -72,9 +72,9 @@ static clast_status list_entries(const clx_run *run, entry **list, int64_t *n)
     char path[PATH_SIZE];
     char file[PATH_SIZE];
     char *text = NULL;
-    int64_t n_byte = 0;
+    int64_t capacity = 0;
     int64_t n_entry = 0;
-    int64_t room = 0;
+    int64_t n_byte = 0;
     CLX_TRY(clx_run_path(run, "frames.pvd", path, sizeof path));
     CLX_TRY(clx_file_read_all(path, PVD_LIMIT, &text, &n_byte));
     for (const char *at = text; (at = strstr(at, time_mark)) != NULL;) {
@@ -89,7 +89,7 @@ static clast_status list_entries(const clx_run *run, entry **list, int64_t *n)
         const size_t length = strcspn(name, "\"");
         CLX_CHECK(is_frame(name, length) && isfinite(time), CLAST_E_FORMAT,
                   "%s: entry %lld is no frame of this run", path, (long long)n_entry);
-        CLX_TRY(clx_grow(list, &room, *n + 1, sizeof **list));
+        CLX_TRY(clx_grow(list, &capacity, *n + 1, sizeof **list));
         (*list)[*n].time = time;
         memcpy((*list)[*n].name, name, length);
         (*list)[*n].name[length] = '\0';
@@ -123,7 +123,7 @@ done:
 
 /// Columns of clx_vtu_grains.
 typedef struct {
-    const double *x[3], *turn[4], *grain, *shape, *scale;
+    const double *x[3], *rotation[4], *grain, *shape, *scale;
 } columns;
 
 /// False for a frame without poses.
@@ -237,7 +237,7 @@ static void add_grain(const columns *c, int64_t row, int32_t shape, int32_t plac
         x[k] = c->x[k][row];
     }
     for (int k = 0; k < 4; ++k) {
-        q[k] = c->turn[k][row];
+        q[k] = c->rotation[k][row];
         square += q[k] * q[k];
     }
     if (shape >= 0 && isfinite(x[0] + x[1] + x[2]) && fabs(square - 1.0) < 1e-6 &&
@@ -299,8 +299,8 @@ static bool keeps_numbers(const clx_run *run)
 /// How many frames a page has room for.
 static int64_t most_frames(const clast_assembly *a, bool has_numbers)
 {
-    const int64_t room = has_numbers ? GRAIN_ROOM : STRANGER_ROOM;
-    const int64_t n = ROOM / (room * ((int64_t)a->n_grain + 1));
+    const int64_t n_byte = has_numbers ? GRAIN_BYTES : STRANGER_BYTES;
+    const int64_t n = BYTE_BUDGET / (n_byte * ((int64_t)a->n_grain + 1));
     return n < 2 ? 2 : n > MOST_FRAMES ? MOST_FRAMES : n;
 }
 

@@ -60,7 +60,7 @@ static void put_frames_note(clx_file *file, const clx_frames *frames)
 {
     if (frames->lacks_poses) {
         (void)clx_file_print(file, "<p class=\"note\">The frames are of a version before 0.2, "
-                                   "which told no poses: no time slider.</p>\n");
+                                   "which held no poses: no time slider.</p>\n");
     } else if (frames->n < frames->n_file) {
         (void)clx_file_print(file,
                              "<p class=\"note\">%d of the run's %d frames are on this page.</p>\n",

@@ -251,11 +251,12 @@ done:
 /// one.
 static clast_status put_near(clx_file *file, const view *v, const clast_shape *shape, int32_t n_tri)
 {
-    enum { MOST = 1280, ROOM = 100000 };
+    enum { MOST = 1280, GRAIN_BUDGET = 100000 };
     clast_status status = CLAST_OK;
     clast_mesh fine = {0};
     view near = *v;
-    near.budget = ROOM / v->assembly->n_shape < MOST ? ROOM / v->assembly->n_shape : MOST;
+    near.budget =
+        GRAIN_BUDGET / v->assembly->n_shape < MOST ? GRAIN_BUDGET / v->assembly->n_shape : MOST;
     if (near.budget < 2 * n_tri) {
         return CLAST_OK;
     }

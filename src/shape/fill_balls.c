@@ -66,8 +66,8 @@ clast_status clx_ball_set_spheres(const clx_ball_set *set, clast_spheres *sphere
 /// First group from `group` on with a sphere that may be nearer than `reach`; its spheres that may,
 /// as negative numbers.
 CLX_FOR_EACH_MACHINE
-static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[3], float reach,
-                          int32_t may[LANES])
+static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[3],
+                          float max_distance, int32_t may[LANES])
 {
     const int32_t n = (set->n + LANES - 1) / LANES;
     for (; group < n; ++group) {
@@ -75,7 +75,7 @@ static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[
         const clx_float8 dx = g->x - f[0];
         const clx_float8 dy = g->y - f[1];
         const clx_float8 dz = g->z - f[2];
-        const clx_float8 sum = g->radius + reach;
+        const clx_float8 sum = g->radius + max_distance;
         const clx_float8 room = sum * sum - (dx * dx + dy * dy + dz * dz);
         const clx_int8 near = ~((clx_int8)room >> 31); // room >= 0, see fill_field.c
         int64_t any[LANES / 2];

@@ -142,7 +142,7 @@ double clx_fill_field_closest(const clx_fill_field *field, const double point[3]
     // The fast walk bounds the distance from above: what remains is to look at all within it.
     const double fast = clx_fill_field_distance(field, point, max_distance, touch, &best.tri);
     const double within = fast < max_distance ? fast : max_distance;
-    const float reach = (float)(within * field->scale);
+    const float limit = (float)(within * field->scale);
     best.tri = -1;
     to_frame(field, point, f);
     stack[0] = 0;
@@ -150,7 +150,7 @@ double clx_fill_field_closest(const clx_fill_field *field, const double point[3]
         const int32_t child = stack[--n];
         if (child >= 0) {
             const clx_fill_node *node = &field->node[child];
-            mark_near(node, NULL, f, reach, mark);
+            mark_near(node, NULL, f, limit, mark);
             for (int i = 0; i < LANES; ++i) {
                 stack[n] = node->child[i];
                 n += mark[i] != 0;
@@ -158,7 +158,7 @@ double clx_fill_field_closest(const clx_fill_field *field, const double point[3]
             continue;
         }
         const clx_fill_leaf *leaf = &field->leaf[-1 - child];
-        mark_near(NULL, leaf, f, reach, mark);
+        mark_near(NULL, leaf, f, limit, mark);
         for (int32_t i = 0; i < leaf->count; ++i) {
             if (mark[i] != 0) {
                 try_triangle(field, leaf->first + i, point, &best);

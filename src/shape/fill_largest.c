@@ -165,7 +165,7 @@ static double clear_radius(const clx_fill_sample *p)
 }
 
 /// Least distance of the surface from a point, as far as the samples of a cube bound it from above.
-static double reach_by(const search *s, const cube *c, const double point[3])
+static double clearance_by(const search *s, const cube *c, const double point[3])
 {
     double reach2 = INFINITY;
     for (int i = 0; i < c->n_sample; ++i) {
@@ -185,8 +185,8 @@ static int side_by(const search *s, const block *family, const double point[3], 
     for (int i = 0; i < family->n; ++i) {
         const clx_fill_sample *p = &s->samples[family->sample[i]];
         const double clear = clear_radius(p);
-        const double reach = fabs(clear) + d - 2.0 * s->fill->field.error;
-        if (clear != 0.0 && reach > 0.0 && v3_distance2(p->at, point) < reach * reach) {
+        const double clearance = fabs(clear) + d - 2.0 * s->fill->field.error;
+        if (clear != 0.0 && clearance > 0.0 && v3_distance2(p->at, point) < clearance * clearance) {
             return clear > 0.0 ? 1 : -1;
         }
     }
@@ -248,15 +248,15 @@ static void find_outer(search *s, const cube *c, clx_fill_sample *p)
 static void sample_cube(search *s, const cube *c, clx_fill_sample *p)
 {
     clx_fill *fill = s->fill;
-    double reach = reach_by(s, c, p->at);
+    double clearance = clearance_by(s, c, p->at);
     if (c->parent >= 0) {
-        reach = lesser(reach, reach_by(s, &s->cubes[c->parent], p->at));
+        clearance = lesser(clearance, clearance_by(s, &s->cubes[c->parent], p->at));
     }
     p->seen = fill->balls.n;
     p->ball = -1;
     p->surface = NAN;
     p->outer_radius = 0.0;
-    p->value = clx_ball_set_distance(&fill->balls, 0, p->at, reach, &p->ball);
+    p->value = clx_ball_set_distance(&fill->balls, 0, p->at, clearance, &p->ball);
     if (p->ball >= 0 && p->value <= 0.0) {
         return;
     }

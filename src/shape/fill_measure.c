@@ -117,8 +117,8 @@ static double protrusion_of(const clx_fill *fill, const double centre[3], double
 {
     const bool inside = clx_fill_field_inside(&fill->field, centre);
     // inside, only a surface nearer than the radius matters: a short search
-    const double reach = inside ? radius : (double)INFINITY;
-    const double d = clx_fill_field_closest(&fill->field, centre, reach, NULL);
+    const double max_distance = inside ? radius : (double)INFINITY;
+    const double d = clx_fill_field_closest(&fill->field, centre, max_distance, NULL);
     if (inside) {
         return d < radius ? (radius - d) / radius : 0.0;
     }

@@ -214,11 +214,11 @@ done:
 }
 
 /// Lattice points of one axis within `reach` of a coordinate.
-static void lattice_range(const work *w, int k, double x, double reach, int64_t range[2])
+static void lattice_range(const work *w, int k, double x, double max_distance, int64_t range[2])
 {
     CLAST_ASSERT(k >= 0 && k < 3 && w->step > 0.0);
-    const double low = ceil((x - reach - w->first[k]) / w->step);
-    const double high = floor((x + reach - w->first[k]) / w->step);
+    const double low = ceil((x - max_distance - w->first[k]) / w->step);
+    const double high = floor((x + max_distance - w->first[k]) / w->step);
     range[0] = low > 0.0 ? (int64_t)low : 0;
     range[1] = high < (double)w->n[k] - 1.0 ? (int64_t)high : w->n[k] - 1;
 }

@@ -26,8 +26,9 @@ static void add_plane(clx_fill_planes *planes, const clx_fill_region *c, const d
     CLAST_ASSERT(planes->n >= 0 && planes->n <= CLX_FILL_WITNESSES && c->half > 0.0);
     const double h = c->half;
     const double d2 = v3_norm2(away);
-    const double reach = c->upper + r + 1.7320508075688773 * h;
-    if (planes->n < CLX_FILL_WITNESSES && d2 <= reach * reach) { // else above all known in the cube
+    const double max_distance = c->upper + r + 1.7320508075688773 * h;
+    if (planes->n < CLX_FILL_WITNESSES &&
+        d2 <= max_distance * max_distance) { // else above all known in the cube
         const int j = planes->n++;
         const double d = sqrt(d2);
         // the cube's width along g, halved, is along / d

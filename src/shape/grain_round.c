@@ -73,9 +73,9 @@ static double cosine_integral(const facet *f, double angle)
         v3_sub(edge, b, a);
         const double length = v3_norm(edge);
         v3_cross(out, edge, n); // outward in the plane, of the edge's length
-        const double reach = f->r[k] + f->r[(k + 1) % 3];
-        if (length > 0.0 && reach > length) {
-            sum += v3_dot(out, a) / length * log((reach + length) / (reach - length));
+        const double two_sides = f->r[k] + f->r[(k + 1) % 3];
+        if (length > 0.0 && two_sides > length) {
+            sum += v3_dot(out, a) / length * log((two_sides + length) / (two_sides - length));
         }
     }
     return h * (sum - h * angle);

@@ -45,9 +45,9 @@ clast_status clx_gravel(uint64_t seed, uint64_t index, int32_t n, clast_mesh *hu
     CLX_TRY(clast_mesh_alloc(n, 0, &cloud));
     for (int32_t i = 0; i < n; ++i) {
         const double z = 1.0 - (2.0 * i + 1.0) / n;
-        const double turn = i * CLAST_PI * (3.0 - sqrt(5.0));
+        const double angle = i * CLAST_PI * (3.0 - sqrt(5.0));
         const double rim = sqrt(1.0 - z * z);
-        double u[3] = {rim * cos(turn), rim * sin(turn), z};
+        double u[3] = {rim * cos(angle), rim * sin(angle), z};
         for (int k = 0; k < 3; ++k) {
             u[k] += 0.6 / sqrt((double)n) * clx_rng_normal(&rng);
         }

@@ -119,12 +119,12 @@ static double radius_at(const evaluator *e, double cosine, double sine, double s
     double c = 1.0;
     double s = 0.0;
     double tilt = 0.0;
-    double turn = 0.0;
+    double angle = 0.0;
     for (int32_t m = 0; m <= e->degree; ++m) {
         r += e->radius[m][0] * c + e->radius[m][1] * s;
         if (slope != NULL) {
             tilt += e->tilt[m][0] * c + e->tilt[m][1] * s;
-            turn += m * (e->radius[m][1] * c - e->radius[m][0] * s);
+            angle += m * (e->radius[m][1] * c - e->radius[m][0] * s);
         }
         const double next = c * cosine - s * sine;
         s = s * cosine + c * sine;
@@ -132,7 +132,7 @@ static double radius_at(const evaluator *e, double cosine, double sine, double s
     }
     if (slope != NULL) {
         slope[0] = tilt;
-        slope[1] = turn;
+        slope[1] = angle;
     }
     return r;
 }

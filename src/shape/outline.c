@@ -13,7 +13,7 @@ enum { N_RAY = 2 * CLX_OUTLINE_POINTS, N_POINT = CLX_OUTLINE_POINTS };
 /// A fan of rays about the centre of a shadow.
 typedef struct {
     double ray[N_RAY][2];
-    double reach[N_RAY];
+    double farthest[N_RAY];
     int32_t edge[N_RAY]; ///< that it ends on
 } fan;
 
@@ -34,19 +34,19 @@ static void cast_edge(fan *f, int32_t edge, const double a[2], const double b[2]
     const double step = 2.0 * CLAST_PI / N_RAY;
     const double d[2] = {b[0] - a[0], b[1] - a[1]};
     const double from = atan2(a[1], a[0]);
-    double turn = atan2(b[1], b[0]) - from;
-    turn -= 2.0 * CLAST_PI * floor(turn / (2.0 * CLAST_PI) + 0.5);
-    const double low = turn < 0.0 ? from + turn : from;
+    double angle = atan2(b[1], b[0]) - from;
+    angle -= 2.0 * CLAST_PI * floor(angle / (2.0 * CLAST_PI) + 0.5);
+    const double low = angle < 0.0 ? from + angle : from;
     const int32_t first = (int32_t)ceil(low / step);
-    const int32_t last = (int32_t)floor((low + fabs(turn)) / step);
+    const int32_t last = (int32_t)floor((low + fabs(angle)) / step);
     for (int32_t i = first; i <= last; ++i) {
         const int32_t j = (i + 2 * N_RAY) % N_RAY;
         const double *e = f->ray[j];
         const double slope = cross2(e, d);
         const double t = slope != 0.0 ? -cross2(e, a) / slope : 0.0;
         const double r = dot2(e, a) + fmin(fmax(t, 0.0), 1.0) * dot2(e, d);
-        if (r > f->reach[j]) {
-            f->reach[j] = r;
+        if (r > f->farthest[j]) {
+            f->farthest[j] = r;
             f->edge[j] = edge;
         }
     }
@@ -130,7 +130,7 @@ static int32_t count_edges(const fan *f)
 {
     int32_t n = 0;
     for (int i = 0; i < N_RAY; ++i) {
-        if (!(f->reach[i] > 0.0)) {
+        if (!(f->farthest[i] > 0.0)) {
             return 0;
         }
         n += f->edge[i] != f->edge[(i + 1) % N_RAY];
@@ -140,8 +140,8 @@ static int32_t count_edges(const fan *f)
 
 static void end_of(const fan *f, int i, double out[2])
 {
-    out[0] = f->reach[i % N_RAY] * f->ray[i % N_RAY][0];
-    out[1] = f->reach[i % N_RAY] * f->ray[i % N_RAY][1];
+    out[0] = f->farthest[i % N_RAY] * f->ray[i % N_RAY][0];
+    out[1] = f->farthest[i % N_RAY] * f->ray[i % N_RAY][1];
 }
 
 /// Cuts the polygon of the rays' ends into pieces of equal length.
@@ -181,7 +181,7 @@ static void turned(const double end[2], double c, double s, bool is_mirrored, do
     out[1] = c * y - s * end[0];
 }
 
-clast_status clx_outline_cast(const clx_rim *rim, double turn, bool is_mirrored,
+clast_status clx_outline_cast(const clx_rim *rim, double angle, bool is_mirrored,
                               clx_outline *outline)
 {
     CLAST_ASSERT(rim->n == 0 || rim->end != NULL);
@@ -195,8 +195,8 @@ clast_status clx_outline_cast(const clx_rim *rim, double turn, bool is_mirrored,
     for (int32_t e = 0; e < rim->n; ++e) {
         double a[2];
         double b[2];
-        turned(rim->end[e][0], cos(turn), sin(turn), is_mirrored, a);
-        turned(rim->end[e][1], cos(turn), sin(turn), is_mirrored, b);
+        turned(rim->end[e][0], cos(angle), sin(angle), is_mirrored, a);
+        turned(rim->end[e][1], cos(angle), sin(angle), is_mirrored, b);
         cast_edge(f, e, a, b);
     }
     outline->n_edge = count_edges(f);

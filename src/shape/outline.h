@@ -24,7 +24,7 @@ void clx_rim_free(clx_rim *rim);
 
 /// The outer outline of a rim: of each ray from the centre the farthest edge. Its first ray is
 /// turned by `turn` from the first axis; a mirrored one runs the other way around the shadow.
-clast_status clx_outline_cast(const clx_rim *rim, double turn, bool is_mirrored,
+clast_status clx_outline_cast(const clx_rim *rim, double angle, bool is_mirrored,
                               clx_outline *outline);
 
 /// Smooths by local quadratics of tricube weight over a window of this length [Cleveland1979].

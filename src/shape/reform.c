@@ -54,7 +54,7 @@ static double skewness(const clast_mesh *mesh, int k)
     return sum;
 }
 
-static void turn(clast_mesh *mesh, const double centre[3], double frame[3][3])
+static void rotation(clast_mesh *mesh, const double centre[3], double frame[3][3])
 {
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
         double at[3];
@@ -96,7 +96,7 @@ clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh *out, dou
               "no solid has second moments %g, %g, %g: the surface is open or inside out", value[0],
               value[1], value[2]);
     CLX_TRY(clast_mesh_copy(mesh, &made));
-    turn(&made, mass.centroid, frame);
+    rotation(&made, mass.centroid, frame);
     settle_signs(&made);
     for (int k = 0; k < 3; ++k) {
         lis[k] = 2.0 * sqrt(5.0 * value[k]);

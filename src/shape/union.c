@@ -215,18 +215,18 @@ static double add_circle(scratch *s, int32_t k, moments *m, bool *exposed)
     }
     qsort(s->hidden, (size_t)s->n_hidden, sizeof *s->hidden, by_begin);
     double covered = 0.0;
-    double reach = -INFINITY; // how far stretches that began before have come
+    double covered_to = -INFINITY; // how far stretches that began before have come
     const double *at = NULL;
-    for (int turn = 0; turn < 2; ++turn) { // the first turn only finds what reaches over the start
+    for (int pass = 0; pass < 2; ++pass) { // the first turn only finds what reaches over the start
         for (int32_t i = 0; i < s->n_hidden; ++i) {
             const stretch *h = &s->hidden[i];
-            const double begin = h->begin + 2.0 * CLAST_PI * turn;
-            if (turn == 1 && begin > reach) {
+            const double begin = h->begin + 2.0 * CLAST_PI * pass;
+            if (pass == 1 && begin > covered_to) {
                 *exposed = true;
-                covered += add_arc(m, &c, reach, begin - reach, at, h->first);
+                covered += add_arc(m, &c, covered_to, begin - covered_to, at, h->first);
             }
-            if (begin + h->length > reach) {
-                reach = begin + h->length;
+            if (begin + h->length > covered_to) {
+                covered_to = begin + h->length;
                 at = h->last;
             }
         }
@@ -394,9 +394,9 @@ static bool any_overlap(const clast_spheres *s)
 {
     for (int32_t i = 0; i < s->n; ++i) {
         for (int32_t j = i + 1; j < s->n; ++j) {
-            const double reach =
+            const double contact_distance =
                 s->radius[i] + s->radius[j] - TOUCH * fmin(s->radius[i], s->radius[j]);
-            if (v3_distance2(s->centre[i], s->centre[j]) < reach * reach) {
+            if (v3_distance2(s->centre[i], s->centre[j]) < contact_distance * contact_distance) {
                 return true;
             }
         }

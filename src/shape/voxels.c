@@ -47,31 +47,31 @@ static int compare_labels(const void *a, const void *b)
 }
 
 /// Open addressing: slot of a label in a table of `room` (a power of two) slots, 0 = free.
-static int64_t slot_of(const clast_voxel_label *slot, int64_t room, int32_t label)
+static int64_t slot_of(const clast_voxel_label *slot, int64_t capacity, int32_t label)
 {
-    CLAST_ASSERT(room > 0 && (room & (room - 1)) == 0);
+    CLAST_ASSERT(capacity > 0 && (capacity & (capacity - 1)) == 0);
     uint64_t i = (uint32_t)label * UINT64_C(0x9E3779B97F4A7C15) >> 20;
     for (;; ++i) {
-        i &= (uint64_t)room - 1;
+        i &= (uint64_t)capacity - 1;
         if (slot[i].n_voxel == 0 || slot[i].label == label) {
             return (int64_t)i;
         }
     }
 }
 
-static clast_status rehash(clast_voxel_label **slot, int64_t *room)
+static clast_status rehash(clast_voxel_label **slot, int64_t *capacity)
 {
     clast_status status = CLAST_OK;
     clast_voxel_label *wide = NULL;
-    CLX_TRY(clx_alloc(&wide, 2 * *room, sizeof *wide));
-    for (int64_t i = 0; i < *room; ++i) {
+    CLX_TRY(clx_alloc(&wide, 2 * *capacity, sizeof *wide));
+    for (int64_t i = 0; i < *capacity; ++i) {
         if ((*slot)[i].n_voxel > 0) {
-            wide[slot_of(wide, 2 * *room, (*slot)[i].label)] = (*slot)[i];
+            wide[slot_of(wide, 2 * *capacity, (*slot)[i].label)] = (*slot)[i];
         }
     }
     clx_free(*slot);
     *slot = wide;
-    *room *= 2;
+    *capacity *= 2;
 done:
     return status;
 }
@@ -97,12 +97,12 @@ clast_status clast_voxels_labels(const clast_voxels *voxels, clast_voxel_label *
 {
     CLX_ARGUMENTS(voxels, labels, n_label);
     CLX_WHOLE(voxels, voxels);
-    enum { FIRST_ROOM = 64 };
+    enum { FIRST_CAPACITY = 64 };
     clast_status status = CLAST_OK;
     clast_voxel_label *slot = NULL;
-    int64_t room = FIRST_ROOM;
+    int64_t capacity = FIRST_CAPACITY;
     int32_t n = 0;
-    CLX_TRY(clx_alloc(&slot, room, sizeof *slot));
+    CLX_TRY(clx_alloc(&slot, capacity, sizeof *slot));
     const int64_t n_voxel = (int64_t)voxels->n[0] * voxels->n[1] * voxels->n[2];
     for (int64_t i = 0; i < n_voxel; ++i) {
         const int32_t label = voxels->label[i];
@@ -112,15 +112,15 @@ clast_status clast_voxels_labels(const clast_voxels *voxels, clast_voxel_label *
         const int64_t row = i / voxels->n[0];
         const int32_t at[3] = {(int32_t)(i % voxels->n[0]), (int32_t)(row % voxels->n[1]),
                                (int32_t)(row / voxels->n[1])};
-        clast_voxel_label *own = &slot[slot_of(slot, room, label)];
+        clast_voxel_label *own = &slot[slot_of(slot, capacity, label)];
         n += own->n_voxel == 0;
         add_voxel(own, label, at);
-        if (2 * (int64_t)n > room) {
-            CLX_TRY(rehash(&slot, &room));
+        if (2 * (int64_t)n > capacity) {
+            CLX_TRY(rehash(&slot, &capacity));
         }
     }
     n = 0;
-    for (int64_t i = 0; i < room; ++i) {
+    for (int64_t i = 0; i < capacity; ++i) {
         if (slot[i].n_voxel > 0) {
             slot[n++] = slot[i];
         }

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double ROOM = 1.01;          ///< of a body's place, by its enclosing sphere
+static const double CLEARANCE = 1.01;     ///< bounding radius over the body's own
 static const double NARROWEST = 1.05;     ///< width of a bed, by its widest body's diameter
 static const double ASIDE = 0.01;         ///< a body's shift to the side, by its radius
 static const double GOLDEN = 2.399963230; ///< angle between the shifts of two that follow [rad]
@@ -75,16 +75,16 @@ static clast_status add_body(const clast_evolve *evolve, int64_t node, double ma
 {
     clast_status status = CLAST_OK;
     clast_assembly body = {0};
-    double turn[4] = {1.0, 0.0, 0.0, 0.0};
+    double rotation[4] = {1.0, 0.0, 0.0, 0.0};
     int32_t id = -1;
     CLX_TRY(clast_evolve_aggregate(evolve, node, &body));
     const double scale = body.n_grain == 1 ? body.scale[0] : 1.0;
     if (body.n_grain == 1) {
-        memcpy(turn, body.orientation[0], sizeof turn);
+        memcpy(rotation, body.orientation[0], sizeof rotation);
     }
     CLX_TRY(shape_of(&body, node, bed, &id));
     CLAST_ASSERT(id >= 0 && bed->shape != NULL);
-    CLX_TRY(clast_assembly_add_grain(bed, id, place, turn, scale,
+    CLX_TRY(clast_assembly_add_grain(bed, id, place, rotation, scale,
                                      mass / (bed->shape[id].volume * scale * scale * scale)));
 done:
     clast_assembly_free(&body);
@@ -92,9 +92,9 @@ done:
 }
 
 /// Radius of a body's place.
-static double room_of(const clast_assembly *bed, int32_t i)
+static double bounding_radius_of(const clast_assembly *bed, int32_t i)
 {
-    return ROOM * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
+    return CLEARANCE * bed->scale[i] * bed->shape[bed->shape_id[i]].bounding_radius;
 }
 
 /// From where to where a domain reaches along x or y.
@@ -136,13 +136,13 @@ static span span_of(const clast_domain *d, int axis)
 /// Where landing places go in a bed of this width: the domain is cut across into the whole number
 /// of strips that comes nearest to the bed's width, which lie upon each other, stretched onto what
 /// a body's centre can reach between the walls.
-static double across(span domain, double width, double x, double room)
+static double across(span domain, double width, double x, double radius)
 {
     const double extent = domain.high - domain.low;
     const double strip = extent / fmax(1.0, round(extent / width));
     const double t = extent > 0.0 ? (x - domain.low) / strip : 0.5;
     const double share = x >= domain.high ? 1.0 : t - floor(t);
-    return room - 0.5 * width + share * (width - 2.0 * room);
+    return radius - 0.5 * width + share * (width - 2.0 * radius);
 }
 
 /// Moves bodies from where they came down to where they are in the column. Each goes a hundredth of
@@ -150,11 +150,11 @@ static double across(span domain, double width, double x, double room)
 static void place_across(const clast_domain *domain, double width, clast_assembly *bed)
 {
     for (int32_t i = 0; i < bed->n_grain; ++i) {
-        const double room = room_of(bed, i);
-        const double aside = ASIDE * room / ROOM;
+        const double radius = bounding_radius_of(bed, i);
+        const double aside = ASIDE * radius / CLEARANCE;
         double *x = bed->position[i];
-        x[0] = across(span_of(domain, 0), width, x[0], room) + aside * cos(GOLDEN * i);
-        x[1] = across(span_of(domain, 1), width, x[1], room) + aside * sin(GOLDEN * i);
+        x[0] = across(span_of(domain, 0), width, x[0], radius) + aside * cos(GOLDEN * i);
+        x[1] = across(span_of(domain, 1), width, x[1], radius) + aside * sin(GOLDEN * i);
     }
 }
 
@@ -177,20 +177,20 @@ static int32_t cell_of(const column *c, double x)
 static double height_of(const column *c, const clast_assembly *bed, int32_t i)
 {
     const double *x = bed->position[i];
-    const double room = room_of(bed, i);
+    const double radius = bounding_radius_of(bed, i);
     const int32_t at[2] = {cell_of(c, x[0]), cell_of(c, x[1])};
-    double best = room;
+    double best = radius;
     for (int k = 0; k < 9; ++k) {
         const int32_t a = at[0] + k % 3 - 1;
         const int32_t b = at[1] + k / 3 - 1;
         const bool is_cell = a >= 0 && b >= 0 && a < c->n && b < c->n;
         for (int32_t j = is_cell ? c->newest[a * c->n + b] : -1;
-             j >= 0 && c->crest[j] + room > best; j = c->older[j]) {
+             j >= 0 && c->crest[j] + radius > best; j = c->older[j]) {
             const double *y = bed->position[j];
-            const double reach = room + room_of(bed, j);
+            const double distance = radius + bounding_radius_of(bed, j);
             const double dx = x[0] - y[0];
             const double dy = x[1] - y[1];
-            const double rest = reach * reach - dx * dx - dy * dy;
+            const double rest = distance * distance - dx * dx - dy * dy;
             best = rest > 0.0 ? fmax(best, y[2] + sqrt(rest)) : best;
         }
     }
@@ -204,7 +204,7 @@ static clast_status drop_all(double width, clast_assembly *bed, double *height)
     column c = {.width = width};
     double widest = 0.0;
     for (int32_t i = 0; i < bed->n_grain; ++i) {
-        widest = fmax(widest, 2.0 * room_of(bed, i));
+        widest = fmax(widest, 2.0 * bounding_radius_of(bed, i));
     }
     c.n = (int32_t)fmax(1.0, fmin(floor(width / widest), ceil(sqrt((double)bed->n_grain))));
     CLX_TRY(clx_alloc(&c.newest, c.n * c.n, sizeof *c.newest));
@@ -217,7 +217,7 @@ static clast_status drop_all(double width, clast_assembly *bed, double *height)
         int32_t *cell = &c.newest[cell_of(&c, x[0]) * c.n + cell_of(&c, x[1])];
         x[2] = height_of(&c, bed, i);
         c.older[i] = *cell;
-        c.crest[i] = fmax(x[2] + room_of(bed, i), *cell >= 0 ? c.crest[*cell] : 0.0);
+        c.crest[i] = fmax(x[2] + bounding_radius_of(bed, i), *cell >= 0 ? c.crest[*cell] : 0.0);
         *height = fmax(*height, c.crest[i]);
         *cell = i;
     }
@@ -246,7 +246,7 @@ static clast_status place_all(const clast_domain *domain, double width, clast_as
     clast_status status = CLAST_OK;
     double height = 0.0;
     for (int32_t i = 0; i < bed->n_grain; ++i) {
-        width = fmax(width, NARROWEST / ROOM * 2.0 * room_of(bed, i));
+        width = fmax(width, NARROWEST / CLEARANCE * 2.0 * bounding_radius_of(bed, i));
     }
     place_across(domain, width, bed);
     CLX_TRY(drop_all(width, bed, &height));

@@ -121,7 +121,7 @@ void touch_lanes_slabs(const touch_view *view, const clx_touch_node *node, const
     const lanes y = load(node->axis[1]);
     const lanes z = load(node->axis[2]);
     for (int i = 0; i < 3; ++i) {
-        n[i] = view->turn[i][0] * x + view->turn[i][1] * y + view->turn[i][2] * z;
+        n[i] = view->rotation[i][0] * x + view->rotation[i][1] * y + view->rotation[i][2] * z;
     }
     // Each one's support along the other's axis: touch_slab_support for four.
     const lanes cosine = lesser(

@@ -32,8 +32,8 @@ struct clx_touch_scene {
     int32_t next_rebuild; ///< count at which the tree is built afresh
     int32_t share;        ///< bodies in the tree for each that may join before that
     double origin[3];     ///< of the boxes: the first body, so that single precision is enough
-    int64_t body_room;
-    int64_t node_room;
+    int64_t body_capacity;
+    int64_t node_capacity;
     clx_touch_body *body; ///< [n]
     void *block;          ///< what `node` lies in, at the first whole line
     scene_node *node;     ///< [n_node] the root is 0, 1 is unused, pairs from 2 on
@@ -150,11 +150,11 @@ static clast_status reserve_nodes(clx_touch_scene *scene, int64_t n)
 {
     clast_status status = CLAST_OK;
     char *block = NULL;
-    if (n <= scene->node_room) {
+    if (n <= scene->node_capacity) {
         return CLAST_OK;
     }
-    const int64_t room = n + n / 2 + 16;
-    CLX_TRY(clx_alloc(&block, room * (int64_t)sizeof(scene_node) + LINE, 1));
+    const int64_t capacity = n + n / 2 + 16;
+    CLX_TRY(clx_alloc(&block, capacity * (int64_t)sizeof(scene_node) + LINE, 1));
     scene_node *node = (scene_node *)(block + (LINE - (uintptr_t)block % LINE) % LINE);
     if (scene->n_node > 0) {
         memcpy(node, scene->node, (size_t)scene->n_node * sizeof *node);
@@ -162,7 +162,7 @@ static clast_status reserve_nodes(clx_touch_scene *scene, int64_t n)
     clx_free(scene->block);
     scene->block = block;
     scene->node = node;
-    scene->node_room = room;
+    scene->node_capacity = capacity;
 done:
     return status;
 }
@@ -207,7 +207,7 @@ static bool attach(clx_touch_scene *scene, const scene_node *leaf)
 /// Node `to` and all below it as the built tree has them from `from` on.
 static void copy_node(clx_touch_scene *scene, const clx_tree *tree, int32_t from, int32_t to)
 {
-    CLAST_ASSERT(to >= 0 && to < scene->node_room);
+    CLAST_ASSERT(to >= 0 && to < scene->node_capacity);
     const clx_tree_node *source = &tree->node[from];
     scene_node *node = &scene->node[to];
     if (source->right == 0) {
@@ -250,7 +250,7 @@ clast_status clx_touch_scene_insert(clx_touch_scene *scene, const clx_touch_body
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(scene->n < INT32_MAX / 2 - 1, CLAST_E_LIMIT, "more than %d bodies", INT32_MAX / 2);
-    CLX_TRY(clx_grow(&scene->body, &scene->body_room, scene->n + 1, sizeof *scene->body));
+    CLX_TRY(clx_grow(&scene->body, &scene->body_capacity, scene->n + 1, sizeof *scene->body));
     CLX_TRY(reserve_nodes(scene, 2 * (int64_t)scene->n + 2));
     scene->body[scene->n] = *body;
     if (scene->n == 0) {

@@ -6,8 +6,8 @@
 /// A placed tree in the frame of travel, about a common nearby origin.
 typedef struct touch_view {
     const clx_touch_tree *tree;
-    double map[3][3];  ///< x_frame = shift + map x_body
-    double turn[3][3]; ///< map without its scale
+    double map[3][3];      ///< x_frame = shift + map x_body
+    double rotation[3][3]; ///< map without its scale
     double scale;
     double shift[3];
 } touch_view;
@@ -28,9 +28,10 @@ static inline touch_view touch_view_of(const clx_touch_body *body, const clx_tou
     const double *row[3] = {path->side[0], path->side[1], path->direction};
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            view.turn[i][j] = row[i][0] * body->rotation[j] + row[i][1] * body->rotation[3 + j] +
-                              row[i][2] * body->rotation[6 + j];
-            view.map[i][j] = body->scale * view.turn[i][j];
+            view.rotation[i][j] = row[i][0] * body->rotation[j] +
+                                  row[i][1] * body->rotation[3 + j] +
+                                  row[i][2] * body->rotation[6 + j];
+            view.map[i][j] = body->scale * view.rotation[i][j];
         }
         view.shift[i] = shift[i];
     }
@@ -73,9 +74,9 @@ static inline void touch_see_slot(const touch_view *view, int32_t slot, touch_bo
     const double centre[3] = {node->centre[0][lane], node->centre[1][lane], node->centre[2][lane]};
     touch_see_point(view, centre, bound->centre);
     for (int i = 0; i < 3; ++i) {
-        bound->axis[i] = view->turn[i][0] * node->axis[0][lane] +
-                         view->turn[i][1] * node->axis[1][lane] +
-                         view->turn[i][2] * node->axis[2][lane];
+        bound->axis[i] = view->rotation[i][0] * node->axis[0][lane] +
+                         view->rotation[i][1] * node->axis[1][lane] +
+                         view->rotation[i][2] * node->axis[2][lane];
     }
     bound->radius = view->scale * node->radius[lane];
     bound->half = view->scale * node->half[lane];

@@ -33,7 +33,7 @@ class BadClouds(Case):
                     self.assertEqual((r.json["tests"], r.json["n_cell"]), ([], 1))
             command = ("agglomerate", path, "--domain", CUBE, "--constant", "1e9", "--n-step", "1", "--json")
             if name in ("equal", "faces"):
-                self.assert_fails(3, *command, says=[path.name, "snapshot 1: no number of events: so many points repeat the place of another"])
+                self.assert_fails(3, *command, says=[path.name, "snapshot 1: no number of events: so many points are duplicates (coincident points)"])
                 continue
             r = clast(*command)
             self.assertEqual(r.code, 0, f"{name}: {r.err}")
@@ -45,7 +45,7 @@ class BadClouds(Case):
             r = clast("decompose", path, "--domain", "box:0,0,0,1,1,1", "--json", *more).json
             self.assertEqual((r["pair_integral"], r["pair_integral_low"], r["events"], r["resolved"]), (None, None, None, False))
             words = clast("decompose", path, "--domain", "box:0,0,0,1,1,1", *more).out
-            self.assertIn("so many points repeat the place of another, and there is no density at such a place", words)
+            self.assertIn("so many points are duplicates (coincident points), where no density is defined", words)
             self.assertNotIn("nan", words)
 
     def test_points_at_one_place_have_no_number_with_beta_dt_either(self):
@@ -58,14 +58,14 @@ class BadClouds(Case):
             self.assertEqual({key: r[key] for key in keys}, dict.fromkeys(keys))
             self.assertFalse(r["resolved"])
             words.append(clast("decompose", path, "--domain", CUBE, *more).out.replace("number of events", "pair integral"))
-        self.assertIn("no pair integral: so many points repeat the place of another", words[0])
+        self.assertIn("no pair integral: so many points are duplicates (coincident points)", words[0])
         self.assertEqual(words[0], words[1])
 
     def test_copies_do_not_agglomerate(self):
         # each of 1000 points twice: copies got cells of their own, 1666 events where all 2000 in one cell have 20
         points = [[rng.random() for _ in range(3)] for rng in [random.Random(3)] for _ in range(1000)]
         command = ("--domain", CUBE, "--constant", "1e-5", "--n-step", "1", "--json")
-        words = "no number of events: so many points repeat the place of another, and there is no density at such a place; leave copies out"
+        words = "no number of events: so many points are duplicates (coincident points), where no density is defined; leave copies out"
         once, twice = self.write("once.csv", points), self.write("twice.csv", [p for p in points for _ in range(2)])
         self.assertIn(words, clast("decompose", twice, "--domain", CUBE, "--beta-dt", "1e-5").out)
         self.assert_fails(3, "agglomerate", twice, *command, "-o", self.folder / "none", says=["twice.csv", f"snapshot 1: {words}"])
@@ -79,7 +79,7 @@ class BadClouds(Case):
         r = clast("agglomerate", few, *command)
         self.assertEqual((r.code, r.json["n_repeated"]), (0, 1))
         said = clast("agglomerate", few, *command[:-1]).out
-        self.assertIn("warning: 1 particle repeats the place of an earlier one; each such pair counts as two particles that meet", said)
+        self.assertIn("warning: 1 particle is a duplicate (coincident points); each such pair counts as two particles that meet", said)
         self.assertNotIn("too few", said)
 
     def test_aggregates_may_meet_at_one_place(self):

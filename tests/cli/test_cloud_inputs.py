@@ -89,7 +89,7 @@ class CloudInputs(Case):
         for command in (["decompose"], ["agglomerate", "--constant", "1e-3", "--n-step", "1"]):
             for domain, is_told in (("box:0,0,0,100,100,100", True), ("box:0,0,0,100um,100um,100um", False)):
                 r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
-                self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "repeat the place" in r.out), (is_told, False), r.err)
+                self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "coincident points" in r.out), (is_told, False), r.err)
                 self.assertEqual("< 1e-300  rejects" in r.out, is_told and command[0] == "decompose", r.out)
         # the opposite: coordinates in mm, taken as m, in a domain of mm
         for scale, unit in ((1.0, "mm"), (1e3, "um")):
@@ -261,7 +261,7 @@ class CloudInputs(Case):
         path = self.write("twice.csv", ROWS + ROWS[:20] + ROWS[:3] + [[-0.0, 0.5, 0.5], [0.0, 0.5, 0.5]])
         self.assertEqual(self.answer(path, CUBE)["n_repeated"], 24)
         self.assertEqual(self.answer(CSV, CUBE)["n_repeated"], 0)
-        self.assertIn("24 repeat the place of an earlier one", clast("decompose", path, "--domain", CUBE).out)
+        self.assertIn("24 duplicates (coincident points", clast("decompose", path, "--domain", CUBE).out)
         self.assertNotIn("repeat", clast("decompose", CSV, "--domain", CUBE).out)
 
     def test_cylinders_and_spheres_lie_anywhere(self):

@@ -481,7 +481,7 @@ class Evolve(Case):
         draw = random.Random(3)
         places = [f"{draw.random()},{draw.random()},{draw.random()}\n" for _ in range(1000)]
         outside.write_text("x,y,z\n" + "".join(2 * places))
-        self.assert_fails(3, *box, "--points", outside, "--kernel", "constant", says=("points", "repeat the place of another"))
+        self.assert_fails(3, *box, "--points", outside, "--kernel", "constant", says=("points", "duplicates (coincident points)"))
         self.assert_fails(2, *box, "--particles", 5, "--release", "box:0,0,0,1,1,2", says=("release", "to 2 m along z, beyond the domain"))
         self.assert_fails(2, *box, "--particles", 5, "--wind", "0,0,-1", "--time-step", "2s", says=("time_step", "moves 2.015", "whole height"))
         outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")

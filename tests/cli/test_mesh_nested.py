@@ -139,7 +139,7 @@ class Nested(Case):
         done = clast("mesh", "repair", path, "-o", out, "--json")
         self.assertEqual((done.code, done.json["volume"], done.json["changes"]["n_duplicate"]), (0, 64, 12), done.err)
         words = clast("shape", path).err
-        self.assertIn("12 of its triangles repeat another, wound alike; its volume counts twice what they bound; drop them: clast mesh repair", words)
+        self.assertIn("12 of its triangles repeat another with the same winding; its volume counts twice what they bound; drop them: clast mesh repair", words)
         self.assertEqual(words.count("\n"), 1)
         self.assert_fails(3, "aggregate", "--core", path, "--core-size", "100um", "--coat", "sphere", "--size", "20um", "--core-density",
                           "2500kg/m3", "-q", "-o", self.folder / "run", says=["12 of its triangles repeat another", "--accept-faults"])
@@ -282,7 +282,7 @@ class Nested(Case):
         found = clast("mesh", "check", path, "--json").json
         self.assertEqual((found["n_repeated"], found["n_body"]), (12, 1))
         for command in (("fill", path, "--spheres", 2), ("mesh", "form", path, "--flatness", 0.6, "-o", out)):
-            self.assertIn("12 of its triangles repeat another, wound alike", clast(*command).err)
+            self.assertIn("12 of its triangles repeat another with the same winding", clast(*command).err)
         self.assertIn("counts volume twice", clast("mesh", "hull", path, "-o", out).out)
 
     def test_hull_and_form_tell_it(self):

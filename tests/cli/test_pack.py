@@ -273,16 +273,16 @@ class Pack(Case):
         curve = self.folder / "two.csv"
         curve.write_text("size_mm\n" + "4\n" * 400 + "30\n")
         self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "30.2mm",
-                          "--height", "0.5m", "--quiet", says=("reaches 30 mm across", "more than the period", "seed"))
+                          "--height", "0.5m", "--quiet", says=("has a bounding diameter of 30 mm", "more than the period", "seed"))
 
     def test_a_form_too_wide_is_refused_before_the_first_step(self):
         law = ["pack", "--curve", "4mm", "--mass", "8g", "--height", "0.2m", "--form-law", "--flatness-mean", "0.9", "--flatness-deviation", "0.05",
                "--elongation-mean", "0.8", "--elongation-deviation", "0.2", "--shaking-time", "0", "--quiet", "-j", "1"]
         periodic = ["--domain", "periodic", "--width", "12mm", "--trim", "0", "--seed", "6"]
         run = self.folder / "run"
-        for shape, options, says in (("ellipsoid:1,1,1", ["--width", "11mm", "--seed", "1"], "grain 46 of this seed reaches 11.5807 mm across"),
-                                     ("ellipsoid:1,1,1", periodic, "grain 22 of this seed reaches 14.4653 mm across"),
-                                     (ROOT / "data/standin63/grain10.ply", periodic, "grain 22 of this seed reaches 16.216 mm across")):
+        for shape, options, says in (("ellipsoid:1,1,1", ["--width", "11mm", "--seed", "1"], "grain 46 of this seed has a bounding diameter of 11.5807 mm"),
+                                     ("ellipsoid:1,1,1", periodic, "grain 22 of this seed has a bounding diameter of 14.4653 mm"),
+                                     (ROOT / "data/standin63/grain10.ply", periodic, "grain 22 of this seed has a bounding diameter of 16.216 mm")):
             self.assert_fails(3, *law, *options, "--shapes", shape, "-o", run, says=(says, "take a wider domain"))
             self.assertFalse(run.exists())
 

@@ -178,7 +178,7 @@ class Report(Case):
                     self.assertRegex(text, r"M0: particles\s+\(1/m\u00b3\)")
                     self.assertNotIn("Particles placed", text)
                 if words[0] == "evolve":  # were "Points tested"
-                    self.assertRegex(text, r"Times that cells were tested for being even\s+\d")
+                    self.assertRegex(text, r"Times that cells were tested for uniformity\s+\d")
 
     def test_frames_are_the_views_moments(self):
         run = os.path.join(self.folder.name, "framed")

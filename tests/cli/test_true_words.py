@@ -166,7 +166,7 @@ class TrueWords(Case):
         rng = random.Random(6)
         path = self.write("sheet.csv", [[rng.random(), rng.random(), rng.gauss(0.5, 0.02)] for _ in range(1000)])
         self.assertEqual(self.decompose(path, CUBE)["points_needed"], None)
-        self.assertIn("how many points would do cannot be told", clast("decompose", path, "--domain", CUBE).out)
+        self.assertIn("how many points would do cannot be determined", clast("decompose", path, "--domain", CUBE).out)
 
     def test_a_bias_of_rounding_is_not_told(self):
         # one cell of a cylinder was "off by +2.2e-14 %; this is taken off"
@@ -190,10 +190,10 @@ class TrueWords(Case):
             self.assertLess(r["spacing"]["p"], 1e-9)
             words = clast("decompose", path, "--domain", domain, "--test-only")
             self.assertEqual(words.code, 1)
-            self.assertIn("more even than uniform", words.out)
+            self.assertIn("more evenly spaced than uniform", words.out)
             self.assertNotIn(": uniform\n", words.out)
         self.assertEqual(self.decompose(B3, CUBE)["evenness"], "less even")
-        self.assertIn("less even than uniform", clast("decompose", B3, "--domain", CUBE).out)
+        self.assertIn("clustered or of varying density", clast("decompose", B3, "--domain", CUBE).out)
         self.assertEqual(self.decompose(U2, SQUARE)["evenness"], "uniform")
 
     def test_spacing_is_right_in_size(self):

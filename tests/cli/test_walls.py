@@ -334,7 +334,7 @@ class Walls(Case):
         self.assert_fails(2, *bed, "--lid", "--wall", "lid move 0,0,1mm/s", *hold, says=("wall 1", "no stage names it"))
         self.assert_fails(2, *lid, "--outlet", "z<10mm", "--stages", "hold until mass 5g", says=("stage 1", "mass still inside"))
         self.assert_fails(2, *bed, "--outlet", "down", says=("outlet 1", "half-space"))
-        self.assert_fails(2, *bed, "--wall", "floor axis 1,0,0 rotate 3rpm", says=("wall 1", "turns about its normal"))
+        self.assert_fails(2, *bed, "--wall", "floor axis 1,0,0 rotate 3rpm", says=("wall 1", "rotates about its normal"))
         self.assert_fails(2, *bed, "--domain", "periodic", "--width", "30mm", "--wall", wall, says=("wall 1", "periodic"))
         table.write_text("time_s,z_m\n0,0\n0,1\n", encoding="utf-8")
         self.assert_fails(3, *bed, "--wall", wall + f" table {table}", says=("row 2", "rise"))

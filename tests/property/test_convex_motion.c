@@ -28,12 +28,12 @@ static int free_cores(void **state)
     return 0;
 }
 
-static void turn_of(const double q[4], double turn[9])
+static void rotation_of(const double q[4], double rotation[9])
 {
     double m[3][3];
     q_matrix(m, q);
     for (int i = 0; i < 9; ++i) {
-        turn[i] = m[i / 3][i % 3];
+        rotation[i] = m[i / 3][i % 3];
     }
 }
 
@@ -65,13 +65,13 @@ static double worst_difference(uint64_t index, double gap, double jump, int n_st
         a = clx_convex_ellipsoid(axes);
         b = clx_convex_ellipsoid((const double[3]){axes[1], axes[0], axes[2]});
     }
-    double q[2][4], turn[2][9], side[3];
-    clx_pair pair = {&a, &b, turn[0], turn[1], {0.0, 0.0, 0.0}};
+    double q[2][4], rotation[2][9], side[3];
+    clx_pair pair = {&a, &b, rotation[0], rotation[1], {0.0, 0.0, 0.0}};
     clx_warm_start warm_start = {0};
     double worst = 0.0;
     for (int k = 0; k < 2; ++k) {
         clx_rng_orientation(&rng, q[k]);
-        turn_of(q[k], turn[k]);
+        rotation_of(q[k], rotation[k]);
     }
     clx_rng_direction(&rng, pair.offset);
     for (int step = 0; step < n_step; ++step) {
@@ -86,7 +86,7 @@ static double worst_difference(uint64_t index, double gap, double jump, int n_st
         v3_axpy(pair.offset, pair.offset, jump, side);
         for (int k = 0; k < 2; ++k) {
             nudge(&rng, jump, q[k]);
-            turn_of(q[k], turn[k]);
+            rotation_of(q[k], rotation[k]);
         }
     }
     return worst;

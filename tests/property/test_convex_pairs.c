@@ -36,17 +36,17 @@ static int free_cores(void **state)
 /* Two placed bodies with room for their rotations. */
 typedef struct {
     clx_convex a, b;
-    double turn[2][9];
+    double rotation[2][9];
     clx_pair pair;
 } scene;
 
-static void random_turn(clx_rng *rng, double turn[9])
+static void random_rotation(clx_rng *rng, double rotation[9])
 {
     double q[4], m[3][3];
     clx_rng_orientation(rng, q);
     q_matrix(m, q);
     for (int i = 0; i < 9; ++i) {
-        turn[i] = m[i / 3][i % 3];
+        rotation[i] = m[i / 3][i % 3];
     }
 }
 
@@ -54,15 +54,15 @@ static void join(scene *s)
 {
     s->pair.a = &s->a;
     s->pair.b = &s->b;
-    s->pair.turn_a = s->turn[0];
-    s->pair.turn_b = s->turn[1];
+    s->pair.rotation_a = s->rotation[0];
+    s->pair.rotation_b = s->rotation[1];
 }
 
 static double reference(const scene *s)
 {
     const double origin[3] = {0.0, 0.0, 0.0};
-    ref_polytope a = ref_polytope_of(&s->a, s->turn[0], origin);
-    ref_polytope b = ref_polytope_of(&s->b, s->turn[1], s->pair.offset);
+    ref_polytope a = ref_polytope_of(&s->a, s->rotation[0], origin);
+    ref_polytope b = ref_polytope_of(&s->b, s->rotation[1], s->pair.offset);
     const double gap = ref_polytope_gap(&a, &b);
     ref_polytope_free(&a);
     ref_polytope_free(&b);
@@ -79,8 +79,8 @@ static void check_contact(const scene *s, const clx_contact *c, double tol)
     }
     CHECK_ABS(v3_norm(c->normal), 1.0, 1e-12);
     if (s->a.kind == CLX_CONVEX_HULL && s->b.kind == CLX_CONVEX_HULL) {
-        ref_polytope a = ref_polytope_of(&s->a, s->turn[0], origin);
-        ref_polytope b = ref_polytope_of(&s->b, s->turn[1], s->pair.offset);
+        ref_polytope a = ref_polytope_of(&s->a, s->rotation[0], origin);
+        ref_polytope b = ref_polytope_of(&s->b, s->rotation[1], s->pair.offset);
         CHECK_ABS(ref_gap_along(&a, &b, c->normal), c->gap, tol);
         ref_polytope_free(&a);
         ref_polytope_free(&b);
@@ -109,8 +109,8 @@ static void push_to_gap(scene *s, const double line[3], double wanted)
 static void draw_poses(clx_rng *rng, double wanted, scene *s)
 {
     double line[3];
-    random_turn(rng, s->turn[0]);
-    random_turn(rng, s->turn[1]);
+    random_rotation(rng, s->rotation[0]);
+    random_rotation(rng, s->rotation[1]);
     clx_rng_direction(rng, line);
     join(s);
     push_to_gap(s, line, wanted);
@@ -161,19 +161,19 @@ static void contacts_ignore_order_and_frame(void **state)
         assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
         const double tol = i % 3 == 0 ? 1e-11 : 1e-14; // smooth: what both orders promise
         const double *r = s.pair.offset;
-        const clx_pair swapped = {&s.b, &s.a, s.turn[1], s.turn[0], {-r[0], -r[1], -r[2]}};
+        const clx_pair swapped = {&s.b, &s.a, s.rotation[1], s.rotation[0], {-r[0], -r[1], -r[2]}};
         assert_true(clx_pair_contact(&swapped, INFINITY, NULL, &d));
         CHECK_ABS(d.gap, c.gap, tol);
         CHECK_ABS(v3_dot(d.normal, c.normal), -1.0, 1e-6);
-        random_turn(&rng, world);
+        random_rotation(&rng, world);
         clx_pair moved = {&s.a, &s.b, turned[0], turned[1], {0.0, 0.0, 0.0}};
         for (int k = 0; k < 3; ++k) {
             moved.offset[k] = v3_dot(world + 3 * k, r);
             for (int j = 0; j < 3; ++j) {
                 for (int b = 0; b < 2; ++b) {
-                    turned[b][3 * k + j] = world[3 * k] * s.turn[b][j] +
-                                           world[3 * k + 1] * s.turn[b][3 + j] +
-                                           world[3 * k + 2] * s.turn[b][6 + j];
+                    turned[b][3 * k + j] = world[3 * k] * s.rotation[b][j] +
+                                           world[3 * k + 1] * s.rotation[b][3 + j] +
+                                           world[3 * k + 2] * s.rotation[b][6 + j];
                 }
             }
         }
@@ -204,7 +204,7 @@ static void aligned_boxes_have_their_closed_form(void **state)
             out2 += d > 0.0 ? d * d : 0.0;
         }
         for (int k = 0; k < 9; ++k) {
-            s.turn[0][k] = s.turn[1][k] = UNTURNED[k];
+            s.rotation[0][k] = s.rotation[1][k] = UNTURNED[k];
         }
         join(&s);
         assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
@@ -223,18 +223,18 @@ static void tied_features_equal_all_axes(void **state)
         const clx_hull_core *core = cores[clx_rng_below(&rng, N_CORE)];
         s.a = clx_convex_hull(core, 1.0);
         s.b = clx_convex_hull(core, 1.0);
-        random_turn(&rng, s.turn[0]);
+        random_rotation(&rng, s.rotation[0]);
         const double mirror = i % 3 == 0 ? 1.0 : -1.0; // same pose, or turned half about one axis
         for (int k = 0; k < 9; ++k) {
-            s.turn[1][k] = s.turn[0][k] * (k % 3 == 2 ? 1.0 : mirror);
+            s.rotation[1][k] = s.rotation[0][k] * (k % 3 == 2 ? 1.0 : mirror);
         }
         double x[3], y[3]; // offset so that two vertices meet, or along a face normal
         const double *v = core->vert[clx_rng_below(&rng, core->n_vert)];
         const double *w = core->vert[clx_rng_below(&rng, core->n_vert)];
         const double *n = core->face[clx_rng_below(&rng, core->n_face)].normal;
         for (int k = 0; k < 3; ++k) {
-            x[k] = v3_dot(s.turn[0] + 3 * k, i % 2 == 0 ? v : n);
-            y[k] = v3_dot(s.turn[1] + 3 * k, w);
+            x[k] = v3_dot(s.rotation[0] + 3 * k, i % 2 == 0 ? v : n);
+            y[k] = v3_dot(s.rotation[1] + 3 * k, w);
         }
         v3_sub(s.pair.offset, x, i % 2 == 0 ? y : (const double[3]){0.0, 0.0, 0.0});
         v3_scale(s.pair.offset, i % 7 == 0 ? 0.0 : i % 4 == 0 ? 1.0 + 1e-9 : 1.0, s.pair.offset);
@@ -262,7 +262,7 @@ static clx_hull_core *lattice_core(clx_rng *rng)
 }
 
 /* One of the turns of a cube. */
-static void quarter_turns(clx_rng *rng, double turn[9])
+static void quarter_turns(clx_rng *rng, double rotation[9])
 {
     double m[3][3] = {{0.0}};
     const int first = (int)clx_rng_below(rng, 3);
@@ -271,7 +271,7 @@ static void quarter_turns(clx_rng *rng, double turn[9])
     m[1][second] = clx_rng_below(rng, 2) == 0 ? 1.0 : -1.0;
     v3_cross(m[2], m[0], m[1]);
     for (int i = 0; i < 9; ++i) {
-        turn[i] = m[i / 3][i % 3];
+        rotation[i] = m[i / 3][i % 3];
     }
 }
 
@@ -287,7 +287,7 @@ static void lattice_hulls_equal_all_axes(void **state)
         clx_warm_start warm_start = {0};
         for (int k = 0; k < 2; ++k) {
             core[k] = lattice_core(&rng);
-            quarter_turns(&rng, s.turn[k]);
+            quarter_turns(&rng, s.rotation[k]);
         }
         s.a = clx_convex_hull(core[0], 1.0);
         s.b = clx_convex_hull(core[1], 1.0);
@@ -306,7 +306,7 @@ static void lattice_hulls_equal_all_axes(void **state)
             check_contact(&s, &warm, 1e-12);
             s.pair.offset[clx_rng_below(&rng, 3)] += clx_rng_below(&rng, 2) == 0 ? 0.25 : -0.25;
             if (step % 4 == 3) {
-                quarter_turns(&rng, s.turn[1]);
+                quarter_turns(&rng, s.rotation[1]);
             }
         }
         clx_hull_core_destroy(core[0]);
@@ -341,11 +341,11 @@ static void round_pairs_equal_all_directions(void **state)
 }
 
 /* How far a point (relative to a's position) is outside a shape grown by its rounding. */
-static double outside(const clx_convex *shape, const double turn[9], const double x[3])
+static double outside(const clx_convex *shape, const double rotation[9], const double x[3])
 {
-    const double own[3] = {turn[0] * x[0] + turn[3] * x[1] + turn[6] * x[2],
-                           turn[1] * x[0] + turn[4] * x[1] + turn[7] * x[2],
-                           turn[2] * x[0] + turn[5] * x[1] + turn[8] * x[2]};
+    const double own[3] = {rotation[0] * x[0] + rotation[3] * x[1] + rotation[6] * x[2],
+                           rotation[1] * x[0] + rotation[4] * x[1] + rotation[7] * x[2],
+                           rotation[2] * x[0] + rotation[5] * x[1] + rotation[8] * x[2]};
     double worst = -INFINITY;
     if (shape->kind == CLX_CONVEX_SPHERE) {
         return v3_norm(own) - shape->round;
@@ -388,10 +388,10 @@ static void round_and_hull_equal_all_directions(void **state)
         if (c.gap > 0.0) {
             double x[3];
             v3_axpy(x, c.point, 0.5 * c.gap, c.normal);
-            assert_true(outside(&s.a, s.turn[0], x) <= 1e-11);
+            assert_true(outside(&s.a, s.rotation[0], x) <= 1e-11);
             v3_axpy(x, c.point, -0.5 * c.gap, c.normal);
             v3_sub(x, x, s.pair.offset);
-            assert_true(outside(&s.b, s.turn[1], x) <= 1e-11);
+            assert_true(outside(&s.b, s.rotation[1], x) <= 1e-11);
         }
     }
 }
@@ -411,10 +411,10 @@ static void check_by_bounds(const scene *s, const clx_contact *bare, const clx_c
     CHECK_ABS(ref_support_along(&s->pair, away), c.gap, 1e-13);
     assert_true(ref_support_along(&s->pair, other) <= c.gap + 1e-12);
     v3_axpy(x, c.point, 0.5 * c.gap, c.normal);
-    assert_true(outside(&s->a, s->turn[0], x) <= 1e-9);
+    assert_true(outside(&s->a, s->rotation[0], x) <= 1e-9);
     v3_axpy(x, c.point, -0.5 * c.gap, c.normal);
     v3_sub(x, x, s->pair.offset);
-    assert_true(outside(&s->b, s->turn[1], x) <= 1e-9);
+    assert_true(outside(&s->b, s->rotation[1], x) <= 1e-9);
 }
 
 /* b slides aside and turns about z of the world. */
@@ -426,11 +426,11 @@ static void move_on(clx_rng *rng, const double normal[3], double jump, scene *s)
     v3_axpy(slide, slide, -v3_dot(slide, normal), normal);
     v3_axpy(s->pair.offset, s->pair.offset, jump, slide);
     for (int c = 0; c < 3; ++c) {
-        turned[c] = cos(jump) * s->turn[1][c] - sin(jump) * s->turn[1][c + 3];
-        turned[c + 3] = sin(jump) * s->turn[1][c] + cos(jump) * s->turn[1][c + 3];
-        turned[c + 6] = s->turn[1][c + 6];
+        turned[c] = cos(jump) * s->rotation[1][c] - sin(jump) * s->rotation[1][c + 3];
+        turned[c + 3] = sin(jump) * s->rotation[1][c] + cos(jump) * s->rotation[1][c + 3];
+        turned[c + 6] = s->rotation[1][c + 6];
     }
-    memcpy(s->turn[1], turned, sizeof turned);
+    memcpy(s->rotation[1], turned, sizeof turned);
 }
 
 /* A hull and a round body on the way past each other: gaps by the hull's feature are proved without
@@ -522,7 +522,7 @@ static void ball_at_a_box_has_its_closed_form(void **state)
             out2 += d > 0.0 ? d * d : 0.0;
         }
         for (int k = 0; k < 9; ++k) {
-            s.turn[0][k] = s.turn[1][k] = UNTURNED[k];
+            s.rotation[0][k] = s.rotation[1][k] = UNTURNED[k];
         }
         join(&s);
         if (i % 16 == 15) {

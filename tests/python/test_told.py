@@ -58,7 +58,7 @@ class Surfaces(Case):
         twice = clast.Mesh(CUBE, FACETS + FACETS)
         found = twice.check()
         self.assertEqual((found.n_repeated, found.n_body), (12, 1))
-        self.assertRegex("; ".join(self.heard(twice.shape)), "^the surface: 12 of its triangles repeat another, wound alike; .*; mesh_repair drops")
+        self.assertRegex("; ".join(self.heard(twice.shape)), "^the surface: 12 of its triangles repeat another with the same winding; .*; mesh_repair drops")
         self.assertTrue(np.isnan(clast.mesh_hull(twice).added_volume))
 
     def test_several_bodies(self):
@@ -362,7 +362,7 @@ class Results(Case):
     def test_copies_have_no_number_of_events(self):
         """decompose gave nan and said nothing, agglomerate some hundred times too many events."""
         x = np.repeat(X[:100], 4, axis=0)
-        line = "so many points repeat the place of another, and there is no density at such a place; leave copies out"
+        line = "so many points are duplicates (coincident points), where no density is defined; leave copies out"
         with self.assertWarnsRegex(UserWarning, f"^no number of events: {line}"):
             self.assertTrue(np.isnan(clast.decompose(x, domain=BOX, beta_dt=1e-6).events))
         with self.assertWarnsRegex(UserWarning, f"^no pair integral: {line}"):
@@ -374,7 +374,7 @@ class Results(Case):
             clast.agglomerate(np.concatenate([X, X[:1]]), domain=BOX, kernel="constant", constant=1e-6, n_step=1)
             clast.decompose(x, domain=BOX, test_only=True)
         heard = [str(one.message) for one in caught]
-        self.assertEqual(heard[-1], "1 particle repeats the place of an earlier one; each such pair counts as two particles that meet")
+        self.assertEqual(heard[-1], "1 particle is a duplicate (coincident points); each such pair counts as two particles that meet")
         self.assertFalse([line for line in heard if "too few" in line])
 
     def test_a_table_says_what_its_rows_are(self):

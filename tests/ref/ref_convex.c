@@ -11,7 +11,7 @@ static void place(const double t[9], const double position[3], double scale, con
     }
 }
 
-ref_polytope ref_polytope_of(const clx_convex *shape, const double turn[9],
+ref_polytope ref_polytope_of(const clx_convex *shape, const double rotation[9],
                              const double position[3])
 {
     const clx_hull_core *core = shape->core;
@@ -20,7 +20,7 @@ ref_polytope ref_polytope_of(const clx_convex *shape, const double turn[9],
     p.edge = calloc((size_t)p.n_edge, sizeof *p.edge);
     p.face = calloc((size_t)core->n_side, sizeof *p.face);
     for (int32_t i = 0; i < p.n_vert; ++i) {
-        place(turn, position, shape->scale, core->vert[i], p.vert[i]);
+        place(rotation, position, shape->scale, core->vert[i], p.vert[i]);
     }
     for (int32_t i = 0; i < p.n_edge; ++i) {
         p.edge[i][0] = core->edge[i].vert[0];
@@ -197,8 +197,8 @@ static double support(const clx_convex *shape, const double t[9], const double d
 double ref_support_along(const clx_pair *pair, const double m[3])
 {
     const double back[3] = {-m[0], -m[1], -m[2]};
-    return v3_dot(m, pair->offset) - support(pair->a, pair->turn_a, m) -
-           support(pair->b, pair->turn_b, back) - pair->a->round - pair->b->round;
+    return v3_dot(m, pair->offset) - support(pair->a, pair->rotation_a, m) -
+           support(pair->b, pair->rotation_b, back) - pair->a->round - pair->b->round;
 }
 
 /// Pattern search for the greatest gap from m.
@@ -239,9 +239,9 @@ double ref_support_gap(const clx_pair *pair)
     }
     for (int i = 0; i < N; ++i) {
         const double z = 1.0 - (2.0 * i + 1.0) / N;
-        const double turn = i * CLAST_PI * (3.0 - sqrt(5.0));
+        const double rotation = i * CLAST_PI * (3.0 - sqrt(5.0));
         const double rim = sqrt(1.0 - z * z);
-        const double d[3] = {rim * cos(turn), rim * sin(turn), z};
+        const double d[3] = {rim * cos(rotation), rim * sin(rotation), z};
         const double gap = ref_support_along(pair, d);
         int worst = 0;
         for (int k = 1; k < KEEP; ++k) {

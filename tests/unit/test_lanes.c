@@ -13,7 +13,7 @@
 /* A pair of hulls in touch, its warm start made at one place and used a little beside it. */
 typedef struct {
     clx_convex a, b;
-    double turn[2][3][3];
+    double rotation[2][3][3];
     clx_pair pair;
     clx_warm_start warm_start;
 } meeting;
@@ -45,10 +45,10 @@ static void make_meeting(clx_rng *rng, meeting *m)
     memset(m, 0, sizeof *m);
     m->a = clx_convex_hull(cores[clx_rng_below(rng, 3)], 1.0);
     m->b = clx_convex_hull(cores[clx_rng_below(rng, 3)], 0.7 + clx_rng_uniform(rng));
-    m->pair = (clx_pair){&m->a, &m->b, m->turn[0][0], m->turn[1][0], {0.0, 0.0, 0.0}};
+    m->pair = (clx_pair){&m->a, &m->b, m->rotation[0][0], m->rotation[1][0], {0.0, 0.0, 0.0}};
     for (int k = 0; k < 2; ++k) {
         clx_rng_orientation(rng, q);
-        q_matrix(m->turn[k], q);
+        q_matrix(m->rotation[k], q);
     }
     clx_rng_direction(rng, m->pair.offset);
     (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
@@ -84,8 +84,8 @@ static int compare_facets(const clast_dem *dem, meeting m[CLX_BATCH], bool edges
         p.a[k] = &grain[2 * k];
         p.b[k] = &grain[2 * k + 1];
         v3_copy(grain[2 * k + 1].position, m[k].pair.offset);
-        p.meet.turn_a[k] = m[k].pair.turn_a;
-        p.meet.turn_b[k] = m[k].pair.turn_b;
+        p.meet.rotation_a[k] = m[k].pair.rotation_a;
+        p.meet.rotation_b[k] = m[k].pair.rotation_b;
         p.meet.warm_start[k] = &m[k].warm_start;
     }
     const int answered = edges ? clx_batch_edges(dem, &p) : clx_batch_faces(dem, &p);
@@ -126,8 +126,8 @@ static void facets_in_lanes_are_facets_alone(void **state)
         *to = m;
         to->pair.a = &to->a;
         to->pair.b = &to->b;
-        to->pair.turn_a = to->turn[0][0];
-        to->pair.turn_b = to->turn[1][0];
+        to->pair.rotation_a = to->rotation[0][0];
+        to->pair.rotation_b = to->rotation[1][0];
         if (filled[kind] == CLX_BATCH) {
             n_answered[kind] += compare_facets(dem, queue[kind], kind == 1, CLX_BATCH);
             n_asked[kind] += CLX_BATCH;
@@ -151,11 +151,11 @@ static void make_eggs(clx_rng *rng, meeting *m)
     for (int k = 0; k < 2; ++k) {
         v3_set(axes[k], 1.0, 0.4 + 0.6 * clx_rng_uniform(rng), 0.3 + 0.7 * clx_rng_uniform(rng));
         clx_rng_orientation(rng, q);
-        q_matrix(m->turn[k], q);
+        q_matrix(m->rotation[k], q);
     }
     m->a = clx_convex_ellipsoid(axes[0]);
     m->b = clx_convex_ellipsoid(axes[1]);
-    m->pair = (clx_pair){&m->a, &m->b, m->turn[0][0], m->turn[1][0], {0.0, 0.0, 0.0}};
+    m->pair = (clx_pair){&m->a, &m->b, m->rotation[0][0], m->rotation[1][0], {0.0, 0.0, 0.0}};
     clx_rng_direction(rng, m->pair.offset);
     v3_scale(m->pair.offset, 2.5, m->pair.offset);
     (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
@@ -181,8 +181,8 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
             make_eggs(&rng, &m[k]);
             a[k] = &m[k].a;
             b[k] = &m[k].b;
-            batch.turn_a[k] = m[k].turn[0][0];
-            batch.turn_b[k] = m[k].turn[1][0];
+            batch.rotation_a[k] = m[k].rotation[0][0];
+            batch.rotation_b[k] = m[k].rotation[1][0];
             batch.warm_start[k] = &m[k].warm_start;
             for (int c = 0; c < 3; ++c) {
                 batch.offset[c][k] = m[k].pair.offset[c];

@@ -21,7 +21,7 @@ static void names_are_found_with_their_units(void **state)
         {"n", "shape", "Grains", ""},
         {"low", "columns", "Least", ""},
         {"n_test", NULL, "Points tested", ""},
-        {"n_test", "evolve", "Times that cells were tested for being even", ""},
+        {"n_test", "evolve", "Times that cells were tested for uniformity", ""},
         {"n_particle", "box model", "Number density", "1/m^3"},
         {"n_8_sd", "box model", "Particles of 8 monomers, s.d. of the runs", "1/m^3"},
         {"gel_fraction", "box model", "Share of the mass in the gel, above the largest size", ""},

@@ -89,7 +89,7 @@ static void binary_errors_name_the_byte(void **state)
     CHECK_STATUS(clast_mesh_parse(file, 134, CLAST_MESH_STL, &mesh, NULL), CLAST_E_FORMAT);
     assert_non_null(strstr(clast_error_detail(),
                            "byte 80: the header promises 2 facets (184 bytes) "
-                           "but the file has 134 bytes, room for 1"));
+                           "but the file has 134 bytes, enough for 1"));
 }
 
 static void every_cut_of_an_ascii_file_is_an_error_or_a_mesh(void **state)

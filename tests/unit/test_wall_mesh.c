@@ -105,13 +105,13 @@ static void make_floor(int n, clast_mesh *mesh)
     }
 }
 
-static void random_turn(clx_rng *rng, double turn[9])
+static void random_rotation(clx_rng *rng, double rotation[9])
 {
     double q[4], m[3][3];
     clx_rng_orientation(rng, q);
     q_matrix(m, q);
     for (int i = 0; i < 9; ++i) {
-        turn[i] = m[i / 3][i % 3];
+        rotation[i] = m[i / 3][i % 3];
     }
 }
 
@@ -128,11 +128,11 @@ static void floor_of_triangles_is_a_plane(void **state)
     CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
     for (uint64_t i = 0; i < 240; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
-        double turn[9];
-        clx_placed body = {&shapes[i % 3], turn, {0.0, 0.0, 0.0}};
+        double rotation[9];
+        clx_placed body = {&shapes[i % 3], rotation, {0.0, 0.0, 0.0}};
         clx_contact flat;
         wall_contact met[4];
-        random_turn(&rng, turn);
+        random_rotation(&rng, rotation);
         const double side = i % 2 == 0 ? 1.0 : -1.0;
         const double plane[4] = {0.0, 0.0, side, 0.0};
         clx_plane_contact(&body, plane, NULL, &flat);
@@ -195,8 +195,8 @@ static void triangle_remembers(void **state)
     CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
     for (uint64_t i = 0; i < 20; ++i) {
         clx_rng rng = clx_rng_at(42, CLX_STREAM_TEST, i);
-        double q[4], m[3][3], turn[9], side[3];
-        clx_placed body = {&shape, turn, {0.0, 0.0, 0.3}};
+        double q[4], m[3][3], rotation[9], side[3];
+        clx_placed body = {&shape, rotation, {0.0, 0.0, 0.3}};
         clx_warm_start warm_start = {0};
         clx_rng_orientation(&rng, q);
         for (int k = 0; k < 2; ++k) {
@@ -206,7 +206,7 @@ static void triangle_remembers(void **state)
             clx_contact warm, cold;
             q_matrix(m, q);
             for (int k = 0; k < 9; ++k) {
-                turn[k] = m[k / 3][k % 3];
+                rotation[k] = m[k / 3][k % 3];
             }
             (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, &warm_start, &warm);
             (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, NULL, &cold);
@@ -247,7 +247,7 @@ static void walls_survive_refused_memory(void **state)
 static void ball_is_a_round_ellipsoid(void **state)
 {
     (void)state;
-    const double turn[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const double rotation[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     const clx_convex ball = clx_convex_sphere(0.4);
     const clx_convex egg = clx_convex_ellipsoid((const double[3]){0.4, 0.4, 0.4});
     int n_apart = 0, n_beside = 0;
@@ -256,7 +256,7 @@ static void ball_is_a_round_ellipsoid(void **state)
         clast_mesh mesh = {0};
         clx_wall_mesh *wall = NULL;
         clx_contact of_ball, of_egg;
-        clx_placed body = {&ball, turn, {0.0, 0.0, 0.0}};
+        clx_placed body = {&ball, rotation, {0.0, 0.0, 0.0}};
         CHECK_OK(clast_mesh_alloc(3, 1, &mesh));
         for (int k = 0; k < 3; ++k) {
             mesh.tri[0][k] = k;
@@ -310,7 +310,7 @@ static void lip_pushes_once_and_no_deeper(void **state)
     (void)state;
     clast_mesh mesh = {0};
     clx_wall_mesh *wall = NULL;
-    const double turn[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const double rotation[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     const clx_convex shapes[2] = {clx_convex_sphere(0.8),
                                   clx_convex_ellipsoid((const double[3]){0.8, 0.8, 0.8})};
     make_funnel(&mesh);
@@ -324,7 +324,7 @@ static void lip_pushes_once_and_no_deeper(void **state)
         const double depth = 0.02 * clx_rng_uniform(&rng);
         const double out = 3.0 + (0.8 - depth) * cos(lean);
         clx_placed body = {&shapes[i % 2],
-                           turn,
+                           rotation,
                            {out * cos(around), out * sin(around), (0.8 - depth) * sin(lean)}};
         const int32_t n = wall_contacts(wall, &body, 0.0, 4, met);
         assert_true(n == 1 || (n == 0 && depth < 5e-3));
@@ -357,13 +357,13 @@ static void contacts_of_sharp_bodies_are_as_deep_as_they_are(void **state)
     CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
     for (uint64_t i = 0; i < 10000; ++i) {
         clx_rng rng = clx_rng_at(45, CLX_STREAM_TEST, i);
-        double turn[9];
+        double rotation[9];
         double away[3];
         double high = 4.0;
         double low = 4.0;
-        clx_placed body = {&shapes[i % 2], turn, {0.0, 0.0, 0.0}};
+        clx_placed body = {&shapes[i % 2], rotation, {0.0, 0.0, 0.0}};
         wall_contact met[4];
-        random_turn(&rng, turn);
+        random_rotation(&rng, rotation);
         clx_rng_direction(&rng, away);
         do { // from outside until it touches, then where it comes free
             const double at = low == high ? high - 0.05 : 0.5 * (low + high);
@@ -385,12 +385,12 @@ static void contacts_of_sharp_bodies_are_as_deep_as_they_are(void **state)
     }
     for (uint64_t i = 0; i < 20000; ++i) { // a vertex, the farthest along (1, 1, 0), in the edge
         clx_rng rng = clx_rng_at(46, CLX_STREAM_TEST, i);
-        double turn[9];
+        double rotation[9];
         double tip[3];
-        clx_placed body = {&shapes[1], turn, {0.0, 0.0, 0.0}};
+        clx_placed body = {&shapes[1], rotation, {0.0, 0.0, 0.0}};
         wall_contact met[4];
         clx_contact at[2];
-        random_turn(&rng, turn);
+        random_rotation(&rng, rotation);
         for (int k = 0; k < 2; ++k) {
             const double plane[4] = {k == 0 ? -1.0 : 0.0, k == 1 ? -1.0 : 0.0, 0.0, -2.0};
             clx_plane_contact(&body, plane, NULL, &at[k]);

@@ -207,7 +207,7 @@ class Split(page.Live):
                     self.assertEqual(hashlib.sha256((folder / "cells/cells.csv").read_bytes()).hexdigest(), self.text("hash"))
 
     def test_the_domain_is_never_guessed(self):
-        """The box around the points was filled in: even points of a ball were split into cells."""
+        """The box around the points was filled in: uniform points of a ball were split into cells."""
         rows = [[(k * step) % 2 - 1 for step in (1.6180339887, 0.7548776662, 1.2207440846)] for k in range(1, 1200)]
         self.drop("ball.csv", "\n".join(["x,y,z", *(",".join(f"{v:.6f}" for v in row) for row in rows if sum(v * v for v in row) < 1)]).encode())
         self.assertEqual(self.browser.value("['value', 'placeholder'].map((key) => document.getElementById('domain')[key])"), ["", "points: box:-1,-1,-1,1,1,1"])
@@ -227,7 +227,7 @@ class Split(page.Live):
         self.set(domain="box:0,0,5000,5000")
         self.split()
         self.assertRegex(self.text("said"), "^clast decompose: warning: all points lie within .* are both in the same unit")
-        self.assertRegex(self.text("said"), "1 repeats? the place of an earlier one")
+        self.assertRegex(self.text("said"), r"1 duplicates? \(coincident points")
         self.assertRegex(self.text("state"), "^done in .* s, with a warning of the command below$")
         lattice = "\n".join(f"{i + 0.5},{j + 0.5}" for i in range(12) for j in range(12))
         self.drop("lattice.csv", f"x,y\n{lattice}\n".encode())
