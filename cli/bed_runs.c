@@ -7,6 +7,7 @@
 
 #include <clast/chart.h>
 #include <clast/porosity.h>
+#include <clast/report.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
@@ -202,23 +203,13 @@ static clast_status write_table(const clast_run_folder *run, const char *name,
     return clast_table_write_csv(table, path);
 }
 
-/// SI unit of a number of clast porosity; "-" for lengths in the unit of a file that does not tell
-/// it.
-static const char *unit_of(const cli_bed_runs *runs, const quantity *q)
+/// SI unit of a number of clast porosity as reports have it; "-" for none, and for lengths in the
+/// unit of a file that does not tell it.
+static const char *unit_of(const cli_bed_runs *runs, const char *key)
 {
-    static const char *const length[] = {"z_low",     "z_high",     "top",        "max_overlap",
-                                         "pore_mean", "grain_size", "core_depth", "max_beyond"};
-    const bool is_metre = strcmp(runs->unit, "m") == 0;
-    if (strcmp(q->group, "stress") == 0) {
-        return strcmp(q->key, "stress_ratio") == 0 ? "-" : "Pa";
-    }
-    for (size_t k = 0; k < sizeof length / sizeof *length; ++k) {
-        if (strcmp(q->key, length[k]) == 0) {
-            return is_metre ? "m" : "-";
-        }
-    }
-    const bool is_volume = strcmp(q->key, "solid") == 0 || strcmp(q->key, "solid_beyond") == 0;
-    return is_metre && is_volume ? "m^3" : "-";
+    const char *unit = clast_report_unit(key);
+    const bool is_length = strcmp(unit, "m") == 0 || strcmp(unit, "m^3") == 0;
+    return unit[0] == '\0' || (is_length && strcmp(runs->unit, "m") != 0) ? "-" : unit;
 }
 
 static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder *run)
@@ -237,7 +228,7 @@ static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder
         const clast_mean *m = &q.of[k].mean;
         const double value[4] = {m->mean, m->deviation, m->low, m->high};
         CLI_TRY(clast_table_set_text(&table, 0, k, q.of[k].key));
-        CLI_TRY(clast_table_set_text(&table, 1, k, unit_of(runs, &q.of[k])));
+        CLI_TRY(clast_table_set_text(&table, 1, k, unit_of(runs, q.of[k].key)));
         for (int c = 0; c < 4; ++c) {
             table.column[c + 2].number[k] = value[c];
         }

@@ -3,6 +3,7 @@
 #include "spectrum_charts.h"
 
 #include "json.h"
+#include "points.h"
 #include "ranges.h"
 #include "results.h"
 
@@ -278,23 +279,6 @@ done:
     return status;
 }
 
-/// Where drawn particles do not hold what their law has: a tail of few large ones is in few
-/// samples.
-static void warn_of_start(const cli_common *common, const clast_spectrum *r)
-{
-    static const double SMALL = 0.01;
-    const double mass = clast_table_numbers(&r->history, "M1")[0] / r->law_M1;
-    const double second = clast_table_numbers(&r->history, "M2")[0] / r->law_M2;
-    if (!common->quiet && fmax(fabs(mass - 1.0), fabs(second - 1.0)) > SMALL) {
-        (void)fprintf(
-            stderr,
-            "clast agglomerate: warning: the particles drawn hold %.4g %% of the mass and %.3g %% "
-            "of M2 of their law at the start: its tail is in few of so many; take more "
-            "--particles or --solver sectional\n",
-            100.0 * mass, 100.0 * second);
-    }
-}
-
 clast_status cli_box_run(const cli_box_job *job, bool *force)
 {
     clast_spectrum r = {0};
@@ -308,10 +292,9 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     CLI_TRY(cli_results_begin(common, common->output, force, &folder));
     CLI_TRY(evolve(job, &r));
     out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
-    cli_range_warn(common, &r.range);
-    cli_dense_warn(common, r.volume_fraction);
-    if (job->box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO) {
-        warn_of_start(common, &r);
+    for (int32_t k = 0; k < CLAST_N_SPECTRUM_NOTE && !common->quiet; ++k) {
+        char words[CLI_LINE_SIZE];
+        cli_warn(common, clast_spectrum_note(&r, k, sizeof words, words));
     }
     if (folder != NULL) {
         CLI_TRY(write_results(job, &r, out, folder));

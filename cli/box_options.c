@@ -34,35 +34,10 @@ void cli_box_fields(cli_joined *joined, size_t offset)
                       offset);
 }
 
-/// 1: of a box alone, -1: of clouds alone, 0: of both.
-static int side_of(const char *name)
-{
-    static const clast_field both[] = {
-        {.name = "box_model"}, {.name = "charts"}, {.name = "force"}, {.name = "seed"}, {0}};
-    static const clast_field cloud[] = {{.name = "rebuild"},         {.name = "change_level"},
-                                        {.name = "fixed"},           {.name = "depth"},
-                                        {.name = "self_collisions"}, {0}};
-    if (strcmp(name, "initial_file") == 0 ||
-        clast_fields_find(clast_spectrum_fields, name) != NULL) {
-        return 1;
-    }
-    if (clast_fields_find(both, name) != NULL ||
-        (clast_fields_find(clast_agglomerate_fields, name) != NULL &&
-         clast_fields_find(cloud, name) == NULL)) {
-        return 0;
-    }
-    return -1;
-}
-
-/// The run of which options are checked.
-typedef struct {
-    const cli_box *box;
-    clast_agglomerate_config agglomerate; ///< with its kernel as a mask; borrows its texts
-} options;
-
 /// Refuses what kernels, sticking, radii and settling in a box do not look at, be it a number or a
 /// column: "--shear does nothing with --kernel brownian".
-static clast_status check_used(const options *o, const char *option, const char *name)
+static clast_status check_used(const clast_agglomerate_config *c, bool settles, const char *option,
+                               const char *name)
 {
     char key[64];
     char word[512] = "";
@@ -71,17 +46,12 @@ static clast_status check_used(const options *o, const char *option, const char 
     if (end != NULL) {
         *end = '\0';
     }
-    clast_collide_config collide = o->agglomerate.collide;
-    if (o->box->box_model && o->box->spectrum.settling_depth > 0.0 &&
-        strcmp(key, "efficiency") != 0) {
-        collide.kernel |= 1U << CLAST_KERNEL_SETTLING;
-    }
-    const char *const by = clast_collide_idle(&collide, key);
+    const char *const by = clast_collide_idle(&c->collide, key, settles);
     if (by == NULL) {
         return CLAST_OK;
     }
-    (void)clast_field_format(clast_fields_find(clast_agglomerate_fields, by), &o->agglomerate, 0,
-                             sizeof word, word);
+    (void)clast_field_format(clast_fields_find(clast_agglomerate_fields, by), c, 0, sizeof word,
+                             word);
     return cli_fail(CLAST_E_USAGE, "--%s does nothing with --%s %s", option,
                     strcmp(by, "radius_law") == 0 ? "radius-law" : by, word);
 }
@@ -89,7 +59,8 @@ static clast_status check_used(const options *o, const char *option, const char 
 clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
                            const cli_box *box, const clast_agglomerate_config *agglomerate)
 {
-    options o = {box, *agglomerate};
+    clast_agglomerate_config c = *agglomerate; // with its kernel as a mask; borrows its texts
+    const bool settles = box->box_model && box->spectrum.settling_depth > 0.0;
     clast_idle rules[CLAST_N_IDLE];
     if (!box->box_model && common->n_argument == 0) {
         return cli_fail(CLAST_E_USAGE,
@@ -99,19 +70,19 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
         return cli_fail(CLAST_E_USAGE, "a box has no positions: leave '%s' or --box-model out",
                         cli_name(common->argument[0]));
     }
-    CLI_GUARD(clast_kernel_parse(agglomerate->kernel, &o.agglomerate.collide.kernel));
+    CLI_GUARD(clast_kernel_parse(agglomerate->kernel, &c.collide.kernel));
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         char option[CLI_NAME_SIZE];
         if (clast_field_is_default(f, config)) {
             continue;
         }
         cli_option_name(f, option);
-        if (side_of(f->name) == (box->box_model ? -1 : 1)) {
+        if (!clast_agglomerate_takes(f->name, box->box_model)) {
             return cli_fail(CLAST_E_USAGE, "--%s is an option of %s", option,
                             box->box_model ? "clouds: a box has no positions"
                                            : "a box: it needs --box-model");
         }
-        CLI_GUARD(check_used(&o, option, f->name));
+        CLI_GUARD(check_used(&c, settles, option, f->name));
     }
     if (box->box_model) {
         CLI_GUARD(cli_idle_check(fields, config, clast_spectrum_idle(&box->spectrum, rules)));

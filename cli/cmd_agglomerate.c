@@ -178,12 +178,13 @@ done:
 }
 
 /// Says that weights and monomers of the first snapshot, which no option names, are not read.
-static void warn_of_columns(const cli_common *common, const config *c, const clast_table *first)
+static void warn_of_columns(const cli_common *common, const config *c, const loaded *l)
 {
     static const char monomers[] = "monomers";
+    const clast_table *const first = &l->first;
     const double *const n = clast_table_numbers(first, monomers);
     int64_t i = 0;
-    cli_warn_of_weight(common, first, &c->points.columns);
+    cli_warn_of_weight(common, &l->cloud[0], first->name);
     while (n != NULL && i < first->n_row && n[i] == 1.0) {
         ++i;
     }
@@ -205,7 +206,7 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
     for (int32_t k = 0; k < common->n_argument; ++k) {
         CLI_GUARD(load_snapshot(common, c, k, l));
     }
-    warn_of_columns(common, c, &l->first);
+    warn_of_columns(common, c, l);
     const struct {
         const char *name;
         const double **column;
@@ -239,8 +240,7 @@ static void set_column(json_t *object, const char *key, const clast_table *table
     (void)json_object_set_new(object, key, list);
 }
 
-static json_t *summary(const config *c, const clast_agglomeration *r, int64_t n_repeated,
-                       double wall)
+static json_t *summary(const config *c, const clast_agglomeration *r, double wall)
 {
     static const char *const name[4] = {"n_particle", "M1", "M2", "M3"};
     static const char *const key[4] = {"M0", "M1", "M2", "M3"};
@@ -272,7 +272,7 @@ static json_t *summary(const config *c, const clast_agglomeration *r, int64_t n_
     cli_json_count(out, "repeats", c->agglomerate.repeats);
     cli_json_count(out, "n_rebuilt", r->n_rebuilt);
     cli_json_count(out, "n_unresolved", r->n_unresolved);
-    cli_json_count(out, "n_repeated", n_repeated);
+    cli_json_count(out, "n_repeated", r->n_repeated);
     cli_json_number(out, "volume_fraction", r->volume_fraction);
     set_column(out, "gel_fraction", h, "gel_fraction");
     cli_json_number(out, "gel_time", r->gel_time);
@@ -295,26 +295,9 @@ static json_t *summary(const config *c, const clast_agglomeration *r, int64_t n_
     return out;
 }
 
-/// What keeps the collisions from being known better. Copies collide: then there are too many.
-static void print_doubts(int32_t n_snapshot, const clast_agglomeration *r, int64_t n_repeated)
-{
-    if (r->n_unresolved > 0) {
-        (void)printf(
-            "\nwarning: in %d of %d snapshot%s the particles did not show their own "
-            "structure (clast decompose reports more): collisions there are a best guess%s\n",
-            r->n_unresolved, n_snapshot, cli_plural(n_snapshot),
-            n_repeated > 0 ? "" : ", rather too few than too many");
-    }
-    if (n_repeated > 0) {
-        (void)printf("\nwarning: %lld particle%s%s %s (coincident points); each such "
-                     "pair counts as two particles that meet\n",
-                     (long long)n_repeated, cli_plural(n_repeated),
-                     n_snapshot > 1 ? " of a snapshot" : "", n_repeated == 1 ? "is a duplicate" : "are duplicates");
-    }
-}
+enum { N_LOUD = 2 }; ///< of clast_agglomeration_note: on stderr, those after them below the table
 
-static void print_words(const config *c, int32_t n_snapshot, const clast_agglomeration *r,
-                        int64_t n_repeated)
+static void print_words(const config *c, const clast_agglomeration *r)
 {
     char in_each[64] = "";
     const clast_table *h = &r->history;
@@ -325,8 +308,8 @@ static void print_words(const config *c, int32_t n_snapshot, const clast_agglome
     const double *cells = clast_table_numbers(h, "n_cell");
     const double *fixed = clast_table_numbers(h, "fixed_events");
     const double *exact = clast_table_numbers(h, "exact_n_particle");
-    if (n_snapshot > 1) {
-        (void)snprintf(in_each, sizeof in_each, "%d snapshots, %.6g s in each, ", n_snapshot,
+    if (r->n_snapshot > 1) {
+        (void)snprintf(in_each, sizeof in_each, "%d snapshots, %.6g s in each, ", r->n_snapshot,
                        c->agglomerate.duration);
     }
     (void)printf("kernel %s, %s%s%d run%s\n\n%12s %12s %12s %12s %8s%s%s\n", c->agglomerate.kernel,
@@ -345,24 +328,17 @@ static void print_words(const config *c, int32_t n_snapshot, const clast_agglome
         }
         (void)putchar('\n');
     }
-    print_doubts(n_snapshot, r, n_repeated);
+    for (int32_t k = N_LOUD; k < CLAST_N_AGGLOMERATION_NOTE; ++k) {
+        char words[CLI_LINE_SIZE];
+        if (clast_agglomeration_note(r, k, sizeof words, words)[0] != '\0') {
+            (void)printf("\nwarning: %s\n", words);
+        }
+    }
     if (r->is_gelation) {
         (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "
                      "the monomers\n",
                      r->gel_time, r->n_gelled, c->agglomerate.repeats);
     }
-}
-
-/// Particles at the place of an earlier one, in the snapshot that has the most.
-static clast_status count_repeated(const clast_agglomerate_input *input, int64_t *n_repeated)
-{
-    *n_repeated = 0;
-    for (int64_t k = 0; k < input->n_snapshot; ++k) {
-        int64_t n = 0;
-        CLI_GUARD(clast_cloud_repeated(&input->snapshot[k], &n));
-        *n_repeated = n > *n_repeated ? n : *n_repeated;
-    }
-    return CLAST_OK;
 }
 
 static clast_status keep_results(const cli_common *common, const config *c,
@@ -418,7 +394,6 @@ static clast_status run(const cli_common *common, void *values)
     clast_run_folder *folder = NULL;
     const clast_monitor monitor = cli_monitor(common);
     const double begun = cli_clock();
-    int64_t n_repeated = 0;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain));
@@ -429,11 +404,12 @@ static clast_status run(const cli_common *common, void *values)
     cli_warn_of_units(common, &domain, &l.cloud[0]);
     status = clast_agglomerate(&l.input, &c->agglomerate, &monitor, &result);
     CLI_TRY(cli_points_status(status, &c->points, &domain, &l.cloud[0]));
-    CLI_TRY(count_repeated(&l.input, &n_repeated));
-    out = summary(c, &result, n_repeated, cli_clock() - begun);
+    out = summary(c, &result, cli_clock() - begun);
     cli_json_count(out, "n_snapshot", common->n_argument);
-    cli_range_warn(common, &result.range);
-    cli_dense_warn(common, result.volume_fraction);
+    for (int32_t k = 0; k < N_LOUD && !common->quiet; ++k) {
+        char words[CLI_LINE_SIZE];
+        cli_warn(common, clast_agglomeration_note(&result, k, sizeof words, words));
+    }
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
     cli_json_seed(out, "seed", c->agglomerate.decompose.seed);
     if (folder != NULL) {
@@ -442,7 +418,7 @@ static clast_status run(const cli_common *common, void *values)
     if (common->json) {
         CLI_TRY(cli_print_json(json_incref(out)));
     } else {
-        print_words(c, common->n_argument, &result, n_repeated);
+        print_words(c, &result);
     }
 done:
     json_decref(out);

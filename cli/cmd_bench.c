@@ -38,11 +38,6 @@ static const cli_scene scenes[] = {
 };
 enum { N_SCENE = sizeof scenes / sizeof *scenes };
 
-const cli_scene *cli_scene_at(int32_t i)
-{
-    return i >= 0 && i < N_SCENE ? &scenes[i] : NULL;
-}
-
 bool cli_lap_again(cli_lap *b)
 {
     return b->left-- > 0;

@@ -1,5 +1,6 @@
 // clast completion: bash and zsh completion from the same field tables that parse the options.
 #include "command.h"
+#include "common_options.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,9 +15,13 @@ static const clast_field fields[] = {{"shell", .offset = offsetof(config, shell)
 
 static void print_options(const cli_command *command)
 {
-    (void)printf("%s--threads --max-memory --time-limit --set%s --quiet --help --help-all",
-                 command->writes_no_file ? "" : "--output ",
-                 command->writes_no_data ? "" : " --json");
+    const char *between = "";
+    for (const cli_option *o = cli_options; o->name != NULL; ++o) {
+        if (cli_option_is_of(o, command)) {
+            (void)printf("%s--%s", between, o->name);
+            between = " ";
+        }
+    }
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
         const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
         (void)printf(is_on ? " --no-" : " --");

@@ -84,11 +84,12 @@ static clast_status read_cloud(const cli_common *common, const config *c, clast_
     const char *path = common->argument[0];
     const clast_points_options options = {c->points.dataset, c->points.frame};
     if (common->comm->n_rank > 1) {
-        return clast_cloud_read_ranks(common->comm, path, &c->points.columns, &options, cloud);
+        CLI_TRY(clast_cloud_read_ranks(common->comm, path, &c->points.columns, &options, cloud));
+    } else {
+        CLI_TRY(cli_points_read(path, &c->points, &table));
+        CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
     }
-    CLI_TRY(cli_points_read(path, &c->points, &table));
-    CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
-    cli_warn_of_weight(common, &table, &c->points.columns);
+    cli_warn_of_weight(common, cloud, path);
 done:
     clast_table_free(&table);
     return status;
@@ -295,9 +296,11 @@ const cli_command cli_decompose = {
         "variance (two-sided p),\n"
         "       Henze-Zirkler on probit scores, Pearson with Bonferroni (r and p of the pair of "
         "axes "
-        "that it names); rejected\n       when --votes of them reject, and then "
-        "clustered or of varying density. spacing: mean distance to the nearest neighbour\n       over that of uniform "
-        "points; > 1 with p < 1e-4 (a lattice): regular (more evenly\n       spaced than uniform). JSON calls these \"less even\" and \"more even\".\n"
+        "that it names); rejected\n       when --votes of them reject, and then clustered or of "
+        "varying density (less even in summary.json).\n"
+        "       spacing: mean distance to the nearest neighbour over that of uniform points; > 1 "
+        "with p < 1e-4 (a lattice):\n       regular, more evenly spaced than uniform (more even in "
+        "summary.json).\n"
         "events: with --beta-dt, sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events "
         "paper takes n^2 / V as printed.\n"
         "        Without, the pair integral: sum over cells of n (n - 1) / (2 V), events per beta "

@@ -1,7 +1,7 @@
 // clast evolve: a cloud of particles of true shapes, from the fluid to the floor.
 #include "command.h"
+#include "points.h"
 #include "quantity.h"
-#include "ranges.h"
 #include "resume.h"
 
 #include <math.h>
@@ -97,7 +97,8 @@ static void warn_of_layer(const cli_common *common, const clast_evolve_result *r
 /// of the porosity profile are as high as one.
 static void print_pack(const clast_evolve_result *r)
 {
-    const double speed = sqrt(2.0 * 9.80665 * r->bed_height);
+    const double gravity = clast_fields_find(clast_pack_fields, "gravity")->value;
+    const double speed = sqrt(2.0 * gravity * r->bed_height);
     const double collision = CLAST_PI * 0.25 * r->bed_least / speed;
     (void)printf("%-26s clast pack --start %s/deposit.h5 --domain box --width %.6gum --height "
                  "%.6gum --shaking-time 0 --collision-time %.3gus --time-step %.3gus --rule speed "
@@ -179,7 +180,11 @@ static clast_status run(const cli_common *common, void *context)
     warn_of_fall(common, &result);
     warn_of_layer(common, &result);
     warn_of_field(common, &result);
-    cli_dense_warn(common, result.volume_fraction);
+    cli_warn(common, result.weight_words);
+    if (!common->quiet) {
+        char words[CLI_WORDS_SIZE];
+        cli_warn(common, clast_kernel_dense_words(result.volume_fraction, sizeof words, words));
+    }
     if (!common->json) {
         print_text(&result);
         goto done;
@@ -196,7 +201,8 @@ static const char details[] =
     "Particles fall by the drag of their own form, drift with a linear wind and diffuse, exactly\n"
     "for any step away from the borders (in a velocity field on a grid by steps of Runge and\n"
     "Kutta, a quarter of a cell each). In each step the cloud is cut into cells where it is\n"
-    "uniform (D2SD; kept while the tests accept them), with volumes that make up for the pairs which\n"
+    "uniform (D2SD; kept while the tests accept them), with volumes that make up for the pairs "
+    "which\n"
     "cells hide; in a cell pairs meet at the rate of the kernel and stick by the law of sticking.\n"
     "Each event is one pair: the smaller comes to the larger and stays where their true surfaces\n"
     "first touch, with the contact of clast aggregate; where few touches stick, at any contact\n"

@@ -95,6 +95,12 @@ static void tell_ratios(const clast_export_report *report)
                      "touching ones part (finer: --level)\n",
                      facets);
     }
+    if (isfinite(report->clump_ratio)) {
+        const double high = 100.0 * (report->clump_ratio - 1.0);
+        (void)printf("clumps are whole balls, one in another where they overlap: their facets hold "
+                     "%.2g %% %s volume than they do\n",
+                     fabs(high), high < 0.0 ? "less" : "more");
+    }
     if (isfinite(report->ellipsoid_ratio)) {
         (void)printf("ellipsoids of the moments of surfaces and clumps: %.1f %% of their volume, "
                      "of a density that gives each the mass and inertia of its grain\n",
@@ -106,7 +112,23 @@ static void tell_ratios(const clast_export_report *report)
 typedef struct {
     clast_assembly assembly;
     clast_packing_report read; ///< of another program's file; step and box of a run
+    bool is_run;
 } bed;
+
+/// Whether the ids are those that the grains had in another program's file.
+static void tell_ids(const cli_common *common, const bed *b, const clast_export_report *report)
+{
+    if (b->is_run || !report->has_ids) {
+        return;
+    }
+    if (!report->ids_kept) {
+        (void)printf("ids are new: counted from %d in the order of %s\n", report->id_offset,
+                     cli_name(common->argument[0]));
+    } else if (report->id_offset > 0) {
+        (void)printf("ids are those of %s plus 1: LAMMPS and voro++ count from 1\n",
+                     cli_name(common->argument[0]));
+    }
+}
 
 static clast_status report_assembly(const cli_common *common, const bed *b,
                                     const clast_export_report *report)
@@ -121,6 +143,7 @@ static clast_status report_assembly(const cli_common *common, const bed *b,
         }
         (void)printf(", lengths in %s\n", report->unit);
         tell_ratios(report);
+        tell_ids(common, b, report);
         return CLAST_OK;
     }
     json_t *object = json_object();
@@ -132,7 +155,10 @@ static clast_status report_assembly(const cli_common *common, const bed *b,
     cli_json_count(object, "n_vertex", report->n_vertex);
     cli_json_count(object, "n_triangle", report->n_triangle);
     cli_json_number(object, "facet_ratio", report->facet_ratio);
+    cli_json_number(object, "clump_ratio", report->clump_ratio);
     cli_json_number(object, "ellipsoid_ratio", report->ellipsoid_ratio);
+    cli_json_bool(object, "ids_kept", report->ids_kept);
+    cli_json_count(object, "id_offset", report->id_offset);
     cli_packing_json(object, &b->read);
     return cli_print_json(object);
 }
@@ -168,6 +194,7 @@ static clast_status read_grains(const cli_common *common, const char *path,
     clast_packing_options options = {.columns = config->columns};
     const size_t n = strlen(path);
     const bool is_state = n >= 3 && strcmp(path + n - 3, ".h5") == 0;
+    b->is_run = is_state;
     if (is_state) {
         CLI_GUARD(check_idle(common, config, true, NULL));
         CLI_GUARD(clast_state_read_assembly(path, &b->assembly));

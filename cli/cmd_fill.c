@@ -29,12 +29,12 @@ static void stem(const char *path, char *name, size_t size)
 }
 
 static json_t *report_json(const char *file, const char *name, const clast_mesh_check_result *found,
-                           const clast_fill_report *r)
+                           const char *unit, const clast_fill_report *r)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", file);
     cli_json_text(o, "name", name);
-    cli_json_text(o, "unit", "model");
+    cli_json_text(o, "unit", unit[0] != '\0' ? unit : "model");
     cli_json_count(o, "n_sphere", r->n_sphere);
     cli_json_count(o, "n_placed", r->n_placed);
     cli_json_text(o, "end", end_names[r->end]);
@@ -47,6 +47,7 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
     cli_json_number(o, "solid_volume", r->solid_volume);
     cli_json_number(o, "sphere_volume", r->sphere_volume);
     cli_json_number(o, "filled_fraction", r->filled_fraction);
+    cli_json_number(o, "outside_fraction", r->outside_fraction);
     cli_json_number(o, "volume_error", r->volume_error);
     cli_json_number(o, "centroid_error", r->centroid_error);
     cli_json_number(o, "inertia_error", r->inertia_error);
@@ -64,15 +65,22 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
     return o;
 }
 
-static void print_words(const char *file, const clast_fill_report *r)
+static void print_words(const char *file, const char *unit, const clast_fill_report *r)
 {
+    char words[32];
+    cli_mesh_unit(unit, words);
     (void)printf("%s: %d sphere%s", cli_name(file), r->n_sphere, cli_plural(r->n_sphere));
     if (r->n_placed > r->n_sphere) {
         (void)printf(" (the outer ones of %d)", r->n_placed);
     }
-    (void)printf(", %s; model units\n", end_words[r->end]);
+    (void)printf(", %s; %s\n", end_words[r->end], words);
     (void)printf("  filled           %.6g of the volume %.8g\n", r->filled_fraction,
                  r->solid_volume);
+    if (r->outside_fraction > 0.0) {
+        (void)printf("  outside          %.3g of the volume, beside the solid: where spheres poke "
+                     "out\n",
+                     r->outside_fraction);
+    }
     (void)printf("  volume error     %.4g\n", r->volume_error);
     (void)printf("  centroid error   %.4g of the equal-volume diameter\n", r->centroid_error);
     (void)printf("  inertia error    %.4g at equal mass\n", r->inertia_error);
@@ -91,12 +99,13 @@ static void print_words(const char *file, const clast_fill_report *r)
 }
 
 static clast_status save(const cli_common *common, const clast_fill_config *config,
-                         const char *name, const clast_mesh *mesh, const clast_spheres *spheres)
+                         const char *name, const char *unit, const clast_mesh *mesh,
+                         const clast_spheres *spheres)
 {
     clast_table history = {0};
     clast_status status = CLAST_OK;
     if (common->output != NULL) {
-        CLI_TRY(clast_spheres_write(spheres, common->output, name, NULL));
+        CLI_TRY(clast_spheres_write(spheres, common->output, name, unit));
     }
     if (config->history[0] != '\0') {
         CLI_TRY(clast_fill_history(mesh, spheres, &history));
@@ -107,7 +116,7 @@ done:
     return status;
 }
 
-static clast_status show(const cli_common *common, const char *name,
+static clast_status show(const cli_common *common, const char *name, const char *unit,
                          const clast_mesh_check_result *found, const clast_fill_report *report)
 {
     const char *file = common->argument[0];
@@ -119,9 +128,9 @@ static clast_status show(const cli_common *common, const char *name,
                       file, found->n_open_edge, report->open_share);
     }
     if (common->json) {
-        return cli_print_json(report_json(file, name, found, report));
+        return cli_print_json(report_json(file, name, found, unit, report));
     }
-    print_words(file, report);
+    print_words(file, unit, report);
     return CLAST_OK;
 }
 
@@ -135,19 +144,20 @@ static clast_status run(const cli_common *common, void *context)
     clast_spheres spheres = {0};
     clast_fill_report report;
     clast_mesh_check_result found = {0};
+    clast_mesh_read_report read = {0};
     char name[256];
     stem(common->argument[0], name, sizeof name);
     if (config->name[0] != '\0') {
         (void)snprintf(name, sizeof name, "%s", config->name);
     }
     clast_status status = CLAST_OK;
-    CLI_TRY(cli_mesh_welded(common, &mesh, NULL));
+    CLI_TRY(cli_mesh_welded(common, &mesh, &read));
     status = clast_fill(&mesh, config, &monitor, &spheres, &report);
     CLI_TRY(
         cli_mesh_refused(common->argument[0], &mesh, "cap its holes with --allow-open", status));
-    CLI_TRY(save(common, config, name, &mesh, &spheres));
+    CLI_TRY(save(common, config, name, read.unit, &mesh, &spheres));
     CLI_TRY(clast_mesh_check(&mesh, &found));
-    CLI_TRY(show(common, name, &found, &report));
+    CLI_TRY(show(common, name, read.unit, &found, &report));
 done:
     clast_mesh_check_free(&found);
     clast_spheres_free(&spheres);
@@ -163,8 +173,8 @@ const cli_command cli_fill = {
                 "clast fill data/scarlet/stl/ellipse.stl --overlap --spheres 20 -o clump.csv",
                 "clast fill scan.stl --volume-error 0.05 -o spheres.csv"},
     .details =
-        "Reads STL, OBJ, PLY or OFF and works in its unit. -o FILE.csv (x,y,z,radius) or FILE.h5 "
-        "saves the\nspheres; a state file keeps several sets by name.\n"
+        "Reads STL, OBJ, PLY or OFF and works in its unit. -o FILE.csv (x,y,z,radius; x_mm.. of a "
+        "surface in mm) or\nFILE.h5 saves the spheres; a state file keeps several sets by name.\n"
         "Strategies: largest places the largest sphere that fits, again and again, inside the "
         "surface to\nrounding; random takes the best of random points; published is SCARLET-1.0's "
         "method, which knows\nthe mesh's vertices only. --overlap makes a clump of overlapping "

@@ -5,11 +5,11 @@
 #include "json.h"
 #include "predict_words.h"
 #include "results.h"
-#include "study_grains.h"
 
 #include <clast/chart.h>
 #include <clast/porosity_model.h>
 #include <clast/run_folder.h>
+#include <clast/study.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ typedef struct {
 } config;
 
 enum { MAX_FIELD = 32 };
-enum { AUTO, FORM, MIXTURE, COLUMNS };
+enum { AUTO }; ///< of the choices of features; the others are clast_model_kind and one
 
 static clast_field fields[MAX_FIELD];
 
@@ -63,56 +63,48 @@ static void free_job(job *j)
     clast_porosity_fit_free(&j->fit);
 }
 
-static bool has_forms(const config *c, const clast_table *beds)
+static void print_note(const clast_table *beds, const clast_fit_note *note)
 {
-    clast_form_set set = {0};
-    const bool has = clast_form_set_of(beds, c->fit.columns, &set) == CLAST_OK;
-    clast_form_set_free(&set);
-    return has;
+    (void)fprintf(stderr, "clast fit: %s%s%s\n", note->is_of_table ? cli_name(beds->name) : "",
+                  note->is_of_table ? ": " : "", cli_name(note->text));
 }
 
-/// Named columns of any table are its candidates, though two or three numbers could be a form. Of
-/// columns that are a form's by their names the fit says what is wrong with them.
-static int32_t choose(const config *c, const clast_table *beds)
+static clast_status choose(const config *c, const clast_table *beds, clast_model_kind *kind)
 {
-    if (c->features != AUTO || c->grains[0] != '\0') {
-        return c->features != AUTO ? c->features : MIXTURE;
+    clast_fit_note note;
+    if (c->features != AUTO) {
+        *kind = (clast_model_kind)(c->features - 1);
+        return CLAST_OK;
     }
-    if (c->fit.columns[0] == '\0') {
-        return clast_form_set_named(beds) ? FORM : COLUMNS;
+    CLI_GUARD(clast_porosity_fit_choose(beds, c->grains[0] != '\0', &c->fit, kind, &note));
+    if (note.text[0] != '\0') {
+        print_note(beds, &note);
     }
-    if (!has_forms(c, beds)) {
-        return COLUMNS;
-    }
-    if (clast_form_columns_named(c->fit.columns)) {
-        return FORM;
-    }
-    (void)fprintf(
-        stderr, "clast fit: %s: columns %s are candidates; --features form takes them as a form\n",
-        cli_name(beds->name), cli_name(c->fit.columns));
-    return COLUMNS;
+    return CLAST_OK;
 }
 
 static clast_status gather(const config *c, const char *path, job *j)
 {
     clast_idle rules[CLAST_N_IDLE];
+    clast_model_kind kind = CLAST_MODEL_COLUMNS;
     CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
-    const int32_t what = choose(c, &j->beds);
-    CLI_GUARD(cli_idle_check(fields, c, clast_porosity_fit_idle(&c->fit, what != FORM, rules)));
-    if ((what == MIXTURE) != (c->grains[0] != '\0')) {
+    CLI_GUARD(choose(c, &j->beds, &kind));
+    CLI_GUARD(cli_idle_check(fields, c,
+                             clast_porosity_fit_idle(&c->fit, kind != CLAST_MODEL_SINGLE, rules)));
+    if ((kind == CLAST_MODEL_MIXTURE) != (c->grains[0] != '\0')) {
         return cli_fail(
             CLAST_E_USAGE,
             "--features mixture and --grains FILE belong together: the 104 features are "
             "means and deviations over the grains");
     }
-    if (what == FORM) {
+    if (kind == CLAST_MODEL_SINGLE) {
         return clast_fit_data_single(&j->beds, &c->fit, &j->data);
     }
-    if (what == COLUMNS) {
+    if (kind == CLAST_MODEL_COLUMNS) {
         return clast_fit_data_columns(&j->beds, &c->fit, &j->data);
     }
     CLI_GUARD(cli_is_folder(c->grains)
-                  ? cli_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
+                  ? clast_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
                   : clast_table_read_csv(c->grains, NULL, &j->grains, NULL));
     return clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data);
 }
@@ -266,111 +258,14 @@ static clast_status write_charts(const char *folder, const job *j)
     return CLAST_OK;
 }
 
-static void tell_left_out(const job *j)
+/// Prints what people should know, from line n_told on; the number of lines.
+static int32_t tell(const config *c, const job *j, const clast_porosity_fit *fit, int32_t n_told)
 {
-    const clast_table *t = &j->data.left_out;
-    if (t->n_row > 0) {
-        (void)fprintf(stderr, "clast fit: %s: %lld of %lld rows left out (first: row %.0f, %s)\n",
-                      j->beds.name, (long long)t->n_row, (long long)j->beds.n_row,
-                      t->column[0].number[0], t->column[1].text[0]);
+    clast_fit_note note;
+    for (; clast_porosity_fit_note(fit, &j->beds, &j->data, n_told, &c->fit, &note); ++n_told) {
+        print_note(&j->beds, &note);
     }
-}
-
-/// Whether candidates are all columns of a table, be it a study's: none was named.
-static bool is_open(const config *c, const job *j)
-{
-    return j->data.kind == CLAST_MODEL_COLUMNS && c->fit.columns[0] == '\0' &&
-           c->fit.use[0] == '\0';
-}
-
-/// Place of the last column that was varied in a study, and one; 0: the table is no study's.
-static int32_t end_of_varied(const clast_table *t)
-{
-    const int32_t code = clast_table_find(t, "exit_code");
-    return clast_table_find(t, "run") == 0 && code > 0 ? code : 0;
-}
-
-/// Whether a column's numbers are those of the rows, from 1 or from 0.
-static bool counts_rows(const clast_table *beds, const char *name)
-{
-    const double *const x = clast_table_numbers(beds, name);
-    const double *const row = clast_table_numbers(beds, "row");
-    bool counts = x[0] == row[0] || x[0] == row[0] - 1.0;
-    for (int64_t i = 1; i < beds->n_row && counts; ++i) {
-        counts = x[i] - row[i] == x[0] - row[0];
-    }
-    return counts;
-}
-
-/// The column that names the bed is no candidate; a feature that counts the rows fits well if they
-/// are sorted.
-static void tell_numbers(const config *c, const job *j)
-{
-    const clast_porosity_model *m = &j->fit.model;
-    if (!is_open(c, j) || end_of_varied(&j->beds) > 0) {
-        return;
-    }
-    if (clast_table_numbers(&j->beds, c->fit.group) != NULL) {
-        (void)fprintf(stderr, "clast fit: %s: column '%s' names the bed and is no candidate\n",
-                      cli_name(j->beds.name), cli_name(c->fit.group));
-    }
-    for (int32_t k = 0; k < m->n_term; ++k) {
-        if (counts_rows(&j->data.beds, m->term[k].feature)) {
-            (void)fprintf(stderr,
-                          "clast fit: %s: feature '%s' counts the rows; if it says nothing of a "
-                          "bed, name the candidates: --features columns --columns a,b\n",
-                          cli_name(j->beds.name), cli_name(m->term[k].feature));
-        }
-    }
-}
-
-/// Columns of words where a fit of columns looks for candidates: what they say is lost to it.
-static void tell_words(const config *c, const job *j)
-{
-    char names[512] = "";
-    int n = 0;
-    const clast_table *t = &j->beds;
-    const int32_t n_varied = end_of_varied(t);
-    if (!is_open(c, j)) {
-        return;
-    }
-    for (int32_t k = 0; k < (n_varied > 0 ? n_varied : t->n_column); ++k) {
-        const char *name = t->column[k].name;
-        if (t->column[k].text != NULL && clast_table_find(&j->data.beds, name) < 0) {
-            const size_t used = strlen(names);
-            (void)snprintf(names + used, sizeof names - used, "%s%s", n > 0 ? ", " : "", name);
-            ++n;
-        }
-    }
-    if (n > 0) {
-        (void)fprintf(stderr, "clast fit: %s: %d %s: %s\n", cli_name(t->name), n,
-                      n > 1 ? "columns of words are no candidates"
-                            : "column of words is no candidate",
-                      cli_name(names));
-    }
-}
-
-/// Why a selection has fewer features than it was asked for.
-static void tell_few(const config *c, const job *j)
-{
-    const clast_table *t = &j->fit.ranking;
-    const int32_t n = j->fit.model.n_term;
-    int n_candidate = 0;
-    if (c->fit.use[0] != '\0' || n >= c->fit.n_term) {
-        return;
-    }
-    for (int64_t k = 0; k < t->n_row; ++k) {
-        n_candidate += strcmp(t->column[3].text[k], "kept") == 0 ? 1 : 0;
-    }
-    (void)fprintf(stderr, "clast fit: %d of %d features: ", n, c->fit.n_term);
-    if (n_candidate > 0) {
-        (void)fprintf(stderr, "with one more no candidate can be fitted to each training set\n");
-    } else {
-        (void)fprintf(stderr,
-                      "no candidate is left of %d (%d like a chosen one, %d constant or not finite "
-                      "in some row)\n",
-                      (int)t->n_row, j->fit.n_removed, (int)t->n_row - n - j->fit.n_removed);
-    }
+    return n_told;
 }
 
 static clast_status keep_results(const cli_common *common, const config *c, const job *j,
@@ -395,17 +290,16 @@ static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
     char source[256];
+    int32_t n_told = 0;
     job j = {0};
     clast_run_folder *folder = NULL;
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(gather(c, common->argument[0], &j));
-    tell_left_out(&j);
-    tell_words(c, &j);
+    n_told = tell(c, &j, NULL, 0);
     (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(), j.beds.name);
     CLI_TRY(clast_porosity_fit_data(&j.data, c->name, source, &c->fit, &j.fit));
-    tell_few(c, &j);
-    tell_numbers(c, &j);
+    (void)tell(c, &j, &j.fit, n_told);
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &j, folder));
     }

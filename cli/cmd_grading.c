@@ -122,11 +122,12 @@ static double class_share(const answer *a, int32_t i)
            clast_grading_share(a->grading, a->curve.sieve[i]);
 }
 
-/// Grains of a class in the mass: by equation 9, or so that the masses come out exactly.
+/// Grains of a class in the mass: by equation 9, or so that the masses come out exactly; by the law
+/// where grains cross the sieves.
 static double class_count(const answer *a, int32_t i)
 {
     const grading_config *c = a->config;
-    return c->count == CLAST_COUNT_EXACT
+    return c->count == CLAST_COUNT_EXACT || c->spread == CLAST_SPREAD_LINEAR
                ? class_share(a, i) * expected_count(a)
                : clast_curve_count(&a->curve, i, c->mass, c->density, c->grain_volume);
 }
@@ -176,6 +177,34 @@ static void classes_json(json_t *o, const answer *a)
     (void)json_object_set_new(o, "classes", list);
 }
 
+/// Grains below and above all classes.
+typedef struct {
+    double n_below, n_above;
+    double mass; ///< share of both
+} outside;
+
+static outside outside_of(const answer *a)
+{
+    const int64_t last = a->classes.n_row - 1;
+    const double *const count = clast_table_numbers(&a->classes, "count");
+    const double *const mass = clast_table_numbers(&a->classes, "achieved_mass");
+    return (outside){count[0], count[last], mass[0] + mass[last]};
+}
+
+static void match_json(json_t *o, const answer *a)
+{
+    const outside out = outside_of(a);
+    cli_json_number(o, "distance_mass", a->match.distance_mass);
+    cli_json_number(o, "distance_number", a->match.distance_number);
+    cli_json_number(o, "distance_curve", a->match.distance_curve);
+    cli_json_count(o, "n_below", (int64_t)out.n_below);
+    cli_json_count(o, "n_above", (int64_t)out.n_above);
+    cli_json_number(o, "mass_outside", out.mass);
+    cli_json_number(o, "achieved_d10", a->match.achieved_d10);
+    cli_json_number(o, "achieved_d50", a->match.achieved_d50);
+    cli_json_number(o, "achieved_d90", a->match.achieved_d90);
+}
+
 /// What a list's rows count by, and what of it was not looked at.
 static void list_json(json_t *o, const clast_grading_list *list)
 {
@@ -210,11 +239,7 @@ static json_t *answer_json(const answer *a)
         classes_json(o, a);
     }
     if (a->classes.n_row > 0) {
-        cli_json_number(o, "distance_mass", a->match.distance_mass);
-        cli_json_number(o, "distance_number", a->match.distance_number);
-        cli_json_number(o, "achieved_d10", a->match.achieved_d10);
-        cli_json_number(o, "achieved_d50", a->match.achieved_d50);
-        cli_json_number(o, "achieved_d90", a->match.achieved_d90);
+        match_json(o, a);
     }
     return o;
 }
@@ -257,6 +282,24 @@ static void class_words(const answer *a)
     }
 }
 
+static void match_words(const answer *a)
+{
+    const outside out = outside_of(a);
+    const int64_t n = a->sizes.n_row;
+    (void)printf(
+        "  %lld %s: farthest from the law to draw by %.4f by mass, %.4f by number; from the "
+        "curve by %.4f by mass\n",
+        (long long)n, a->config->compare[0] != '\0' ? "grains compared" : "drawn",
+        a->match.distance_mass, a->match.distance_number, a->match.distance_curve);
+    if (out.n_below + out.n_above > 0.0) {
+        (void)printf("  %.0f of %lld lie outside all classes: %.0f below, %.0f above, %.4f of the "
+                     "mass\n",
+                     out.n_below + out.n_above, (long long)n, out.n_below, out.n_above, out.mass);
+    }
+    size_words("achieved, by mass", a->match.achieved_d10, a->match.achieved_d50,
+               a->match.achieved_d90);
+}
+
 static void answer_words(const answer *a)
 {
     const clast_grading *g = a->grading;
@@ -282,12 +325,7 @@ static void answer_words(const answer *a)
                      cli_quantity(a->config->mass, "kg"), expected_count(a));
     }
     if (a->classes.n_row > 0) {
-        (void)printf("  %lld %s: farthest from the wanted curve %.4f by mass, %.4f by number\n",
-                     (long long)a->sizes.n_row,
-                     a->config->compare[0] != '\0' ? "grains compared" : "drawn",
-                     a->match.distance_mass, a->match.distance_number);
-        size_words("achieved, by mass", a->match.achieved_d10, a->match.achieved_d50,
-                   a->match.achieved_d90);
+        match_words(a);
     }
 }
 

@@ -1,5 +1,6 @@
 // clast man: the manual page in roff, from the same tables as --help.
 #include "command.h"
+#include "common_options.h"
 
 #include <stdio.h>
 
@@ -29,6 +30,17 @@ static void print_option(const clast_field *f)
     print_text(f->help);
     cli_field_values(f, words);
     print_text(words);
+    (void)putchar('\n');
+}
+
+static void print_common(const cli_option *option)
+{
+    char words[CLI_NAME_SIZE];
+    cli_option_words(option, words);
+    (void)printf(".TP\n.B ");
+    print_text(words);
+    (void)putchar('\n');
+    print_text(option->help);
     (void)putchar('\n');
 }
 
@@ -73,21 +85,13 @@ static clast_status run(const cli_common *common, void *values)
     for (int32_t i = 0; cli_command_at(i) != NULL; ++i) {
         print_command(cli_command_at(i));
     }
+    (void)printf(".SH COMMON OPTIONS\n");
+    for (const cli_option *o = cli_options; o->name != NULL; ++o) {
+        if (o->help != NULL) {
+            print_common(o);
+        }
+    }
     (void)printf(
-        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go (of commands that "
-        "write files)\n"
-        ".TP\n.B \\-j, \\-\\-threads N\nthreads; 0 means one per core; results do not depend on "
-        "it\n"
-        ".TP\n.B \\-\\-max\\-memory SIZE\nthe most that the command may take: 8GB, 50%% of the "
-        "machine's memory, 0 for no limit; 80%% by default\n"
-        ".TP\n.B \\-\\-time\\-limit TIME\nstop by itself after so long (90min), as by SIGTERM: "
-        "with a "
-        "checkpoint where \\-\\-resume can go on\n"
-        ".TP\n.B \\-\\-set KEY=VALUE\nthe same as \\-\\-KEY VALUE\n"
-        ".TP\n.B \\-\\-json\none JSON object on standard output\n"
-        ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"
-        ".TP\n.B \\-h, \\-\\-help\nthe first page of a command; \\-\\-help\\-all: every option of "
-        "it\n"
         ".PP\nEvery option of a command is a key of a YAML file among its arguments, with '_' for "
         "'\\-', and what "
         "stands "

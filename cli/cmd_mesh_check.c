@@ -138,12 +138,13 @@ const cli_command cli_mesh_check = {
     .example = {"clast mesh check data/standin63/grain00.ply",
                 "clast mesh check data/standin63/grain01.ply --json",
                 "clast mesh check scan.stl --weld off"},
-    .details = "Reads STL, OBJ, PLY or OFF and says in words and numbers what is wrong and what to "
-               "run.\nVertices of open edges that rounding has parted are merged first, as in "
-               "every command that\nreads a surface; the distance is reported. --weld off counts the "
-               "file as it is.\nLengths, areas and volumes are in the file's own "
-               "unit.\nExit code: 0 when "
-               "the surface is closed, oriented and manifold, 1 when not, 3 when unreadable.",
+    .details =
+        "Reads STL, OBJ, PLY or OFF and says in words and numbers what is wrong and what to "
+        "run.\nVertices of open edges that rounding has parted are merged first, as in "
+        "every command that\nreads a surface; the distance is reported. --weld off counts the "
+        "file as it is.\nLengths, areas and volumes are in the file's own "
+        "unit.\nExit code: 0 when "
+        "the surface is closed, oriented and manifold, 1 when not, 3 when unreadable.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

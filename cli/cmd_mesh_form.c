@@ -8,9 +8,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct {
-    double flatness, elongation, size;
+    double flatness, elongation;
+    char *size; ///< as typed: the file's unit says how to read it
     bool unit_form;
     int32_t hull;
 } form_config;
@@ -20,24 +22,29 @@ static const clast_field form_fields[] = {
     {FIELD(flatness), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted S/I; 0: the grain's own", NULL},
     {FIELD(elongation), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted I/L; 0: the grain's own",
      NULL},
-    {FIELD(size), CLAST_FIELD_F64, 0.0, 0.0, 1e12, "-",
-     "wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file; 0: the grain's own", NULL},
+    {FIELD(size), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file, or with its own where the "
+     "file has one; 0: the grain's own",
+     "0"},
     {FIELD(unit_form), CLAST_FIELD_BOOL, 0, 0, 0, "-", "take all form off: L = I = S = 1", NULL},
     {FIELD(hull), CLAST_FIELD_I32, 0, 0, 1e6, "-",
      "take the convex hull first, with at most so many triangles; 0: the surface itself", NULL},
     {0}};
 #undef FIELD
 
-/// Axes before and after, and volumes.
+/// Axes and volumes of the surface, of what is stretched (its hull, or itself) and after; NaN of a
+/// surface under a hull that bounds no solid.
 typedef struct {
-    double before[3], after[3];
-    double volume_before, volume_hull, volume_after;
+    double before[3], own[3], after[3];
+    double volume_before, volume_own, volume_after;
     int32_t n_before, n_after;
+    bool is_hull;
+    const char *why; ///< before is NaN
 } form_report;
 
 static clast_status check_config(const form_config *c)
 {
-    if (c->unit_form && (c->flatness > 0.0 || c->elongation > 0.0 || c->size > 0.0)) {
+    if (c->unit_form && (c->flatness > 0.0 || c->elongation > 0.0 || strcmp(c->size, "0") != 0)) {
         return cli_fail(CLAST_E_USAGE,
                         "unit_form makes L = I = S = 1; leave flatness, elongation and size out");
     }
@@ -47,7 +54,7 @@ static clast_status check_config(const form_config *c)
     return CLAST_OK;
 }
 
-static void wanted_lengths(const form_config *c, const double own[3], double lis[3])
+static void wanted_lengths(const form_config *c, double size, const double own[3], double lis[3])
 {
     if (c->unit_form) {
         lis[0] = lis[1] = lis[2] = 1.0;
@@ -55,27 +62,46 @@ static void wanted_lengths(const form_config *c, const double own[3], double lis
     }
     const double flatness = c->flatness > 0.0 ? c->flatness : own[2] / own[1];
     const double elongation = c->elongation > 0.0 ? c->elongation : own[1] / own[0];
-    const double size = c->size > 0.0 ? c->size : clast_form_sieve_size(own[1], own[2]);
-    clast_form_lengths(flatness, elongation, size, lis);
+    const double own_size = clast_form_sieve_size(own[1], own[2]);
+    clast_form_lengths(flatness, elongation, size > 0.0 ? size : own_size, lis);
 }
 
-static clast_status reform(const form_config *c, const clast_mesh *mesh, clast_mesh *out,
-                           form_report *r)
+/// What the surface itself is: its hull stands for it where there is one.
+static clast_status measure_surface(const clast_mesh *mesh, form_report *r)
+{
+    clast_mesh turned = {0};
+    for (int k = 0; k < 3; ++k) {
+        r->before[k] = r->is_hull ? (double)NAN : r->own[k];
+    }
+    r->volume_before = r->volume_own;
+    if (r->is_hull) {
+        CLI_GUARD(cli_solid_volume(mesh, &r->volume_before, &r->why));
+    }
+    if (r->is_hull && r->volume_before > 0.0) {
+        CLI_GUARD(clast_reform_principal(mesh, &turned, r->before));
+    }
+    clast_mesh_free(&turned);
+    return CLAST_OK;
+}
+
+static clast_status reform(const form_config *c, double size, const clast_mesh *mesh,
+                           clast_mesh *out, form_report *r)
 {
     clast_mesh hull = {0};
     clast_mesh turned = {0};
     double lis[3];
     clast_status status = CLAST_OK;
     r->n_before = mesh->n_tri;
-    r->volume_before = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : (double)NAN;
-    if (c->hull > 0) {
+    r->is_hull = c->hull > 0;
+    if (r->is_hull) {
         CLI_TRY(clast_reform_hull(mesh, c->hull, &hull));
     } else {
         CLI_TRY(clast_mesh_copy(mesh, &hull));
     }
-    r->volume_hull = clast_mesh_volume(&hull);
-    CLI_TRY(clast_reform_principal(&hull, &turned, r->before));
-    wanted_lengths(c, r->before, lis);
+    r->volume_own = clast_mesh_volume(&hull);
+    CLI_TRY(clast_reform_principal(&hull, &turned, r->own));
+    CLI_TRY(measure_surface(mesh, r));
+    wanted_lengths(c, size, r->own, lis);
     CLI_TRY(clast_reform_mesh(&turned, lis, out));
 done:
     clast_mesh_free(&turned);
@@ -106,15 +132,20 @@ static void axes_json(json_t *o, const char *when, const double lis[3])
     (void)json_object_set_new(o, when, set);
 }
 
-static json_t *report_json(const cli_common *common, const form_report *r)
+static json_t *report_json(const cli_common *common, const char *unit, const form_report *r)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", common->argument[0]);
     cli_json_text(o, "output", common->output);
+    cli_json_text(o, "unit", unit[0] != '\0' ? unit : "model");
     axes_json(o, "before", r->before);
+    if (r->is_hull) {
+        axes_json(o, "hull", r->own);
+        cli_json_number(o, "added_volume", r->volume_own - r->volume_before);
+    }
     axes_json(o, "after", r->after);
     cli_json_number(o, "volume_before", r->volume_before);
-    cli_json_number(o, "volume_hull", r->volume_hull);
+    cli_json_number(o, "volume_hull", r->volume_own);
     cli_json_number(o, "volume", r->volume_after);
     cli_json_count(o, "n_triangle_before", r->n_before);
     cli_json_count(o, "n_triangle", r->n_after);
@@ -128,13 +159,26 @@ static void axes_words(const char *when, const double lis[3])
                  lis[1] / lis[0]);
 }
 
-static void report_words(const cli_common *common, const form_report *r)
+static void report_words(const cli_common *common, const clast_mesh *mesh, const char *unit,
+                         const form_report *r)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n",
-                 cli_name(common->argument[0]), r->n_before, cli_name(common->output), r->n_after);
-    axes_words("before", r->before);
+    char words[32];
+    cli_mesh_unit(unit, words);
+    (void)printf("%s: %d triangles -> %s: %d triangles; %s\n", cli_name(common->argument[0]),
+                 r->n_before, cli_name(common->output), r->n_after, words);
+    if (!isnan(r->before[0])) {
+        axes_words("before", r->before);
+    }
+    if (r->is_hull) {
+        axes_words("hull", r->own);
+    }
     axes_words("after", r->after);
-    (void)printf("  volume  %.8g -> %.8g\n", r->volume_hull, r->volume_after);
+    if (r->is_hull) {
+        (void)printf("  volume  %.8g of the hull -> %.8g\n", r->volume_own, r->volume_after);
+        cli_hull_words(mesh, r->volume_own, r->volume_before, r->why);
+    } else {
+        (void)printf("  volume  %.8g -> %.8g\n", r->volume_before, r->volume_after);
+    }
 }
 
 /// Without a hull the surface itself is measured: it must bound a solid, and once.
@@ -160,23 +204,25 @@ static clast_status run(const cli_common *common, void *config_bytes)
     const form_config *config = config_bytes;
     clast_mesh mesh = {0};
     clast_mesh out = {0};
-    form_report report = {0};
+    form_report report = {.why = ""};
+    double size = 0.0;
     clast_mesh_read_report read = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(check_config(config));
     CLI_TRY(cli_mesh_welded(common, &mesh, &read));
+    CLI_TRY(cli_mesh_length("size", config->size, read.unit, &size));
     if (config->hull == 0) {
         CLI_TRY(check_surface(common, &mesh));
     }
-    CLI_TRY(reform(config, &mesh, &out, &report));
+    CLI_TRY(reform(config, size, &mesh, &out, &report));
     CLI_TRY(measure_written(&out, &report));
     CLI_TRY(config->unit_form ? clast_mesh_write(&out, common->output, NULL) // no size, no unit
                               : cli_mesh_save(common, &out, &read));
     if (common->json) {
-        CLI_TRY(cli_print_json(report_json(common, &report)));
+        CLI_TRY(cli_print_json(report_json(common, read.unit, &report)));
     } else {
-        report_words(common, &report);
+        report_words(common, &mesh, read.unit, &report);
     }
 done:
     clast_mesh_free(&out);

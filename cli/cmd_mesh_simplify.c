@@ -46,11 +46,13 @@ static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify
     return o;
 }
 
-static void simplify_words(const cli_common *common, const clast_mesh_simplify_report *r)
+static void simplify_words(const cli_common *common, const clast_mesh_simplify_report *r,
+                           const char *unit)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n",
-                 cli_name(common->argument[0]), r->n_triangle_before, cli_name(common->output),
-                 r->n_triangle_after);
+    char words[32];
+    cli_mesh_unit(unit, words);
+    (void)printf("%s: %d triangles -> %s: %d triangles; %s\n", cli_name(common->argument[0]),
+                 r->n_triangle_before, cli_name(common->output), r->n_triangle_after, words);
     (void)printf("  volume %.12g -> %.12g (relative change %.2g; rounding of %.2g taken back)\n",
                  r->volume_before, r->volume_after, r->volume_after / r->volume_before - 1.0,
                  r->volume_drift);
@@ -118,7 +120,7 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     if (common->json) {
         CLI_TRY(cli_print_json(simplify_json(common, &report, &found)));
     } else {
-        simplify_words(common, &report);
+        simplify_words(common, &report, read.unit);
     }
     CLI_CHECK(report.reached, CLAST_E_CONVERGE,
               "%s has %d triangles, not %d: no further edge can go without changing "
@@ -132,56 +134,26 @@ done:
     return status;
 }
 
-/// Volume of the surface that the hull was taken of; NaN, and why, where it has none.
-static clast_status solid_volume(const clast_mesh *mesh, double *volume, const char **why)
-{
-    clast_mesh welded = {0};
-    clast_mesh_check_result found = {0};
-    clast_status status = CLAST_OK;
-    *volume = (double)NAN;
-    CLI_TRY(clast_mesh_copy(mesh, &welded));
-    CLI_TRY(clast_mesh_weld_auto(&welded, NULL));
-    if (welded.n_tri > 0) {
-        CLI_TRY(clast_mesh_check(&welded, &found));
-    }
-    if (!found.closed || !found.oriented) {
-        *why = mesh->n_tri > 0 ? "is not closed (clast mesh check)" : "is points";
-    } else if (cli_counts_twice(&found)) {
-        *why = found.intersection_complete ? "counts volume twice (clast mesh check)"
-                                           : "may count volume twice (clast mesh check)";
-    } else {
-        *volume = found.volume;
-    }
-done:
-    clast_mesh_check_free(&found);
-    clast_mesh_free(&welded);
-    return status;
-}
-
 static void hull_words(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull,
-                       double volume, const char *why)
+                       const char *unit, double volume, const char *why)
 {
-    const double hull_volume = clast_mesh_volume(hull);
-    (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles; model units\n",
+    char words[32];
+    cli_mesh_unit(unit, words);
+    (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles; %s\n",
                  cli_name(common->argument[0]), mesh->n_vert, cli_name(common->output),
-                 hull->n_vert, hull->n_tri);
-    (void)printf("  hull volume %.10g, area %.10g\n", hull_volume, clast_mesh_area(hull));
-    if (isnan(volume)) {
-        (void)printf("  what it adds is not known: the input %s\n", why);
-        return;
-    }
-    (void)printf(
-        "  surface volume %.10g, area %.10g: the hull adds %.10g (%.4g of its own volume)\n",
-        volume, clast_mesh_area(mesh), hull_volume - volume, 1.0 - volume / hull_volume);
+                 hull->n_vert, hull->n_tri, words);
+    (void)printf("  hull volume %.10g, area %.10g\n", clast_mesh_volume(hull),
+                 clast_mesh_area(hull));
+    cli_hull_words(mesh, clast_mesh_volume(hull), volume, why);
 }
 
 static json_t *hull_json(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull,
-                         double volume)
+                         const char *unit, double volume)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", common->argument[0]);
     cli_json_text(o, "output", common->output);
-    cli_json_text(o, "unit", "model");
+    cli_json_text(o, "unit", unit[0] != '\0' ? unit : "model");
     cli_json_count(o, "n_vertex", hull->n_vert);
     cli_json_count(o, "n_triangle", hull->n_tri);
     cli_json_number(o, "volume", volume);
@@ -207,12 +179,12 @@ static clast_status run_hull(const cli_common *common, void *config)
     CLI_CHECK(clast_mesh_volume(&hull) > 0.0, CLAST_E_GEOMETRY,
               "%s: the lengths are too small for a volume of the hull; is the unit right?",
               common->argument[0]);
-    CLI_TRY(solid_volume(&mesh, &volume, &why));
+    CLI_TRY(cli_solid_volume(&mesh, &volume, &why));
     CLI_TRY(cli_mesh_save(common, &hull, &read));
     if (common->json) {
-        CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, volume)));
+        CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, read.unit, volume)));
     } else {
-        hull_words(common, &mesh, &hull, volume, why);
+        hull_words(common, &mesh, &hull, read.unit, volume, why);
     }
 done:
     clast_mesh_free(&hull);

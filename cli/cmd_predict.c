@@ -86,7 +86,11 @@ static clast_status predict_each(const config *c, cli_prediction *j)
 /// One bed of all grains: a mixture where their forms vary.
 static clast_status predict_set(const config *c, cli_prediction *j)
 {
+    char words[128];
     const clast_bootstrap b = {.n_resample = c->resamples, .level = 0.95, .seed = c->seed};
+    if (clast_form_set_count_words(&j->set, sizeof words, words)[0] != '\0') {
+        (void)fprintf(stderr, "clast predict: %s: %s\n", j->table.name, cli_name(words));
+    }
     CLI_GUARD(clast_form_inputs_of(&j->set, NULL, 0, &j->inputs));
     CLI_GUARD(cli_choose_model(c->model, c->grading, j->inputs.has_deviation, &j->model));
     j->has_one = true;

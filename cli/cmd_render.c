@@ -2,7 +2,6 @@
 #include "command.h"
 #include "idle.h"
 #include "json.h"
-#include "study_grains.h"
 
 #include <clast/mesh.h>
 #include <clast/render.h>

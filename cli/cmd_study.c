@@ -20,68 +20,6 @@ static const cli_command *find_command(const char *name)
     return NULL;
 }
 
-/// The field of a "key=value" of a command that has it.
-static const clast_field *find_fixed(const cli_command *command, const char *pair)
-{
-    char name[256];
-    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(pair, "="), pair);
-    return clast_fields_find(command->fields, name);
-}
-
-static bool is_list(const clast_field *field)
-{
-    return field->type == CLAST_FIELD_TEXT_LIST || field->type == CLAST_FIELD_F64_LIST;
-}
-
-/// Refuses a key that the command does not have.
-static clast_status check_key(const cli_command *command, const char *key, size_t n)
-{
-    char name[256];
-    (void)snprintf(name, sizeof name, "%.*s", (int)n, key);
-    if (command->fields == NULL || clast_fields_find(command->fields, name) == NULL) {
-        const char *near =
-            command->fields != NULL ? clast_fields_nearest(command->fields, name) : NULL;
-        return cli_fail(CLAST_E_CONFIG, "clast %s has no key '%s'%s%s%s", command->name, name,
-                        near != NULL ? " (did you mean '" : "", near != NULL ? near : "",
-                        near != NULL ? "'?)" : "");
-    }
-    return CLAST_OK;
-}
-
-/// Refuses a key of one value that is fixed twice: the runs would take the last without a word.
-static clast_status check_fixed_once(const cli_command *command, const clast_text_list *set)
-{
-    for (int32_t i = 0; i < set->n; ++i) {
-        const clast_field *field = find_fixed(command, set->item[i]);
-        for (int32_t k = 0; k < i && !is_list(field); ++k) {
-            if (find_fixed(command, set->item[k]) == field) {
-                return cli_fail(CLAST_E_CONFIG, "fix: '%s' and '%s': %s takes one value",
-                                set->item[k], set->item[i], field->name);
-            }
-        }
-    }
-    return CLAST_OK;
-}
-
-/// Refuses keys before the first run rather than in every run.
-static clast_status check_keys(const cli_command *command, const clast_study_config *config,
-                               const clast_table *plan)
-{
-    for (int32_t c = 0; c < plan->n_column; ++c) {
-        if (plan->column[c].text != NULL) {
-            CLI_GUARD(check_key(command, plan->column[c].name, strlen(plan->column[c].name)));
-        }
-    }
-    for (int32_t i = 0; i < config->set.n; ++i) {
-        const char *pair = config->set.item[i];
-        if (strchr(pair, '=') == NULL) {
-            return cli_fail(CLAST_E_CONFIG, "fix takes key=value, not '%s'", pair);
-        }
-        CLI_GUARD(check_key(command, pair, strcspn(pair, "=")));
-    }
-    return check_fixed_once(command, &config->set);
-}
-
 /// Refuses a configuration before the first run rather than in every run.
 static clast_status check_config(const cli_command *command, const char *path)
 {
@@ -105,15 +43,9 @@ done:
     return status;
 }
 
-static bool has_field(const cli_command *command, const char *name)
-{
-    return command->fields != NULL && clast_fields_find(command->fields, name) != NULL;
-}
-
 static clast_status check(const clast_study_config *config, const cli_command **command,
                           int64_t *n_run)
 {
-    clast_table plan = {0};
     *command = find_command(config->run);
     if (config->run[0] == '\0' || *command == NULL || strcmp(config->run, "study") == 0) {
         return cli_fail(CLAST_E_CONFIG,
@@ -127,16 +59,8 @@ static clast_status check(const clast_study_config *config, const cli_command **
                         (*command)->needs_file ? "writes the file that its -o names"
                                                : "prints no numbers");
     }
-    clast_status status = CLAST_OK;
-    CLI_TRY(check_config(*command, config->config));
-    CLI_TRY(clast_study_plan(config, &plan));
-    CLI_TRY(check_keys(*command, config, &plan));
-    CLI_CHECK(!(config->seeds > 1 && !has_field(*command, "seed")), CLAST_E_CONFIG,
-              "clast %s draws nothing at random: seeds must be 1", config->run);
-    *n_run = plan.n_row;
-done:
-    clast_table_free(&plan);
-    return status;
+    CLI_GUARD(check_config(*command, config->config));
+    return clast_study_check(config, (*command)->fields, n_run);
 }
 
 static clast_status print(const cli_common *common, const clast_study_config *config,
@@ -215,13 +139,14 @@ static clast_status run(const cli_common *common, void *context)
     cli_workers *workers = calloc(1, sizeof *workers);
     CLI_TRY(begin(common, config, &command, workers));
     const clast_monitor monitor = cli_monitor(common);
-    const clast_study_worker worker = {.has_folder = command->writes_folder,
-                                       .has_seed = has_field(command, "seed"),
-                                       .has_resume = has_field(command, "resume"),
-                                       .start = cli_workers_start,
-                                       .wait = cli_workers_wait,
-                                       .stop = cli_workers_stop,
-                                       .context = workers};
+    const clast_study_worker worker = {
+        .has_folder = command->writes_folder,
+        .has_seed = clast_fields_find(command->fields, "seed") != NULL,
+        .has_resume = clast_fields_find(command->fields, "resume") != NULL,
+        .start = cli_workers_start,
+        .wait = cli_workers_wait,
+        .stop = cli_workers_stop,
+        .context = workers};
     status = clast_study_run(config, common->output, &worker, common->comm, &monitor, &report);
     if (common->comm->rank == 0 && (status == CLAST_OK || status == CLAST_E_NO)) {
         const clast_status printed = print(common, config, &report);

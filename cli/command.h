@@ -150,6 +150,9 @@ clast_status cli_time_limit(const char *text);
 clast_status cli_check_outputs(const cli_command *command, const cli_common *common,
                                const void *config);
 
+/// True when the path is a folder.
+bool cli_is_folder(const char *path);
+
 /// Refuses a path of `what` ("pictures") that does not end in .ENDING, in upper or lower case,
 /// which is all that is written there.
 clast_status cli_check_ending(const char *path, const char *what, const char *ending);

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double least_p = 1e-3; ///< of a fit to g(r) that goes without a warning
-
 static void add_column(json_t *out, const char *key, const clast_pairs *p, const char *column)
 {
     json_t *list = json_array();
@@ -135,6 +133,8 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
 {
     const clast_pairs *p = &r->pairs;
     const clast_pair_integral *i = &p->integral;
+    char note[CLI_WORDS_SIZE];
+    (void)clast_decomposition_note(r, 0, 0, sizeof note, note);
     (void)printf("%lld pairs within %s; ", (long long)p->n_pair, cli_quantity(p->radius, "m"));
     if (p->n_repeated > 0) {
         (void)printf("%lld of them coincident; ", (long long)p->n_repeated);
@@ -162,7 +162,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         (void)printf("pairs do not resolve the cloud: %s",
                      r->keeps_apart          ? "the points keep apart"
                      : isfinite(i->n_needed) ? ""
-                     : i->fit_p < least_p    ? "g(r) is that of no density; "
+                     : note[0] != '\0'       ? "g(r) is that of no density; "
                                              : "g rises down to the nearest pairs there are; ");
         if (!r->keeps_apart) {
             cli_points_needed_print(i->n_needed);
@@ -170,13 +170,8 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         (void)printf("\n");
     }
     print_within(r);
-    if (r->disagree) {
-        (void)printf("warning: events by pairs and by cells have no number in common; the cells "
-                     "hide structure, or points keep apart: look at g(r)\n");
-    } else if (i->fit_p < least_p) {
-        (void)printf("warning: g(r) is not that of points drawn from a density (p %s%s): it does "
-                     "not fall smoothly from r = 0\n",
-                     i->fit_p == 0.0 ? "" : "= ", cli_p_value(i->fit_p));
+    if (note[0] != '\0') {
+        (void)printf("warning: %s\n", note);
     }
 }
 

@@ -229,9 +229,9 @@ static void print_events(const cli_decompose_job *j, int64_t n_repeated)
 {
     const clast_decomposition *const r = j->result;
     if (isnan(r->events_low)) {
-        (void)printf("%d cell%s, no %s: %s\n", r->cells.n, cli_plural(r->cells.n),
-                     r->beta_dt > 0.0 ? "number of events" : "pair integral",
-                     clast_decompose_unbounded_text(n_repeated));
+        char note[CLI_WORDS_SIZE];
+        (void)printf("%d cell%s, %s\n", r->cells.n, cli_plural(r->cells.n),
+                     clast_decomposition_note(r, n_repeated, 1, sizeof note, note));
         return;
     }
     char high[32] = "-";
@@ -292,10 +292,8 @@ void cli_decompose_print(const cli_decompose_job *j, const cli_decompose_found *
     print_passes(r);
     (void)printf("stop: %s\n", clast_decompose_stop_text(r->stop));
     print_events(j, f->n_repeated);
-    if (r->n_pass > 0 && r->points_per_bin < 10.0) {
-        (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
-                     "their noise; compare "
-                     "--mesh tree\n",
-                     r->points_per_bin);
+    char note[CLI_WORDS_SIZE];
+    if (clast_decomposition_note(r, f->n_repeated, 2, sizeof note, note)[0] != '\0') {
+        (void)printf("warning: %s\n", note);
     }
 }

@@ -1,6 +1,7 @@
 // Help pages, from the same field tables that parse the options. The first page has 25 lines of 90
 // columns at most (tests/cli/test_help.py).
 #include "command.h"
+#include "common_options.h"
 #include "configs.h"
 
 #include <math.h>
@@ -226,6 +227,23 @@ static void print_usage(const cli_command *command)
     }
 }
 
+/// Those options of every command that most runs need, in one line.
+static void print_first_common(const cli_command *command)
+{
+    const char *between = "  ";
+    for (const cli_option *o = cli_options; o->name != NULL; ++o) {
+        if (o->first != NULL && cli_option_is_of(o, command)) {
+            const char letter[] = {o->letter, '\0'};
+            const bool is_short = o->letter != '\0';
+            (void)printf("%s%s%s%s%s: %s", between, is_short ? "-" : "--",
+                         is_short ? letter : o->name, o->value != NULL ? " " : "",
+                         o->value != NULL ? o->value : "", o->first);
+            between = "; ";
+        }
+    }
+    (void)putchar('\n');
+}
+
 void cli_help(const cli_command *command)
 {
     bool is_any = false; // of a short table that marks none, all are shown
@@ -239,10 +257,8 @@ void cli_help(const cli_command *command)
             print_short(f);
         }
     }
-    (void)printf("  %s-j N: threads;%s -q: quiet\n"
-                 "more: clast %s --help-all; man clast\n",
-                 command->writes_no_file ? "" : "-o PATH: where results go; ",
-                 command->writes_no_data ? "" : " --json: one object on stdout;", command->name);
+    print_first_common(command);
+    (void)printf("more: clast %s --help-all; man clast\n", command->name);
 }
 
 /// What a YAML file may say, and how values are written.
@@ -264,6 +280,19 @@ static void print_config_words(const cli_command *command)
         "an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers are SI.\n");
 }
 
+static void print_common(const cli_command *command)
+{
+    (void)printf("\nof every command:\n");
+    for (const cli_option *o = cli_options; o->name != NULL; ++o) {
+        if (o->help != NULL && cli_option_is_of(o, command)) {
+            char words[CLI_NAME_SIZE];
+            cli_option_words(o, words);
+            const int at = printf("  %-*s ", NAME_COLUMN - 1, words);
+            print_wrapped(o->help, at, at);
+        }
+    }
+}
+
 void cli_help_all(const cli_command *command)
 {
     print_usage(command);
@@ -277,19 +306,7 @@ void cli_help_all(const cli_command *command)
         }
         print_field(f);
     }
-    (void)printf(
-        "\nof every command:\n%s"
-        "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
-        "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
-        "                         (default 80%%)\n"
-        "  --time-limit TIME      stop by itself after so long (90min), as by SIGTERM: with a\n"
-        "                         checkpoint where --resume can go on\n"
-        "  --set KEY=VALUE        the same as --KEY VALUE\n"
-        "%s"
-        "  -q, --quiet            no progress on stderr\n"
-        "  -h, --help             the first page; --help-all: this one\n",
-        command->writes_no_file ? "" : "  -o, --output PATH      where results go\n",
-        command->writes_no_data ? "" : "  --json                 one JSON object on stdout\n");
+    print_common(command);
     if (command->fields != NULL) {
         print_config_words(command);
     }

@@ -6,17 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/// A length as typed: with its unit for a run in metres, bare in the unit of any other.
 static clast_status parse_length(const char *name, const char *text, const char *unit,
                                  double *value)
 {
-    const bool is_metre = strcmp(unit, "m") == 0;
-    const clast_status status =
-        is_metre ? clast_unit_parse_asked(text, "m", value) : clast_unit_parse(text, "-", value);
-    return status == CLAST_OK
-               ? CLAST_OK
-               : cli_fail(status, "%s: %s%s", name, clast_error_detail(),
-                          is_metre ? "" : "; the run has no unit, so a bare number in its own");
+    const clast_status status = clast_unit_parse_length(text, unit, value);
+    return status == CLAST_OK ? CLAST_OK : cli_fail(status, "%s: %s", name, clast_error_detail());
 }
 
 clast_status cli_read_length(const char *name, const char *text, const char *unit, double *value)

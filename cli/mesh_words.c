@@ -132,14 +132,17 @@ clast_status cli_mesh_output(const cli_common *common)
 }
 
 /// Says on stderr what the weld joined.
-static void note_weld(const cli_common *common, const clast_mesh_repair_report *weld)
+static void note_weld(const cli_common *common, const clast_mesh_repair_report *weld,
+                      const char *unit)
 {
+    char words[32];
+    cli_mesh_unit(unit, words);
     if (weld->n_merged > 0 && !common->quiet) {
         (void)fprintf(stderr,
                       "clast %s: note: %s: %d vert%s of open edges merged with others within %.3g "
-                      "(model units)\n",
+                      "(%s)\n",
                       common->command, cli_name(common->argument[0]), weld->n_merged,
-                      weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance);
+                      weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance, words);
     }
 }
 
@@ -147,9 +150,11 @@ clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh,
                              clast_mesh_read_report *report)
 {
     clast_mesh_repair_report weld = {0};
-    CLI_GUARD(cli_mesh_input(common, mesh, report));
+    clast_mesh_read_report own = {0};
+    clast_mesh_read_report *r = report != NULL ? report : &own;
+    CLI_GUARD(cli_mesh_input(common, mesh, r));
     CLI_GUARD(clast_mesh_weld_auto(mesh, &weld));
-    note_weld(common, &weld);
+    note_weld(common, &weld, r->unit);
     return CLAST_OK;
 }
 
@@ -200,6 +205,58 @@ clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh,
                       r->warning[i]);
     }
     return CLAST_OK;
+}
+
+clast_status cli_solid_volume(const clast_mesh *mesh, double *volume, const char **why)
+{
+    clast_mesh welded = {0};
+    clast_mesh_check_result found = {0};
+    clast_status status = CLAST_OK;
+    *volume = (double)NAN;
+    CLI_TRY(clast_mesh_copy(mesh, &welded));
+    CLI_TRY(clast_mesh_weld_auto(&welded, NULL));
+    if (welded.n_tri > 0) {
+        CLI_TRY(clast_mesh_check(&welded, &found));
+    }
+    if (!found.closed || !found.oriented) {
+        *why = mesh->n_tri > 0 ? "is not closed (clast mesh check)" : "is points";
+    } else if (cli_counts_twice(&found)) {
+        *why = found.intersection_complete ? "counts volume twice (clast mesh check)"
+                                           : "may count volume twice (clast mesh check)";
+    } else {
+        *volume = found.volume;
+    }
+done:
+    clast_mesh_check_free(&found);
+    clast_mesh_free(&welded);
+    return status;
+}
+
+void cli_hull_words(const clast_mesh *mesh, double hull_volume, double volume, const char *why)
+{
+    if (isnan(volume)) {
+        (void)printf("  what it adds is not known: the input %s\n", why);
+        return;
+    }
+    (void)printf(
+        "  surface volume %.10g, area %.10g: the hull adds %.10g (%.4g of its own volume)\n",
+        volume, clast_mesh_area(mesh), hull_volume - volume, 1.0 - volume / hull_volume);
+}
+
+void cli_mesh_unit(const char *unit, char words[32])
+{
+    (void)snprintf(words, 32, "%s%s", unit[0] != '\0' ? "lengths in " : "model units", unit);
+}
+
+clast_status cli_mesh_length(const char *name, const char *text, const char *unit, double *value)
+{
+    const clast_status status = clast_unit_parse_length(text, unit, value);
+    if (status != CLAST_OK) {
+        return cli_fail(status, "%s: %s", name, clast_error_detail());
+    }
+    return *value >= 0.0 && *value <= 1e12
+               ? CLAST_OK
+               : cli_fail(CLAST_E_CONFIG, "%s: %s is outside [0, 1e12]", name, text);
 }
 
 clast_status cli_mesh_save(const cli_common *common, const clast_mesh *mesh,

@@ -26,6 +26,18 @@ clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh,
 clast_status cli_mesh_save(const cli_common *common, const clast_mesh *mesh,
                            const clast_mesh_read_report *read);
 
+/// Volume of the surface that a hull was taken of; NaN, and why, where it has none.
+clast_status cli_solid_volume(const clast_mesh *mesh, double *volume, const char **why);
+
+/// Says on stdout what the hull adds to it.
+void cli_hull_words(const clast_mesh *mesh, double hull_volume, double volume, const char *why);
+
+/// "lengths in mm", or "model units" of a surface that names no unit.
+void cli_mesh_unit(const char *unit, char words[32]);
+
+/// An option's length as typed, in the unit of a surface (clast_unit_parse_length), 0 to 1e12.
+clast_status cli_mesh_length(const char *name, const char *text, const char *unit, double *value);
+
 /// Whether its volume counts a region twice, or may, or a sheet is in it
 /// (clast_mesh_check_doubles).
 bool cli_counts_twice(const clast_mesh_check_result *found);

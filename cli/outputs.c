@@ -1,11 +1,9 @@
-// Outputs are no inputs: compared by the file itself, so that links and other spellings count.
+// Outputs are no inputs, no files of runs and no two of them one.
 #include "command.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { MOST_OUTPUTS = 16 };
 
@@ -45,87 +43,17 @@ static void find_outputs(const cli_command *command, const cli_common *common, c
     }
 }
 
-static bool is_same(const char *a, const char *b)
+bool cli_is_folder(const char *path)
 {
-    struct stat of_a;
-    struct stat of_b;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
-           of_a.st_ino == of_b.st_ino && (S_ISREG(of_a.st_mode) || S_ISDIR(of_a.st_mode));
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
 }
 
-/// Follows the links at the end of a path, at most 40, also where the last one dangles.
-static void follow(const char *path, char end[CLAST_RUN_PATH])
-{
-    char next[CLAST_RUN_PATH];
-    (void)snprintf(end, CLAST_RUN_PATH, "%s", path);
-    for (int k = 0; k < 40; ++k) {
-        const ssize_t n = readlink(end, next, sizeof next - 1);
-        if (n < 0) {
-            return;
-        }
-        next[n] = '\0';
-        char *slash = strrchr(end, '/');
-        const size_t kept = next[0] == '/' || slash == NULL ? 0 : (size_t)(slash - end) + 1;
-        (void)snprintf(end + kept, CLAST_RUN_PATH - kept, "%s", next);
-    }
-}
-
-/// Whether two paths are one place, where nothing need be yet.
-static bool is_same_place(const char *a, const char *b)
-{
-    char end[2][CLAST_RUN_PATH];
-    const char *name[2];
-    const char *folder[2];
-    follow(a, end[0]);
-    follow(b, end[1]);
-    for (int k = 0; k < 2; ++k) {
-        char *slash = strrchr(end[k], '/');
-        name[k] = slash != NULL ? slash + 1 : end[k];
-        folder[k] = slash == NULL ? "." : slash == end[k] ? "/" : end[k];
-        if (slash != NULL) {
-            *slash = '\0';
-        }
-    }
-    return is_same(a, b) || (strcmp(name[0], name[1]) == 0 && is_same(folder[0], folder[1]));
-}
-
-/// Whether a file that a run could write lies in this folder; a configuration (YAML) none does.
-static bool is_in(const char *file, const char *folder)
-{
-    char parent[4096];
-    struct stat info;
-    const char *slash = strrchr(file, '/');
-    const char *dot = strrchr(file, '.');
-    const int n = slash != NULL ? (int)(slash - file) + 1 : 0;
-    if (stat(file, &info) != 0 || !S_ISREG(info.st_mode) || n >= (int)sizeof parent ||
-        (dot != NULL && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0))) {
-        return false;
-    }
-    (void)snprintf(parent, sizeof parent, "%.*s", n, n > 0 ? file : ".");
-    return is_same(n > 0 ? parent : ".", folder);
-}
-
-/// Refuses the outputs that are this input or would hold it; "list:FILE" names one as FILE does.
+/// Refuses the outputs that are this input or would hold it.
 static clast_status check_input(const outputs *o, const char *input)
 {
-    const char *const colon = strchr(input, ':');
-    const char *const spelling[2] = {input, colon != NULL ? colon + 1 : NULL};
     for (int32_t i = 0; i < o->n; ++i) {
-        for (int k = 0; k < 2 && spelling[k] != NULL; ++k) {
-            if (is_same(o->path[i], spelling[k])) {
-                return cli_fail(CLAST_E_USAGE,
-                                "%s %s is the input %s; an output takes no input's place, give it "
-                                "another name",
-                                o->option[i], o->path[i], spelling[k]);
-            }
-            if (is_in(spelling[k], o->path[i])) {
-                return cli_fail(
-                    CLAST_E_USAGE,
-                    "%s %s is the folder of the input %s, whose place a file of the run "
-                    "could take; give a folder of its own",
-                    o->option[i], o->path[i], spelling[k]);
-            }
-        }
+        CLI_GUARD(clast_run_folder_check_input(o->option[i], o->path[i], input));
     }
     return CLAST_OK;
 }
@@ -149,13 +77,11 @@ static clast_status check_field(const outputs *o, const clast_field *f, const vo
 static clast_status check_each(const outputs *o)
 {
     for (int32_t i = 0; i < o->n; ++i) {
-        if (!(i == 0 && o->first_is_folder) && clast_run_folder_owns(o->path[i])) {
-            return cli_fail(CLAST_E_USAGE,
-                            "%s %s is part of a run; give another name, or export what you need",
-                            o->option[i], o->path[i]);
+        if (i > 0 || !o->first_is_folder) {
+            CLI_GUARD(clast_run_folder_check_output(o->option[i], o->path[i]));
         }
         for (int32_t j = 0; j < i; ++j) {
-            if (strcmp(o->path[i], o->path[j]) == 0 || is_same_place(o->path[i], o->path[j])) {
+            if (clast_run_folder_is_same(o->path[i], o->path[j])) {
                 return cli_fail(CLAST_E_USAGE, "%s and %s name the same file, %s", o->option[j],
                                 o->option[i], o->path[i]);
             }

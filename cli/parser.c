@@ -1,6 +1,7 @@
 // The words of a command line: options from the field table, common options, arguments.
 #include "parser.h"
 
+#include "common_options.h"
 #include <clast/field.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -90,40 +91,42 @@ static clast_status set_threads(cli_parser *p, const char *value)
     return CLAST_OK;
 }
 
-/// Options that every command has; false when it is none of them.
-static bool common_option(cli_parser *p, const char *name, const char *value, bool *used_value,
-                          clast_status *status)
+/// An option that every command has; `value` is NULL where none is left.
+static clast_status common_option(cli_parser *p, const cli_option *option, const char *value)
 {
-    *used_value = false;
-    *status = CLAST_OK;
-    if (strcmp(name, "json") == 0) {
-        p->common.json = true;
-    } else if (strcmp(name, "quiet") == 0) {
-        p->common.quiet = true;
-    } else if (strcmp(name, "help") == 0 || strcmp(name, "help-all") == 0) {
-        p->help = true;
-        p->help_all = p->help_all || name[4] == '-';
-    } else if (strcmp(name, "output") == 0 || strcmp(name, "threads") == 0 ||
-               strcmp(name, "max-memory") == 0 || strcmp(name, "time-limit") == 0 ||
-               strcmp(name, "set") == 0) {
-        *used_value = true;
-        if (value == NULL) {
-            *status = usage_error(p, "--%s needs a value", name);
-        } else if (value[0] == '\0') {
-            *status = usage_error(p, "--%s has an empty value", name);
-        } else if (name[0] == 'o') {
-            p->common.output = value;
-        } else if (name[0] == 'm') {
-            p->common.max_memory = value;
-        } else if (strcmp(name, "time-limit") == 0) {
-            p->common.time_limit = value;
-        } else {
-            *status = name[0] == 's' ? set_pair(p, value) : set_threads(p, value);
-        }
-    } else {
-        return false;
+    if (option->value != NULL && (value == NULL || value[0] == '\0')) {
+        return usage_error(p, "--%s %s", option->name,
+                           value == NULL ? "needs a value" : "has an empty value");
     }
-    return true;
+    switch (option->kind) {
+    case CLI_OPTION_OUTPUT:
+        p->common.output = value;
+        break;
+    case CLI_OPTION_THREADS:
+        return set_threads(p, value);
+    case CLI_OPTION_MAX_MEMORY:
+        p->common.max_memory = value;
+        break;
+    case CLI_OPTION_TIME_LIMIT:
+        p->common.time_limit = value;
+        break;
+    case CLI_OPTION_SET:
+        return set_pair(p, value);
+    case CLI_OPTION_JSON:
+        p->common.json = true;
+        break;
+    case CLI_OPTION_QUIET:
+        p->common.quiet = true;
+        break;
+    case CLI_OPTION_HELP_ALL:
+        p->help_all = true;
+        p->help = true;
+        break;
+    case CLI_OPTION_HELP:
+        p->help = true;
+        break;
+    }
+    return CLAST_OK;
 }
 
 /// The switch that --no-NAME turns off, or NULL when the option is nothing of the kind.
@@ -145,11 +148,10 @@ static clast_status long_option(cli_parser *p, int argc, char **argv, int *at)
     (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
     const char *next = *at + 1 < argc ? argv[*at + 1] : NULL;
     const char *value = equals != NULL ? equals + 1 : next;
-    bool used = false;
-    clast_status status = CLAST_OK;
-    if (common_option(p, name, value, &used, &status)) {
-        *at += used && equals == NULL ? 1 : 0;
-        return status;
+    const cli_option *common = cli_option_find(name);
+    if (common != NULL) {
+        *at += common->value != NULL && equals == NULL ? 1 : 0;
+        return common_option(p, common, value);
     }
     if (negated(p, name) != NULL) {
         return equals == NULL
@@ -172,23 +174,15 @@ static clast_status long_option(cli_parser *p, int argc, char **argv, int *at)
 
 static clast_status short_option(cli_parser *p, int argc, char **argv, int *at)
 {
-    static const struct {
-        char letter;
-        const char *name;
-    } letters[] = {{'o', "output"}, {'j', "threads"}, {'q', "quiet"}, {'h', "help"}};
     const char *text = argv[*at] + 1;
-    for (size_t i = 0; i < sizeof letters / sizeof letters[0]; ++i) {
-        if (text[0] == letters[i].letter) {
-            const bool attached = text[1] != '\0';
-            const char *value = attached ? text + 1 : (*at + 1 < argc ? argv[*at + 1] : NULL);
-            bool used = false;
-            clast_status status = CLAST_OK;
-            (void)common_option(p, letters[i].name, value, &used, &status);
-            *at += used && !attached ? 1 : 0;
-            return status;
-        }
+    const cli_option *option = cli_option_of_letter(text[0]);
+    if (option == NULL) {
+        return usage_error(p, "unknown option %s", argv[*at]);
     }
-    return usage_error(p, "unknown option %s", argv[*at]);
+    const bool attached = text[1] != '\0';
+    const char *value = attached ? text + 1 : (*at + 1 < argc ? argv[*at + 1] : NULL);
+    *at += option->value != NULL && !attached ? 1 : 0;
+    return common_option(p, option, value);
 }
 
 static bool looks_like_number(const char *text)
@@ -199,15 +193,11 @@ static bool looks_like_number(const char *text)
 /// Whether the option `word` takes the next word as its value.
 static bool uses_next(const cli_parser *p, const char *word)
 {
-    static const char *const common[] = {"output", "threads", "max-memory", "time-limit", "set"};
     const char *name = word + 2;
-    if (word[1] != '-') {
-        return (word[1] == 'o' || word[1] == 'j') && word[2] == '\0';
-    }
-    for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
-        if (strcmp(name, common[k]) == 0) {
-            return true;
-        }
+    const cli_option *common =
+        word[1] == '-' ? cli_option_find(name) : cli_option_of_letter(word[1]);
+    if (common != NULL || word[1] != '-') {
+        return common != NULL && common->value != NULL && (word[1] == '-' || word[2] == '\0');
     }
     return strchr(name, '=') == NULL && p->command->fields != NULL &&
            clast_fields_find(p->command->fields, name) != NULL && takes_value(p, name);

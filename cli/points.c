@@ -3,13 +3,10 @@
 
 #include "command.h"
 #include "json.h"
-#include "quantity.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define SMALLEST_SHARE 1e-3 // of a domain's width that a cloud is expected to fill
 
 #define TEXT(name, ...)                                                                            \
     {                                                                                              \
@@ -101,22 +98,6 @@ void cli_domain_json(json_t *out, const char *text, const clast_domain *domain)
     cli_json_text(out, "domain_volume_unit", unit);
 }
 
-/// Doubles in their order as whole numbers, and back.
-static int64_t in_order(double value)
-{
-    int64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits < 0 ? INT64_MIN - bits : bits;
-}
-
-static double from_order(int64_t order)
-{
-    const int64_t bits = order < 0 ? INT64_MIN - order : order;
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /// The unit in which points that lie outside the domain would fill it, "mm" or "um"; NULL: none.
 static const char *unit_that_fits(const clast_domain *domain, const clast_cloud *cloud)
 {
@@ -161,41 +142,31 @@ clast_status cli_points_status(clast_status status, const cli_points *points,
     return cli_fail(status, "%s; in %s they would fit: --unit %s?", said, unit, unit);
 }
 
-void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
-                       const clast_cloud *cloud)
+void cli_warn(const cli_common *common, const char *line)
 {
-    const clast_comm *comm = common->comm;
-    const double width = pow(clast_domain_volume(domain), 1.0 / cloud->dimension);
-    double widest = 0.0;
-    for (int32_t axis = 0; axis < cloud->dimension; ++axis) {
-        double end[2] = {INFINITY, INFINITY}; // the lowest, and the highest with its sign turned
-        for (int64_t i = 0; i < cloud->n; ++i) {
-            const double x = cloud->x[i * cloud->dimension + axis];
-            end[0] = fmin(end[0], x);
-            end[1] = fmin(end[1], -x);
-        }
-        for (int k = 0; k < 2; ++k) {
-            end[k] = from_order(comm->least(comm->context, in_order(end[k])));
-        }
-        widest = fmax(widest, -end[1] - end[0]);
-    }
-    if (comm->rank == 0 && widest > 0.0 && widest < SMALLEST_SHARE * width) {
-        (void)fprintf(stderr,
-                      "clast %s: warning: all points lie within %s, the domain is %s wide; "
-                      "are both in the same unit? (bare numbers of --domain are metres unless "
-                      "--unit says otherwise)\n",
-                      common->command, cli_quantity(widest, "m"), cli_quantity(width, "m"));
+    if (line[0] != '\0') {
+        (void)fprintf(stderr, "clast %s: warning: %s\n", common->command, cli_name(line));
     }
 }
 
-void cli_warn_of_weight(const cli_common *common, const clast_table *table,
-                        const clast_cloud_columns *columns)
+void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
+                       const clast_cloud *cloud)
 {
-    const char *const name = clast_cloud_unread_weight(table, columns);
-    if (name != NULL) {
-        (void)fprintf(stderr,
-                      "clast %s: warning: %s: column '%s' is not looked at: each row is one "
-                      "particle (--weight-column %s)\n",
-                      common->command, cli_name(table->name), cli_name(name), cli_name(name));
+    char words[CLI_WORDS_SIZE];
+    char line[CLI_WORDS_SIZE + 100];
+    (void)clast_cloud_corner_words(cloud, common->comm, domain, sizeof words, words);
+    if (common->comm->rank == 0 && words[0] != '\0') {
+        (void)snprintf(line, sizeof line,
+                       "%s (bare numbers of --domain are metres unless --unit says otherwise)",
+                       words);
+        cli_warn(common, line);
+    }
+}
+
+void cli_warn_of_weight(const cli_common *common, const clast_cloud *cloud, const char *path)
+{
+    char words[CLI_LINE_SIZE];
+    if (common->comm->rank == 0) {
+        cli_warn(common, clast_cloud_weight_words(cloud, path, sizeof words, words));
     }
 }

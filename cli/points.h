@@ -37,11 +37,15 @@ void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI
 clast_status cli_points_status(clast_status status, const cli_points *points,
                                const clast_domain *domain, const clast_cloud *cloud);
 
-/// Positions in um in a domain in m all lie in a corner of it: says so on stderr. Called by all
-/// ranks.
+enum { CLI_LINE_SIZE = 1000 };
+
+/// "clast COMMAND: warning: LINE" on stderr; nothing of an empty line.
+void cli_warn(const cli_common *common, const char *line);
+
+/// Says on stderr that the points lie in a corner of the domain (clast_cloud_corner_words). Called
+/// by all ranks.
 void cli_warn_of_units(const cli_common *common, const clast_domain *domain,
                        const clast_cloud *cloud);
 
-/// Says on stderr that a column of weights by its name is not read, as no option names it.
-void cli_warn_of_weight(const cli_common *common, const clast_table *table,
-                        const clast_cloud_columns *columns);
+/// Says on stderr that a column of weights is not read (clast_cloud_weight_words).
+void cli_warn_of_weight(const cli_common *common, const clast_cloud *cloud, const char *path);

@@ -52,13 +52,13 @@ static json_t *profile_json(const clast_bed_findings *f)
 }
 
 /// How many contacts of a force chain there are, and how many chains.
-static void count_chains(const clast_table *chains, int64_t *n_link, int64_t *n_chain)
+static void count_chains(const clast_table *chains, int64_t *n_contact, int64_t *n_chain)
 {
     const double *chain = clast_table_numbers(chains, "chain");
-    *n_link = 0;
+    *n_contact = 0;
     *n_chain = 0;
     for (int64_t k = 0; chain != NULL && k < chains->n_row; ++k) {
-        *n_link += chain[k] > 0.0 ? 1 : 0;
+        *n_contact += chain[k] > 0.0 ? 1 : 0;
         *n_chain = chain[k] > (double)*n_chain ? (int64_t)chain[k] : *n_chain;
     }
 }
@@ -79,12 +79,12 @@ static double mass_of(const clast_table *fields)
 
 static void add_chains(json_t *object, const clast_bed_findings *f)
 {
-    int64_t n_link = 0;
+    int64_t n_contact = 0;
     int64_t n_chain = 0;
     if (f->chains.n_column > 0) {
-        count_chains(&f->chains, &n_link, &n_chain);
+        count_chains(&f->chains, &n_contact, &n_chain);
         cli_json_count(object, "n_chain", n_chain);
-        cli_json_count(object, "n_chain_contact", n_link);
+        cli_json_count(object, "n_chain_contact", n_contact);
     }
     if (f->fields.n_column > 0) {
         cli_json_count(object, "n_field_cell", f->fields.n_row);
@@ -345,11 +345,11 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
         (void)printf("force chains        none: no grain touches another or a wall, so there is no "
                      "chains.svg; let the run settle (clast pack --resume)\n");
     } else if (f->chains.n_row > 0) {
-        int64_t n_link = 0;
+        int64_t n_contact = 0;
         int64_t n_chain = 0;
-        count_chains(&f->chains, &n_link, &n_chain);
+        count_chains(&f->chains, &n_contact, &n_chain);
         (void)printf("force chains        %lld, of %lld of %lld contacts\n", (long long)n_chain,
-                     (long long)n_link, (long long)f->chains.n_row);
+                     (long long)n_contact, (long long)f->chains.n_row);
     }
     if (common->output != NULL) {
         (void)printf("tables and profile.svg are in %s\n", common->output);

@@ -4,12 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Collisions before particles: what tells more.
-static const clast_range_use *use_of(const clast_range_report *r)
-{
-    return r->collisions.outside > 0.0 || !(r->start.outside > 0.0) ? &r->collisions : &r->start;
-}
-
 static double share_of(const clast_range_use *use)
 {
     return use->n > 0.0 ? use->outside / use->n : 0.0;
@@ -17,7 +11,7 @@ static double share_of(const clast_range_use *use)
 
 void cli_range_json(json_t *out, const clast_range_report *r)
 {
-    const clast_range_use *use = use_of(r);
+    const clast_range_use *use = clast_range_report_use(r);
     if (!(use->outside > 0.0)) {
         (void)json_object_set_new(out, "out_of_range", json_null());
         return;
@@ -36,35 +30,6 @@ void cli_range_json(json_t *out, const clast_range_report *r)
     cli_json_number(o, "share_of_collisions", share_of(&r->collisions));
     cli_json_number(o, "from_time", r->time);
     (void)json_object_set_new(out, "out_of_range", o);
-}
-
-void cli_range_warn(const cli_common *common, const clast_range_report *r)
-{
-    const clast_range_use *use = use_of(r);
-    char words[512];
-    char when[64] = "";
-    if (!(use->outside > 0.0) || common->quiet) {
-        return;
-    }
-    if (isfinite(r->time)) {
-        (void)snprintf(when, sizeof when, ", over 0.1 %% of them from t = %.4g s on", r->time);
-    }
-    (void)fprintf(
-        stderr,
-        "clast agglomerate: warning: %s; beyond lie %.3g %% of the particles at the start "
-        "and %.3g %% of the collisions%s\n",
-        clast_range_use_words(use, sizeof words, words), 100.0 * share_of(&r->start),
-        100.0 * share_of(&r->collisions), when);
-}
-
-void cli_dense_warn(const cli_common *common, double volume_fraction)
-{
-    if (volume_fraction > 0.1 && !common->quiet) {
-        (void)fprintf(stderr,
-                      "clast %s: warning: the particles fill %.3g %% of the volume; kernels are of "
-                      "dilute suspensions: look at the units\n",
-                      common->command, 100.0 * volume_fraction);
-    }
 }
 
 size_t cli_range_table(char *words, size_t size)

@@ -27,6 +27,3 @@ typedef struct cli_scene {
     const char *summary;
     clast_status (*run)(cli_lap *b);
 } cli_scene;
-
-/// Scene number i (cli/scenes.def), or NULL after the last.
-const cli_scene *cli_scene_at(int32_t i);

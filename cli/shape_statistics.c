@@ -130,7 +130,9 @@ void cli_statistics_words(const clast_grain_statistics *statistics)
         "\n\nfrom, to: 95 %% interval of the mean (bootstrap); W, p: Shapiro and Wilk's test "
         "of a normal law");
     if (statistics->set.size != NULL) {
-        (void)printf("; size: %s", statistics->set.size_label);
+        const bool has_unit = statistics->set.size_unit[0] != '\0';
+        (void)printf("; size: %s%s%s%s", statistics->set.size_name, has_unit ? " (" : "",
+                     statistics->set.size_unit, has_unit ? ")" : "");
     }
     (void)printf("\n%-30s%10s%10s%10s%10s%10s%10s%10s\n", "factor", "mean", "deviation", "from",
                  "to", "median", "W", "p");

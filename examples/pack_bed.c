@@ -1,5 +1,5 @@
-// Pours a small bed of ellipsoids into a cylinder, shakes and calms it, and tells its porosity; the
-// loop is the caller's, so a program may look at the bed between steps.
+// Pours a small bed of ellipsoids into a cylinder, shakes and damps it, and prints its porosity;
+// the loop is the caller's, so a program may look at the bed between steps.
 //
 //     cc pack_bed.c $(pkg-config --cflags --libs clast) && ./a.out
 #include <clast/field.h>

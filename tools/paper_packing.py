@@ -687,7 +687,7 @@ nothing left out. The published explicit steps of T_c/40 beside half of them, an
 
 Explicit steps of T_c/40 and T_c/80 and exact ones of T_c/40 agree within their errors. **Exact steps of T_c/20 make denser beds**, here and in six beds of 4 kg (forms of
 `forms-10`: -0.0028 ± 0.0024, by form 0.0000 to -0.0057, a bed's own scatter in it): where a grain has more contacts than such steps bear, their dashpots are reduced (`../theory/dem.md`). They do for a look at half the price, not for
-porosities to 0.005. (Twelve ellipsoid beds of 280 grains, which stood here before, had not told: -0.0031 ± 0.0059.)
+porosities to 0.005. (Twelve ellipsoid beds of 280 grains, which stood here before, were not conclusive: -0.0031 ± 0.0059.)
 Explicit steps of T_c/20 did not end: after 1 s of damping the fastest of 280 ellipsoids moved at 2.0 to 2.7 mm/s; at T_c/10 the mean height itself moved on. Both are refused.
 Exact steps of T_c/10 (with an earlier form of the limit for grains with many contacts) gave -0.0047 ± 0.0026 over ten seeds, and are refused too.
 

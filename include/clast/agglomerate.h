@@ -38,7 +38,7 @@ typedef enum {
 
 typedef enum {
     CLAST_OUT_OF_RANGE_ERROR,      ///< ends when over 0.1 % of the collisions lie out of a range
-    CLAST_OUT_OF_RANGE_EXTRAPOLATE ///< tells it alone
+    CLAST_OUT_OF_RANGE_EXTRAPOLATE ///< only reports it
 } clast_out_of_range;
 
 /// How particles collide; start from clast_collide_config_default.
@@ -50,9 +50,9 @@ typedef struct clast_collide_config {
     int32_t out_of_range;    ///< clast_out_of_range
     int32_t radius_law, collisions;
     double monomer_radius, fractal_dimension, fractal_prefactor; ///< a0 [m], D_f, k_f
-    double leap;   ///< Poisson: collisions that no particle exceeds on average in a sub-step
-    int32_t block; ///< kinds of particles above which a cell is dealt into random blocks of this
-                   ///< many; 0: never
+    double leap;          ///< Poisson: collisions that no particle exceeds on average in a sub-step
+    int32_t block;        ///< kinds of particles above which a cell is partitioned at random into
+                          ///< blocks of this many; 0: never
     bool self_collisions; ///< the particles of one parcel collide with each other too
     bool keep_positions;  ///< an aggregate stays where its heavier part was, else it is where one
                           ///< of its parts was, drawn by mass
@@ -85,7 +85,7 @@ typedef struct clast_collide_cells {
 /// of the second sticks to one of the first, which keeps w1 - w2 (equal weights: it is gone), so
 /// that w1 w2 pairs collide at alpha beta / V on average and the sums of weight times monomers,
 /// mass and momentum never change. With self_collisions a parcel also halves its weight and doubles
-/// its monomers at alpha beta (w - 1) / V. Two parcels that live on keep their two places, which
+/// its monomers at alpha beta (w - 1) / V. Two parcels that live on keep their two positions, which
 /// may be exchanged (not with keep_positions).
 ///
 /// @param step     number of the step, below 2^32: with the seed it fixes every draw
@@ -109,8 +109,11 @@ CLAST_API clast_status clast_collide(clast_population *population, const clast_c
 /// clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their
 /// ranges look at, one of another law of sticking, of fractal radii.
 ///
+/// @param settles  particles settle out of a box (clast_spectrum_config.settling_depth) whatever
+///                 the kernel is, so what their speed depends on is looked at
 /// @return NULL where the key is looked at, and for every key that is none of these
-CLAST_API const char *clast_collide_idle(const clast_collide_config *config, const char *key);
+CLAST_API const char *clast_collide_idle(const clast_collide_config *config, const char *key,
+                                         bool settles);
 
 // Size spectrum of a well-mixed suspension in time, without positions: coagulation, breakage,
 // sources and settling, by Monte Carlo or by a sectional method. [docs/theory/agglomeration.md
@@ -154,6 +157,11 @@ extern CLAST_API const clast_field clast_spectrum_fields[];
 CLAST_API const clast_idle *clast_spectrum_idle(const clast_spectrum_config *config,
                                                 clast_idle rules[CLAST_N_IDLE]);
 
+/// Whether a key or option of `clast agglomerate` goes with a well-mixed box, or with the positions
+/// of a cloud; `kernel`, `duration`, `seed` and the like with both. A name that there is not is one
+/// of clouds.
+CLAST_API bool clast_agglomerate_takes(const char *key, bool is_box);
+
 /// A start by a table; borrowed.
 typedef struct clast_spectrum_start {
     int64_t n;
@@ -183,6 +191,7 @@ typedef struct clast_spectrum {
     double volume_fraction;
     double law_M1, law_M2; ///< of the law at the start [1/m^3]; the history's first row has what
                            ///< the box holds of it
+    bool is_drawn;         ///< from that law: Monte Carlo
     double mass_error;     ///< largest, relative to what was there and came in
     int64_t n_evaluation;  ///< of the right-hand side; events of Monte Carlo
     clast_range_report range;
@@ -214,6 +223,17 @@ CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_start *start,
                                              const clast_collide_config *collide,
                                              const clast_monitor *monitor, clast_spectrum *result);
 CLAST_API void clast_spectrum_free(clast_spectrum *result);
+
+enum { CLAST_N_SPECTRUM_NOTE = 3 };
+
+/// What to say of a box: 0, particles or collisions out of the range of their kernel; 1, particles
+/// that are too dense (clast_kernel_dense_words); 2, a drawn start whose M1 or M2 is over 1 % off
+/// that of its law.
+///
+/// @param k  of CLAST_N_SPECTRUM_NOTE    @param text  [size], 768 suffice
+/// @return text; "" where there is nothing to say
+CLAST_API const char *clast_spectrum_note(const clast_spectrum *result, int32_t k, size_t size,
+                                          char *text);
 
 // Agglomeration in time: cells by decomposition, collisions in them, again at each snapshot.
 // [docs/theory/agglomeration.md]
@@ -289,7 +309,9 @@ typedef struct clast_agglomeration {
     /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.
     clast_table spectrum;
     int32_t n_rebuilt;    ///< decompositions after the first, first repeat
-    int32_t n_unresolved; ///< snapshots whose cells were made of points that are not resolved
+    int32_t n_snapshot;   ///< of the input
+    int32_t n_unresolved; ///< of them: cells were made of points that are not resolved
+    int64_t n_repeated;   ///< duplicate (coincident) points, in the snapshot that has the most
     int32_t n_cell;       ///< last, first repeat
     /// Of spheres of the collision radii at the start in the domain; NaN: without radii, or a
     /// missing dimension has no depth. Kernels are of dilute suspensions.
@@ -306,11 +328,21 @@ typedef struct clast_agglomeration {
 /// @param monitor  may be NULL; asked between steps, a stop request returns CLAST_E_STOPPED
 /// @return as clast_decompose and clast_collide; CLAST_E_CONFIG for missing columns or
 /// parameters, CLAST_E_FORMAT for values that cannot be (with the particle's number), and for a
-/// snapshot where so many particles repeat the place of another that there is no number of events
+/// snapshot where so many particles are duplicates (coincident) that there is no number of events
 CLAST_API clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                          const clast_agglomerate_config *config,
                                          const clast_monitor *monitor, clast_agglomeration *result);
 CLAST_API void clast_agglomeration_free(clast_agglomeration *result);
+
+enum { CLAST_N_AGGLOMERATION_NOTE = 4 };
+
+/// What to say of a cloud that agglomerates: 0 and 1 as of a box (clast_spectrum_note); 2,
+/// snapshots that are not resolved; 3, duplicate points, which collide.
+///
+/// @param k  of CLAST_N_AGGLOMERATION_NOTE    @param text  [size], 768 suffice
+/// @return text; "" where there is nothing to say
+CLAST_API const char *clast_agglomeration_note(const clast_agglomeration *result, int32_t k,
+                                               size_t size, char *text);
 
 /// Whether two samples of n points of the unit cube have the same density: chi-square of their
 /// counts on a regular grid that is chosen without looking at them (10 points a block or more).

@@ -1,5 +1,5 @@
 #pragma once
-// Virtual aggregates: grains thrown one after another at a core, or clusters at clusters, each
+// Virtual aggregates: grains released one after another at a core, or clusters at clusters, each
 // stopped at first touch.                       [docs/theory/aggregation.md; Rossi & Bonadonna
 // 2021]
 #include <clast/assembly.h>
@@ -54,7 +54,7 @@ typedef enum { CLAST_TARGET_CORE, CLAST_TARGET_MASS } clast_search_target;
 /// How a particle or cluster comes to what is there.
 typedef enum {
     CLAST_APPROACH_CENTRAL,   ///< along rays to the origin, as published: impact parameter 0
-    CLAST_APPROACH_BALLISTIC, ///< along lines whose impact parameter is even over the cross-section
+    CLAST_APPROACH_BALLISTIC, ///< along lines, impact parameter uniform over the cross-section
     CLAST_APPROACH_DIFFUSIVE  ///< by Brownian motion from far away (DLA, DLCA)
 } clast_approach;
 
@@ -91,7 +91,7 @@ typedef struct clast_aggregate_params {
     double start; ///< particle sizes beyond the outermost hit of the ray; 0: from outside of all
     int32_t max_tries;
     int32_t approach; ///< clast_approach
-    double walk_step; ///< diffusive: least step, by the radius of the smallest thrown grain
+    double walk_step; ///< diffusive: least step, by the radius of the smallest released particle
 
     int32_t contact;
     int32_t flavour;
@@ -226,7 +226,7 @@ CLAST_API clast_status clast_aggregate_history(const clast_aggregate *aggregate,
 CLAST_API clast_status clast_aggregate_measure(const clast_aggregate *aggregate,
                                                clast_aggregate_result *result);
 
-/// Cluster mode: table with the cluster of every grain and its place in it, which restoring needs.
+/// Cluster mode: table with the cluster of every grain and its index in it, which restoring needs.
 CLAST_API clast_status clast_aggregate_members(const clast_aggregate *aggregate,
                                                clast_table *members);
 

@@ -200,7 +200,7 @@ typedef struct clast_aggregate_fit {
 /// doubling and halving, and aggregates are grown in config->fit_repeats repeats with the same
 /// random numbers at every node. Between the N_A grown, means are interpolated in ln N_A. A node
 /// has chi2 = sum ((model - observed) / s)^2, s^2 = error^2 + the pooled scatter of repeats, and
-/// the weight exp(-chi2 / 2) under even chances for packings and for ln N_A.
+/// the weight exp(-chi2 / 2) under equal prior probabilities for packings and for ln N_A.
 ///                                                               [docs/theory/aggregate-fit.md]
 ///
 /// @param nodes  empty; one row per packing and N_A: cone_rad, rays, orientations, replicate, n_run

@@ -5,7 +5,7 @@
 CLAST_BEGIN
 
 /// Placed shapes: what aggregates and packings end as. Grain i is shape[shape_id[i]] scaled,
-/// turned, moved: x_world = position + scale * R(orientation) * x_shape.
+/// rotated, translated: x_world = position + scale * R(orientation) * x_shape.
 struct clast_assembly {
     int32_t n_shape;
     clast_shape *shape; ///< [n_shape] owned
@@ -20,9 +20,10 @@ struct clast_assembly {
     int32_t (*contact)[2];      ///< [n_contact][2] grain indices, or NULL when not known
     double (*contact_point)[3]; ///< [n_contact][3] m, with contact
     char unit[16]; ///< length unit of the coordinates: "m", or "model" when the input had none
-    int32_t grain_capacity;   ///< grains the arrays have room for; 0 if made by hand
+    int32_t grain_capacity;   ///< capacity of the arrays; 0 if made by hand
     int32_t contact_capacity; ///< the same for contacts
     bool no_density; ///< the grains came without densities: they are 1 until they are set to others
+    bool has_ids;    ///< the ids are those of another program's file; else the library's, from 0
 };
 
 /// Frees all arrays and shapes; may be called twice.
@@ -76,7 +77,7 @@ typedef struct clast_rigid_options {
 /// convex surfaces, which are its parts.
 ///
 /// Volume, centroid and inertia are those of the union: the sum over parts, less what lies in
-/// several, which is integrated over 262,144 lines along x (exact along each, an even lattice
+/// several, which is integrated over 262,144 lines along x (exact along each, a uniform lattice
 /// across; error below 2e-4 of what is in common). Parts that only touch are summed exactly.
 /// `shape->own` has the mean density and, where densities differ, centre of mass and inertia; what
 /// several parts have in common is of the first of them (a core keeps its place in its coating).
@@ -346,8 +347,8 @@ CLAST_API clast_status clast_assembly_projected_area(const clast_assembly *assem
                                                      const double direction[3], int32_t n_line,
                                                      double *area, double *error);
 
-/// Mean shadow over n_direction directions spread evenly over the half sphere; error: standard
-/// deviation over the root of their number (an upper bound for even directions).
+/// Mean shadow over n_direction directions distributed uniformly over the half sphere; error:
+/// standard deviation over the root of their number (an upper bound for uniform directions).
 CLAST_API clast_status clast_assembly_mean_projection(const clast_assembly *assembly,
                                                       int32_t n_direction, int32_t n_line,
                                                       double *area, double *error);

@@ -51,7 +51,7 @@ typedef struct clast_heat {
     bool has_text;             ///< writes each value into its cell
 } clast_heat;
 
-/// A word in the plot, centred at a place of the axes.
+/// A word in the plot, centred at a point of the axes.
 typedef struct clast_note {
     double x, y;
     const char *text;
@@ -194,7 +194,7 @@ CLAST_API clast_status clast_chart_stress(const clast_table *profile, const char
 /// Force chains of clast_bed_chains seen along y: lines as thick as their force, in four steps of
 /// the mean; contacts that are no link of a chain are grey.
 ///
-/// @param unit  of the places; "m" is drawn in mm
+/// @param unit  of the positions; "m" is drawn in mm
 CLAST_API clast_status clast_chart_chains(const clast_table *chains, const char *unit,
                                           const char *path);
 
@@ -207,8 +207,10 @@ CLAST_API clast_status clast_chart_zingg(const clast_form_set *set, const char *
 
 /// Histogram of one column as a density, with the normal law of maximum likelihood and, in the
 /// legend, its mean and deviation; the title holds Shapiro and Wilk's W and p.
+///
+/// @param unit  of x, "-", "mm"; of metres a smaller one is drawn; "": model units
 CLAST_API clast_status clast_chart_histogram(const double *x, int64_t n, const char *label,
-                                             const char *path);
+                                             const char *unit, const char *path);
 
 /// Correlation matrix as a heat map; form factors go by their symbols.
 CLAST_API clast_status clast_chart_correlation(const clast_statistics *statistics,

@@ -14,9 +14,13 @@ struct clast_cloud {
     double *weight;    ///< [n] real particles a parcel stands for, or NULL (1)
     double *velocity;  ///< [n][dimension] m/s, or NULL
     double *variable;  ///< [n] temperature or the like: cells shall be uniform in it too; or NULL
+    /// Of a file's points: the first column that holds weights by its name ("weight",
+    /// "stat_weight", "statistical_weight", "parcel_weight", "n_real", "multiplicity"), some of
+    /// which are not 1, where none is named: each row is one particle then. Else "".
+    char unread_weight[64];
 };
 
-/// Room for n points, zeroed; `cloud` must be empty. CLAST_E_MEMORY.
+/// Allocates n points, zeroed; `cloud` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
 /// Frees the arrays; may be called twice.
 CLAST_API void clast_cloud_free(clast_cloud *cloud);
@@ -36,9 +40,9 @@ typedef struct clast_cloud_columns {
 CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
                                           double **column);
 
-/// Takes numbers of the named column to SI by the unit that its name tells: in brackets anywhere
+/// Takes numbers of the named column to SI by the unit that its name gives: in brackets anywhere
 /// ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); they stay what they are where it is empty or
-/// tells none. A word behind "_" that may be an index is none of another dimension ("x_t").
+/// gives none. A word behind "_" that may be an index is none of another dimension ("x_t").
 /// Temperatures may be in degrees Celsius ("T_C", "T (degC)").
 ///
 /// @param value  [n_row] of them, changed in place
@@ -47,12 +51,12 @@ CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *
 CLAST_API clast_status clast_cloud_column_si(const clast_table *table, const char *name,
                                              const char *si_unit, double *value);
 
-/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s",
+/// A table's rows as a cloud, in SI: a column whose name gives a unit (x_mm, "r (um)", "u_cm/s",
 /// radii and diameters also "d (phi)") is converted; see clast_cloud_column_si. The default
 /// coordinates "x,y,z" are also found as x_m, x_mm and so on, where a table has one such column;
 /// missing trailing ones end the list.
 ///
-/// @return CLAST_E_FORMAT names the missing column, coordinates or velocities of which some tell a
+/// @return CLAST_E_FORMAT names the missing column, coordinates or velocities of which some give a
 /// unit and some none (without `unit`), and a column of times ("time", "t (s)", "timestep", "step",
 /// "iteration", "frame", any case; "T" alone is none) that `columns` does
 /// not name and that holds more than one: such rows are several clouds; CLAST_E_CONFIG for radii
@@ -61,12 +65,13 @@ CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
                                               const clast_cloud_columns *columns,
                                               clast_cloud *cloud);
 
-/// The name of the first column that holds weights by it ("weight", "stat_weight",
-/// "statistical_weight", "parcel_weight", "n_real", "multiplicity"), some of which are not 1, where
-/// `columns` names no column of weights: each row is one particle then. NULL: none, or a NULL
-/// argument.
-CLAST_API const char *clast_cloud_unread_weight(const clast_table *table,
-                                                const clast_cloud_columns *columns);
+/// What to say of unread_weight: "points.csv: column 'weight' is not looked at: each row is one
+/// particle (--weight-column weight)"; "" where nothing is.
+///
+/// @param name  of the file    @param text  [size], 256 and the name suffice
+/// @return text
+CLAST_API const char *clast_cloud_weight_words(const clast_cloud *cloud, const char *name,
+                                               size_t size, char *text);
 
 /// Points that have the very coordinates of an earlier one; O(n).
 CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated);
@@ -181,7 +186,7 @@ CLAST_API void clast_domain_format(const clast_domain *domain, char text[CLAST_D
 /// A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the
 /// volume of the map's small cells is constant (1e-3).
 ///
-/// @return CLAST_E_CONFIG tells where a map fails
+/// @return CLAST_E_CONFIG says where a map fails
 CLAST_API clast_status clast_domain_of_map(const clast_domain_map_functions *functions,
                                            clast_domain *domain);
 
@@ -197,6 +202,15 @@ CLAST_API void clast_domain_free(clast_domain *domain); ///< only a mesh holds m
 
 /// Volume [m^d].
 CLAST_API double clast_domain_volume(const clast_domain *domain);
+
+/// What to say of points that all lie within a thousandth of the domain's width (V^(1/d)), as where
+/// one of the two is in another unit; "" of others. Called by all ranks, each with its points; the
+/// same on all.
+///
+/// @param comm  NULL: the only rank    @param text  [size], 128 suffice
+/// @return text
+CLAST_API const char *clast_cloud_corner_words(const clast_cloud *cloud, const clast_comm *comm,
+                                               const clast_domain *domain, size_t size, char *text);
 
 /// True when the point [dimension] is in the closed domain; u [dimension] is then its image in the
 /// unit cube.

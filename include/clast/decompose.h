@@ -75,7 +75,7 @@ CLAST_API clast_status clast_pearson_test(const double *u, int64_t n, int32_t d,
                                           clast_pearson *result);
 
 /// Mean distance to the nearest neighbour, across periodic faces, over that of uniform points: > 1
-/// is more even than uniform (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 less even. [ClarkEvans1954]
+/// is regular (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 clustered or varying. [ClarkEvans1954]
 typedef struct clast_spacing {
     double ratio;
     double z, p; ///< of a uniform cloud's ratio, normal; two-sided p
@@ -83,7 +83,7 @@ typedef struct clast_spacing {
 
 /// @return CLAST_E_ARGUMENT for n < 5
 /// @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which
-/// their places alone decide
+/// their positions alone decide
 CLAST_API clast_status clast_spacing_test(const double *u, int64_t n, int32_t d,
                                           clast_spacing *result);
 
@@ -165,6 +165,8 @@ typedef struct clast_decompose_config {
     bool strict;    ///< bins at a threshold are ambient: > lambda and < lower, as the prose has it
     double beta_dt; ///< kernel times time step [m^d]; 0: not known, events are then the pair
                     ///< integral: events per beta dt [1/m^d], without a cap
+    int32_t beta_dt_dimension; ///< d of the unit that it was given in, which shall be that of the
+                               ///< points; 0: of a bare number, [m^d] of any
     double tree_level;         ///< of the chi-square test of a tree cell
     double tree_root_level;    ///< of the test of the whole cloud: one cell, or a tree
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
@@ -257,17 +259,12 @@ typedef enum {
     CLAST_STOP_SPLIT,    ///< the vote rejects; tree cells are uniform or too small to be tested
     CLAST_STOP_TREE,     ///< the vote accepts; the tree's own test or the variable split the cloud
     CLAST_STOP_WHOLE,    ///< the vote rejects at level, the tree does not at tree_root_level
-    CLAST_STOP_DEPTH,    ///< a tree cell is uneven at the limit of 20 halvings
+    CLAST_STOP_DEPTH,    ///< a tree cell is non-uniform at the limit of 20 halvings
     CLAST_STOP_SPARED    ///< a workspace's policy spares the tests: the tree alone decided
 } clast_decompose_stop;
 
 /// A stop in words, "rejected by the tests and split".
 CLAST_API const char *clast_decompose_stop_text(clast_decompose_stop stop);
-
-/// Why a decomposition has no number of events (its events_low is NaN), in words.
-///
-/// @param n_repeated  points that repeat the place of an earlier one (clast_cloud_repeated)
-CLAST_API const char *clast_decompose_unbounded_text(int64_t n_repeated);
 
 /// Cells. A box [low, high] is in the domain's coordinates for a box or a mesh domain (there not
 /// cut), in the unit cube for mapped domains; components and labels give their bounding box. In a
@@ -294,15 +291,15 @@ typedef struct clast_cells {
                            ///< -1 found uniform; -2, -3 .. too few points to be tested
 } clast_cells;
 
-/// What pairs show within the cells, whose points the cells take as even.
+/// What pairs show within the cells, whose points the cells take as uniform.
 typedef struct clast_within_cells {
-    bool is_structured; ///< pairs closer than half a cell are more than even cells would hold
+    bool is_structured; ///< pairs closer than half a cell are more than uniform cells would hold
     double cell;        ///< edge of a cell, V^(1/d), mean over the pairs in cells [m]
-    double even;        ///< pair integral of even cells, sum n (n - 1) / (2 V), no cap, nothing
+    double even;        ///< pair integral of uniform cells, sum n (n - 1) / (2 V), no cap, nothing
                         ///< extrapolated: what a kernel with a g(r) of its own multiplies [1/m^d]
     double radius;  ///< least distance with 10 pairs within it: below, the points say nothing [m]
     int64_t n_pair; ///< closer than that
-    double g, g_low, g_high; ///< those over what even cells would hold, with the 95 % interval
+    double g, g_low, g_high; ///< those over what uniform cells would hold, with the 95 % interval
     double length;           ///< structure is seen up to there [m]; 0: none
 } clast_within_cells;
 
@@ -323,7 +320,7 @@ typedef struct clast_decomposition {
                            ///< resolved: events_low alone holds (NAN where repeated points leave no
                            ///< bound), and events_high is INFINITY
     double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
-                           ///< where that cannot be told
+                           ///< where that cannot be determined
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
     double points_per_bin; ///< below 10 the published estimate is biased
@@ -347,7 +344,7 @@ typedef struct clast_decomposition {
     bool resolved; ///< the points show all of their own structure that counts: the bias of events
                    ///< is at most 2 %
     bool keeps_apart; ///< points keep apart (seeded, stratified, a lattice), so that small cells
-                      ///< tell nothing of their density: not resolved by any number of them
+                      ///< say nothing of their density: not resolved by any number of them
     bool has_drawn;   ///< ghosts, or the part of weighted points that is tested
 } clast_decomposition;
 
@@ -415,6 +412,19 @@ CLAST_API bool clast_cells_are_labelled(const clast_cells *cells);
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                      const double *x);
 CLAST_API void clast_decomposition_free(clast_decomposition *result);
+
+enum { CLAST_N_DECOMPOSITION_NOTE = 3 };
+
+/// What to say of a decomposition (but for the tests alone, whose one cell says nothing of events):
+/// 0, pairs by distance that disagree with the cells or are those of no density; 1, why there is no
+/// number of events (events_low is NaN); 2, too few points a bin.
+///
+/// @param n_repeated  duplicate (coincident) points (clast_cloud_repeated)
+/// @param k           of CLAST_N_DECOMPOSITION_NOTE    @param text  [size], 256 suffice
+/// @return text; "" where there is nothing to say
+CLAST_API const char *clast_decomposition_note(const clast_decomposition *result,
+                                               int64_t n_repeated, int32_t k, size_t size,
+                                               char *text);
 
 // A decomposition for ParaView.
 

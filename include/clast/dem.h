@@ -79,7 +79,7 @@ typedef struct clast_dem_config {
     double cohesion_energy;  ///< energy density of AREA [J/m^3]
     double surface_energy;   ///< w of DMT and JKR [J/m^2]
     bool clip;               ///< a dashpot never pulls
-    bool normal_torque;      ///< normal forces turn grains; eq. 5 as printed leaves that out
+    bool normal_torque;      ///< normal forces exert torques on grains; not in eq. 5 as printed
     bool gyroscopic;         ///< angular momentum is kept (eq. 3); the reference leaves it out
     int32_t clump_contacts;  ///< clast_dem_clump_contacts
     double time_step;        ///< [s]
@@ -102,7 +102,7 @@ typedef struct clast_dem_config {
 /// Fields of the configuration: keys, defaults, ranges and units; ends with a row of zeros.
 CLAST_API extern const clast_field clast_dem_fields[];
 
-/// A grain to add: shape scaled, turned, moved.
+/// A grain to add: shape scaled, rotated, translated.
 typedef struct clast_dem_grain {
     int32_t shape;
     double scale;
@@ -171,7 +171,7 @@ typedef struct clast_dem_energy {
     double calming;     ///< lost to the damping of all velocities
     double left;        ///< gone with grains that were taken out
     double scheme; ///< lost to the scheme, below 0: made by it (contacts that begin and end within
-                   ///< a step, tangential springs that sliding stretches anew, bodies that turn;
+                   ///< a step, tangential springs that sliding stretches anew, bodies that rotate;
                    ///< necks that tear)
     double put_in; ///< made + gravity + shaking + cell + walls
     double rest;   ///< put_in less all others: of rounding, unless a force is missed
@@ -186,7 +186,7 @@ typedef struct clast_dem_wall_motion {
     double velocity[3];  ///< [m/s]
     double amplitude[3]; ///< of vibration [m]
     double period;       ///< of vibration and swing [s]; above 0 where there is either
-    double axis[3];      ///< unit, fixed; zeros: the wall does not turn
+    double axis[3];      ///< unit, fixed; zeros: the wall does not rotate
     double pivot[3];     ///< p, on the axis [m]
     double rate;         ///< [rad/s]
     double swing;        ///< [rad]
@@ -234,16 +234,16 @@ typedef struct clast_dem_cell {
 typedef struct clast_dem_load {
     double volume, solid;     ///< of the cell, of its grains [m^3]
     double stress[6];         ///< of contacts: sum f l / V [Pa]
-    double kinetic_stress[6]; ///< sum m v v / V, v beside the cell's even motion [Pa]
-    double modulus[3]; ///< of the normal springs at even strain, sum k (l n)^2 / V: an upper bound
-                       ///< [Pa]
-    double shear_modulus; ///< the same of shear xz: sum k l_z^2 / V, k_t at most k [Pa]
-    double fabric[6];     ///< mean n n of contacts between grains
-    int64_t n_contact;    ///< pairs of grains
-    int64_t n_force;      ///< places where grains touch: more, where clumps do
-    double coordination;  ///< 2 n_contact / n_grain
-    int32_t n_rattler;    ///< grains with fewer than 2 contacts (4 without friction), left out one
-                          ///< after another
+    double kinetic_stress[6]; ///< sum m v v / V, v relative to the homogeneous motion [Pa]
+    double modulus[3];        ///< of the normal springs at uniform strain, sum k (l n)^2 / V
+                              ///< [Pa]; an upper bound
+    double shear_modulus;     ///< the same of shear xz: sum k l_z^2 / V, k_t at most k [Pa]
+    double fabric[6];         ///< mean n n of contacts between grains
+    int64_t n_contact;        ///< pairs of grains
+    int64_t n_force;          ///< places where grains touch: more, where clumps do
+    double coordination;      ///< 2 n_contact / n_grain
+    int32_t n_rattler; ///< grains with fewer than 2 contacts (4 without friction), left out one
+                       ///< after another
     double coordination_held; ///< of the others among themselves
     double unbalanced;        ///< mean force on a grain over the mean force of a contact
     double force_mean;        ///< of a contact [N]
@@ -352,7 +352,8 @@ CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
 /// From now on the work of all forces is booked, which changes no bit of the run; begins anew if it
 /// was.
 ///
-/// @return CLAST_E_CONFIG where a fluid turns grains of several densities: that is not booked
+/// @return CLAST_E_CONFIG where a fluid exerts torques on grains of several densities:
+/// their work is not recorded
 CLAST_API clast_status clast_dem_begin_energy(clast_dem *dem);
 
 /// Where the energy has gone; untouched when none was booked.
@@ -362,7 +363,7 @@ CLAST_API void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *
 CLAST_API clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load);
 
 /// Speeds of the cell's three sides, and of the upper images along x, from the next step on [m/s].
-/// Grains get the change that belongs to their place, so that the bed is strained evenly.
+/// Grains get the change that belongs to their position, so that the strain is uniform.
 ///
 /// @return CLAST_E_USAGE in other domains
 CLAST_API clast_status clast_dem_set_cell_rate(clast_dem *dem, const double rate[3], double shear);
@@ -388,7 +389,7 @@ CLAST_API double clast_dem_max_speed(const clast_dem *dem);
 /// All grains with their contacts, wrapped into the period. `out` must be empty.
 CLAST_API clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out);
 
-/// 64-bit digest of all positions, turns, velocities and contact memories, bit by bit.
+/// 64-bit digest of all positions, orientations, velocities and contact histories, bit by bit.
 CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);
 
 /// Forces of all contacts as they are now: columns a, b (grains; b -1: a wall), centre_z_m (of a),
@@ -398,9 +399,9 @@ CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);
 CLAST_API clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table);
 
 /// Case P1 and its kin: grains of 63 gravel forms (152 points on a dented ellipsoid), D log-uniform
-/// in 5.6 to 8 mm, random form and turn, on a loose lattice in a box of width x width, periodic in
-/// x and y, over a floor, in water; the published law and shaking act. P1 itself: {4000, 152, 0.1,
-/// 0}, 0.775 s.
+/// in 5.6 to 8 mm, random form and orientation, on a loose lattice in a box of width x width,
+/// periodic in x and y, over a floor, in water; the published law and shaking act. P1 itself:
+/// {4000, 152, 0.1, 0}, 0.775 s.
 typedef struct clast_scene_bed {
     int32_t n;
     int32_t n_vert; ///< of a form

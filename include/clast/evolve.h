@@ -1,7 +1,7 @@
 #pragma once
 // A cloud of particles of true shapes in a fluid, followed until it lies on the floor: they fall by
-// their own form and spread, meet in cells where the cloud is even, join by the exact first touch
-// of their surfaces, and settle.                                          [docs/theory/evolve.md]
+// their own form and spread, meet in cells where the cloud is uniform, join by the exact first
+// touch of their surfaces, and settle.                                    [docs/theory/evolve.md]
 
 // A whole run with its folder, checkpoints and going on (clast_evolve_run and clast_evolve_resume)
 // is of libclast_view.
@@ -34,13 +34,13 @@ typedef enum {
 /// How the smaller of a pair comes to the larger.
 typedef enum {
     CLAST_MEETING_AUTO, ///< by Brownian motion where the kernel is Brownian alone, else on lines
-    CLAST_MEETING_BALLISTIC, ///< on lines whose impact parameter is even over the cross-section
+    CLAST_MEETING_BALLISTIC, ///< on lines whose impact parameter is uniform over the cross-section
     CLAST_MEETING_DIFFUSIVE, ///< by Brownian motion from far away
     CLAST_MEETING_CENTRAL,   ///< on a line through the larger one's centre of mass
     CLAST_MEETING_REACTION ///< of all contacts without overlap each is as likely: few touches stick
 } clast_meeting;
 
-/// Where particles count as evenly spread.
+/// Where particles count as uniformly distributed.
 typedef enum {
     CLAST_EVEN_TREE,  ///< cells of a chi-square tree (clast_decompose)
     CLAST_EVEN_BOXES, ///< boxes of bins, as published
@@ -64,7 +64,7 @@ typedef struct clast_evolve_config {
     char *curve;       ///< sizes, as clast_grading_load reads them: volume-equivalent diameters
     int32_t particles; ///< at the start; 0: the rows of `points`
     double weight;     ///< real particles that each stands for, a whole number
-    char *release;     ///< domain where they start evenly; "": all of `domain`
+    char *release;     ///< domain where they start uniformly; "": all of `domain`
     char *points;      ///< file of positions in place of that; "": none
     clast_text_list columns; ///< of that file: x, y, z, which units in their names convert
     char *diameter_column;   ///< of that file, in place of curve; "": none
@@ -84,7 +84,7 @@ typedef struct clast_evolve_config {
     bool structure;           ///< aggregates by first touch; else drops that merge
     int32_t collision_radius; ///< clast_collision_radius
     int32_t meeting;          ///< clast_meeting
-    double walk_step;         ///< diffusive: least step, by the radius of the smallest thrown grain
+    double walk_step;         ///< diffusive: least step, by the least released radius
     int32_t max_tries;
 
     int32_t even;        ///< clast_even
@@ -121,7 +121,7 @@ typedef struct clast_evolve_input {
 /// An evolution under way. Opaque; one thread at a time (it uses several inside).
 typedef struct clast_evolve clast_evolve;
 
-/// All particles at their places at time 0.
+/// All particles at their positions at time 0.
 ///
 /// @return CLAST_E_CONFIG for options that cannot be met (a kernel whose medium lacks something, a
 /// floor that nothing reaches), CLAST_E_FORMAT for points outside the domain
@@ -154,7 +154,8 @@ typedef struct clast_evolve_result {
     double mass_wall; ///< of them [kg]
     double gathered;  ///< share of the mass at the start that a floor or top which reflects gathers
                       ///< in a layer thinner than a step, where it is above step_error; else 0
-    double gathered_top; ///< of it at the top
+    double gathered_top;    ///< of it at the top
+    char weight_words[160]; ///< of a column of weights in points, which nothing reads; else ""
     bool is_field_apart; ///< no body starts within the field's grid, or that is 1000 times as wide
     double mass_balance; ///< greatest |sum - start| / start of all rows
     int64_t number_balance; ///< greatest |particles + events + deposit + out - start| of all rows
@@ -214,7 +215,7 @@ CLAST_API clast_status clast_evolve_aggregate(const clast_evolve *evolve, int64_
 
 /// Nodes of the bodies of most grains first, of equal ones the older first: [*n] of at most *n.
 ///
-/// @param n  in: room in `node`; out: how many
+/// @param n  in: capacity of `node`; out: how many
 CLAST_API clast_status clast_evolve_largest(const clast_evolve *evolve, int32_t *n, int64_t *node);
 
 /// All grains where they are, in the fluid and on the floor.

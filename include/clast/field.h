@@ -35,6 +35,10 @@ typedef struct clast_f64_list {
 /// had no unit once.
 #define CLAST_BARE_SI "SI"
 
+/// Text of a number whose unit is m^d, d the dimension of the points: it takes m, m^2, m^3 and
+/// their like, and the int32_t behind it in the struct keeps their d, 0 of a bare number.
+#define CLAST_KEEPS_DIMENSION "m^d"
+
 /// One field; a table of them ends with {0}. The members stand in the order that tables give them
 /// in.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
@@ -47,7 +51,8 @@ typedef struct clast_field {
     const char *unit;  ///< SI unit of the stored number, "-" for none; inputs may carry any unit of
                        ///< that dimension
     const char *help;  ///< one line
-    const char *text;  ///< choices "a|b|c", the default text, default list "a,b", or CLAST_BARE_SI
+    const char *text;  ///< choices "a|b|c", the default text, default list "a,b", CLAST_BARE_SI or
+                       ///< CLAST_KEEPS_DIMENSION
     const char *group; ///< heading of this field and of those after it, up to the next heading
     bool common;       ///< most runs need it: --help shows it, --help-all shows every field
 } clast_field;
@@ -124,6 +129,13 @@ CLAST_API clast_status clast_unit_parse(const char *text, const char *si_unit, d
 /// The same where a unit is asked for: a bare length or angle other than 0 is refused, with its
 /// nearest correct spelling ("270um", "50deg").
 CLAST_API clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value);
+
+/// A length as typed, in a file's `own` unit ("mm"; "" or "model": it names none): one with a unit
+/// is converted, or refused where the file names none; a bare number is in the file's own, but for
+/// metres, of which it is refused as by clast_unit_parse_asked.
+///
+/// @return CLAST_E_CONFIG, for % too
+CLAST_API clast_status clast_unit_parse_length(const char *text, const char *own, double *value);
 
 /// Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.
 CLAST_API clast_status clast_unit_factor(const char *unit, const char *si_unit, double *factor);

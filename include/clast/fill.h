@@ -60,16 +60,19 @@ typedef struct clast_fill_report {
     double open_share;      ///< volume that the caps leave uncertain / volume of the solid
     double solid_volume;    ///< of the mesh
     double sphere_volume;   ///< of the union of the spheres
-    double filled_fraction; ///< sphere_volume / solid_volume
-    double volume_error;    ///< |filled_fraction - 1|
-    double centroid_error;  ///< distance of the centroids / equal-volume diameter of the solid
-    double inertia_error;   ///< |I_s/V_s - I/V| / |I/V|, Frobenius, each about its centroid
-    double max_protrusion;  ///< greatest (radius - depth) / radius, at least 0; depth: distance of
-                            ///< the centre to the surface, negative outside
-    int32_t n_protruding;   ///< spheres with a protrusion over 1e-6
-    double max_overlap;     ///< greatest (r_i + r_j - distance) / smaller radius, at least 0
-    double deviation_mean;  ///< distance of the surface to the spheres, mean over the area
-    double deviation_max;   ///< its greatest value over the 4096 points looked at
+    double filled_fraction; ///< share of the solid's volume that the spheres hold
+    double
+        outside_fraction;  ///< volume of the spheres outside the solid / solid_volume; 0, exactly,
+                           ///< where none protrudes, else from points: off by about 0.001
+    double volume_error;   ///< |sphere_volume / solid_volume - 1|: outside makes up for gaps
+    double centroid_error; ///< distance of the centroids / equal-volume diameter of the solid
+    double inertia_error;  ///< |I_s/V_s - I/V| / |I/V|, Frobenius, each about its centroid
+    double max_protrusion; ///< greatest (radius - depth) / radius, at least 0; depth: distance of
+                           ///< the centre to the surface, negative outside
+    int32_t n_protruding;  ///< spheres with a protrusion over 1e-6
+    double max_overlap;    ///< greatest (r_i + r_j - distance) / smaller radius, at least 0
+    double deviation_mean; ///< distance of the surface to the spheres, mean over the area
+    double deviation_max;  ///< its greatest value over the 4096 points looked at
     double radius_min, radius_median, radius_max;
     double bound;     ///< largest: no sphere above this radius fits any more; else 0
     int64_t n_tested; ///< points whose distances were asked for

@@ -170,7 +170,12 @@ typedef struct clast_form_set {
     double *size;                  ///< [n] in the unit of its column (mm for phi), or that of L, I
                                    ///< and S (metres where they say several); NAN for none above 0;
                                    ///< NULL if the table has no size
-    char size_label[64];           ///< "sieve size (mm)", "diameter_m"
+    char size_name[64];            ///< "sieve size", "diameter"
+    char size_unit[16];            ///< of length: "mm", "m"; "": none is known
+    bool is_sieve_size;            ///< of eq. 1: L, I and S follow from it and the ratios
+    char unread_count[64];         ///< column of numbers of grains or masses (count, n, weight,
+                                   ///< mass_g), some of which are not 1: each row is one grain;
+                                   ///< else ""
     int64_t n_left_out;
     clast_left_out *left_out; ///< [n_left_out] by row
 } clast_form_set;
@@ -205,6 +210,14 @@ CLAST_API void clast_form_set_free(clast_form_set *set);
 /// if none was. Rows count from 1 after the header.
 CLAST_API void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text);
 
+/// What to say of unread_count: "column 'n' is not looked at: each row is one grain"; "" where
+/// nothing is.
+///
+/// @param text  [size], 128 suffice
+/// @return text
+CLAST_API const char *clast_form_set_count_words(const clast_form_set *set, size_t size,
+                                                 char *text);
+
 /// The 13 form factors of every grain, in Table 1's order, and its size if known: what
 /// clast_statistics_of takes.
 CLAST_API clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table);
@@ -232,7 +245,8 @@ CLAST_API clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh
 /// of S/L > 0.03. L = I = S = 1 takes all form and size off: such a mesh, its vertices multiplied
 /// by (L, I, S), has any form.
 ///
-/// @return CLAST_E_CONFIG for lengths that are not finite, not positive or not in order
+/// @return CLAST_E_CONFIG for lengths that are not finite, not positive, not in order or too small
+///         or large for moments in doubles (1e-56 .. 1e60)
 CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3],
                                          clast_mesh *out);
 

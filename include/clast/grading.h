@@ -14,7 +14,7 @@ typedef struct clast_sizes {
     double *density;    ///< [n] > 0 [kg/m^3], or NULL: none is given
 } clast_sizes;
 
-/// Room for n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
+/// Allocates n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
 CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
 /// Frees the arrays; may be called twice.
 CLAST_API void clast_sizes_free(clast_sizes *sizes);
@@ -151,16 +151,18 @@ typedef struct clast_grading_sample {
 /// Wanted against achieved, in a few numbers.
 typedef struct clast_grading_match {
     int64_t n;
-    double distance_mass;   ///< greatest difference of the two curves of mass passing, anywhere
-    double distance_number; ///< the same by number: Kolmogorov and Smirnov's statistic; NAN without
-                            ///< a grading
+    double distance_mass;   ///< greatest difference of the shares by mass from the grading's,
+                            ///< anywhere; NAN without one
+    double distance_number; ///< the same by number: Kolmogorov and Smirnov's statistic
+    double distance_curve;  ///< by mass from the curve, which is not the law of the draws: grains
+                            ///< of a class have not its mean mass, or cross its sieves
     double achieved_d10, achieved_d50, achieved_d90; ///< by mass, smallest size that reaches it [m]
     double wanted_d10, wanted_d50, wanted_d90;       ///< by mass, of the curve [m]
 } clast_grading_match;
 
 /// Grains against the curve that they were to follow: one row a class, below and above it.
 ///
-/// @param grading  what they were drawn from, for distance_number, or NULL
+/// @param grading  what they were drawn from, for distance_mass and _number, or NULL
 /// @param table    empty; low_m, high_m, wanted_mass, achieved_mass (shares), wanted_number,
 ///                 achieved_number (shares), count
 /// @return CLAST_E_CONFIG for no grains, or sizes and volumes that are not finite and above 0
@@ -230,20 +232,21 @@ CLAST_API const char *clast_grading_list_text(const clast_grading_list *list, bo
 CLAST_API const clast_idle *clast_grading_idle(const clast_curve *curve,
                                                clast_grading_spread spread, clast_idle *rules);
 
-/// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
-/// blanks; '#' starts a comment; a first line that is no number names the columns; a word may stand
-/// in quotes).
+/// Sizes, sizes with counts, or bins with counts, from delimited text (clast_table_parse_csv; a
+/// comment may stand behind a row's cells too, a separator behind the last of them is none, and a
+/// first row that begins with a number names no columns).
 ///
 /// A column `count`, `n`, `number` or `n_grains` counts the row's particles, else `weight`,
 /// `frequency` or `fraction`, else `mass` or `retained` (mass_g) weighs them; columns that begin
 /// with `low` and `high` are the ends of a bin, each in its own unit; `density` (kg/m^3 unless its
-/// name tells another unit, density_g/cm3) is that of the row's particles. In phi units a size is
+/// name gives another unit, density_g/cm3) is that of the row's particles. In phi units a size is
 /// 2^-phi mm.
 ///
-/// @param column  name of the size column; "": the first
-/// @param unit    um, mm, m, phi, ..., as the column's name tells if it does (d_eq_um); "": that
+/// @param column  name of the size column; "": that called size, diameter or sieve, else a D in
+///                its unit (D_m, as clast shape writes it), else the first
+/// @param unit    um, mm, m, phi, ..., as the column's name gives if it does (d_eq_um); "": that
 /// @return CLAST_E_FORMAT with the line for sizes that are not numbers, not finite or not above 0,
-///         and for a column whose name tells another unit than those of length (size_ft);
+///         and for a column whose name gives another unit than those of length (size_ft);
 ///         CLAST_E_CONFIG when the unit is not known, or is not the one in the column's name
 CLAST_API clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
                                         clast_sizes *sizes);

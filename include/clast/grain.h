@@ -13,7 +13,7 @@ CLAST_BEGIN
       "full axes of the ellipsoid with the grain's volume and moments of inertia",                 \
       "Rettinger2022 eqs 25-27; Stueckrath2006")                                                   \
     X(BOX, "box",                                                                                  \
-      "edges of the least box found around the grain: no turn about one of its axes makes it "     \
+      "edges of the least box found around the grain: no rotation about a box axis makes it "      \
       "smaller, an upper bound of the least volume",                                               \
       "Zingg1935; Blott2008")                                                                      \
     X(FITTED, "fitted",                                                                            \
@@ -76,7 +76,7 @@ typedef struct clast_grain {
 /// Volume, inertia and the ellipsoid are those of the solid; area, sphericity, convexity, roundness
 /// and angularity those of its outer surface, closed pores filled; calipers, boxes and shadows are
 /// those of its convex hull, which are the same. Feret
-/// diameters are exact; the box is one that no turn about one of its axes makes smaller.
+/// diameters are exact; the box is one that no rotation about one of its axes makes smaller.
 ///
 /// @param mesh   closed and outward, any number of parts; several parts count as one grain
 /// @param grain  written only on success
@@ -163,8 +163,8 @@ typedef struct clast_grains {
     int64_t n_fault;
     clast_grain_fault *fault; ///< [n_fault] files and labels that could not be measured
     int64_t n_note;
-    clast_grain_fault *note; ///< [n_note] tables with rows left out (status CLAST_OK), surfaces
-                             ///< whose volume counts a region twice or that are several
+    clast_grain_fault *note; ///< [n_note] tables with rows or columns left out (status CLAST_OK),
+                             ///< surfaces whose volume counts a region twice or that are several
                              ///< bodies (CLAST_E_GEOMETRY)
 } clast_grains;
 

@@ -20,7 +20,7 @@ typedef struct clast_harmonics {
 
 enum { CLAST_HARMONICS_MAX_DEGREE = 256 };
 
-/// Room for all terms up to a degree, zeroed; `series` must be empty.
+/// Allocates all terms up to a degree, zeroed; `series` must be empty.
 CLAST_API clast_status clast_harmonics_alloc(int32_t degree, clast_harmonics *series);
 CLAST_API void clast_harmonics_free(clast_harmonics *series);
 

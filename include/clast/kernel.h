@@ -171,7 +171,7 @@ typedef struct clast_range_use {
 /// A run against the table.
 typedef struct clast_range_report {
     clast_range_use start;      ///< particles at the start, each against its like
-    clast_range_use collisions; ///< sectional: of them by the trapezoid rule over the times told
+    clast_range_use collisions; ///< sectional: of them by the trapezoid rule over the output times
     double time;                ///< when they had first left it [s]; NaN: never
 } clast_range_report;
 
@@ -179,6 +179,17 @@ typedef struct clast_range_report {
 ///
 /// @return text; empty where nothing was outside
 CLAST_API const char *clast_range_use_words(const clast_range_use *use, size_t size, char *text);
+
+/// Of a run the use that tells more: collisions where some were outside, else particles at the
+/// start where some were; NULL of NULL.
+CLAST_API const clast_range_use *clast_range_report_use(const clast_range_report *report);
+
+/// What to say of particles that fill over a tenth of the volume, where kernels are of dilute
+/// suspensions; "" of fewer and of NaN.
+///
+/// @param volume_fraction  [-]    @param text  [size], 128 suffice
+/// @return text
+CLAST_API const char *clast_kernel_dense_words(double volume_fraction, size_t size, char *text);
 
 // Whether two particles that meet stick. [docs/theory/agglomeration.md section 8]
 

@@ -23,7 +23,7 @@ typedef struct clast_mass {
 /// Frees the arrays; the mesh is then empty. May be called twice.
 CLAST_API void clast_mesh_free(clast_mesh *mesh);
 
-/// Room for n_vert vertices and n_tri triangles, zeroed. `mesh` must be empty. CLAST_E_MEMORY;
+/// Allocates n_vert vertices and n_tri triangles, zeroed. `mesh` must be empty. CLAST_E_MEMORY;
 /// CLAST_E_ARGUMENT for numbers below 0.
 CLAST_API clast_status clast_mesh_alloc(int32_t n_vert, int32_t n_tri, clast_mesh *mesh);
 
@@ -95,7 +95,7 @@ CLAST_API void clast_bvh_destroy(clast_bvh *bvh); ///< NULL is allowed
 ///   winding number is not 0. Overlapping bodies are a union; a void bounded by an inward shell is
 ///   outside. Exact for every point, also straight above edges and vertices: the signed crossings
 ///   of a vertical ray are counted with exact predicates and a symbolic shift of the ray.
-/// - Closed but with some facets turned over (every edge is used an even number of times): the
+/// - Closed but with some facets flipped (every edge is used an even number of times): the
 ///   parity of the same crossings.
 /// - Open: the generalised winding number exceeds 1/2 in size [Jacobson2013, Barill2018], which
 ///   closes holes smoothly; computed to about 0.01, so only points at a hole are in doubt.
@@ -179,7 +179,7 @@ CLAST_API clast_mesh_format clast_mesh_format_of_path(const char *path);
 /// Reads a surface: STL, OBJ, PLY or OFF, by content first, then by extension.
 ///
 /// Vertices of an STL that are equal bit by bit are one vertex (-0 equals +0); nothing else is
-/// welded, turned or dropped: that is clast_mesh_repair's work. Polygons are cut in their plane.
+/// welded, flipped or dropped: that is clast_mesh_repair's work. Polygons are cut in their plane.
 /// Files without faces give their points; an STL without facets gives an empty mesh.
 ///
 /// @param mesh    must be empty; written only on success
@@ -206,9 +206,9 @@ CLAST_API clast_status clast_mesh_require_unit(const char *path,
 
 typedef struct clast_mesh_write_options {
     clast_mesh_format format; ///< CLAST_MESH_ANY: by extension
-    const char *unit; ///< unit of the coordinates ("um"), told in the file; NULL: not known. 3MF
+    const char *unit; ///< unit of the coordinates ("um"), written in the file; NULL: not known. 3MF
                       ///< needs it
-    const char *name; ///< of the part, where the format has room; NULL: none
+    const char *name; ///< of the part, where the format has a field for it; NULL: none
 } clast_mesh_write_options;
 
 /// Writes a surface. The file appears whole or not at all: written beside, synced, renamed.

@@ -46,8 +46,8 @@ typedef struct clast_mesh_check_result {
     int32_t genus;              ///< sum over the parts where it is known
     int32_t n_open_edge;        ///< edges with one triangle
     int32_t n_open_loop;        ///< loops that they form
-    int32_t n_repeated;         ///< triangles that repeat another, wound alike: counted twice in
-                                ///< the volume
+    int32_t n_repeated;         ///< triangles that repeat another with the same winding: counted
+                                ///< twice in the volume
     double largest_hole;        ///< diagonal of the box of the largest loop
     int32_t n_nonmanifold_edge; ///< edges with more than two triangles
     int32_t n_nonmanifold_vertex; ///< vertices where several fans meet
@@ -129,7 +129,7 @@ typedef struct clast_mesh_repair_config {
     bool split;             ///< edges at vertices that lie on them (T-junctions)
     double split_tolerance; ///< times the extent
     bool loose;             ///< drop triangles that share no edge
-    bool orient;            ///< neighbours alike, then outward
+    bool orient;            ///< neighbours consistently, then outward
     bool fill;              ///< holes
     double fill_size;       ///< largest hole's box diagonal, times the extent
     bool separate;          ///< surfaces that touch in an edge or vertex get their own vertices
@@ -154,7 +154,7 @@ typedef struct clast_mesh_repair_report {
     int32_t n_duplicate;  ///< repeated triangles dropped
     int32_t n_split;      ///< triangles cut in pieces at T-junctions
     int32_t n_loose;      ///< triangles dropped because they shared no edge
-    int32_t n_turned;     ///< triangles turned over
+    int32_t n_turned;     ///< triangles flipped
     int32_t n_conflict;   ///< edges where no choice of sides fits (one-sided surface)
     int32_t n_hole_filled;
     int32_t n_fill_triangle;
@@ -166,7 +166,7 @@ typedef struct clast_mesh_repair_report {
     double area_before, area_after;
 } clast_mesh_repair_report;
 
-/// Makes a surface closed, oriented and manifold where it can, step by step, and tells every
+/// Makes a surface closed, oriented and manifold where it can, step by step, and reports every
 /// change. Vertices never move; a sound surface comes back as it was (unused vertices dropped).
 ///                                                          [docs/theory/mesh-repair.md]
 ///
@@ -216,7 +216,7 @@ typedef struct clast_mesh_simplify_report {
 /// volume exactly and moves the surface least.    [LindstromTurk1998 sec. 4;
 /// docs/theory/simplify.md]
 ///
-/// Topology stays (parts, handles, closed, manifold), no triangle turns over. The volume is kept to
+/// Topology stays (parts, handles, closed, manifold), no triangle flips. The volume is kept to
 /// 1e-12 (relative); rounding of many steps is taken back by a uniform scaling.
 ///
 /// @param mesh   closed, oriented, manifold

@@ -6,7 +6,7 @@
 #include <clast/porosity.h>
 #include <clast/status.h>
 
-// A bed of grains, poured, shaken and calmed: the published process as a state machine.
+// A bed of grains, poured, shaken and damped: the published process as a state machine.
 //                                  [Rettinger, Ruede, Vollmer, Frings, sec. 4; docs/theory/dem.md]
 
 // What a packing reads: sizes and shapes named in its configuration.
@@ -80,7 +80,7 @@ typedef struct clast_pack_config {
     double fill_low, fill_high;   ///< of the height
     double first_low, first_high; ///< the same for the first fill; below 0: as all
     double initial_speed;         ///< u_init [m/s]
-    bool random_turn;             ///< grains begin at random turns; off: as their shape is stored
+    bool random_turn;             ///< grains begin at random orientations; off: as stored
 
     double shake_amplitude, shake_period; ///< A_s [m], T_s [s]
     double shaking_time;                  ///< t_s after the last grain is made [s]
@@ -137,7 +137,7 @@ typedef struct clast_pack_input {
     int32_t n_wall;
     const clast_pack_wall *wall;              ///< [n_wall] of option `wall`, in its order
     int64_t start_snapshot, n_start_snapshot; ///< that `start` is, from 1, of so many; 0: none
-    int64_t start_step;                       ///< its TIMESTEP; -1: it tells none
+    int64_t start_step;                       ///< its TIMESTEP; -1: it gives none
     double start_shift; ///< of domain cell's images above, along x, to begin with [m]
 } clast_pack_input;
 
@@ -145,7 +145,7 @@ typedef struct clast_pack_input {
 typedef struct clast_pack clast_pack;
 
 /// @return CLAST_E_CONFIG for weights or densities that do not match the shapes, a mass that cannot
-/// fit under the place of generation, a lattice that holds no grain; what clast_dem_create and
+/// fit under the region of generation, a lattice that holds no grain; what clast_dem_create and
 /// clast_dem_add_shape refuse
 CLAST_API clast_status clast_pack_create(const clast_pack_config *config,
                                          const clast_pack_input *input, clast_pack **pack);
@@ -163,7 +163,7 @@ CLAST_API const char *clast_pack_phase_name(clast_pack_phase phase); ///< "gener
 CLAST_API const clast_dem *clast_pack_dem(const clast_pack *pack);
 CLAST_API double clast_pack_mass(const clast_pack *pack); ///< made so far [kg]
 
-/// Expected step of the end, as far as it can be told; 0 when not.
+/// Expected step of the end, as far as it can be determined; 0 when not.
 CLAST_API int64_t clast_pack_expected_steps(const clast_pack *pack);
 
 /// A bed over ranks: what went between them. No other result depends on it.
@@ -207,7 +207,7 @@ typedef struct clast_pack_result {
     bool converged;
     uint64_t hash;
     int32_t n_fill;
-    int64_t n_waited;      ///< grains that found no place in one fill and were made in a later one
+    int64_t n_waited;      ///< grains that did not fit into one fill and were made in a later one
     double wall_s, step_s; ///< clock since the run began or was resumed; of the stepping alone
     double clocked_steps;  ///< grain-steps that step_s is of
     double grain_steps;    ///< sum over all steps of the grains that were there
@@ -240,7 +240,7 @@ typedef struct clast_pack_result {
     int64_t n_overlap;      ///< of grains that a start brought
     double deepest_start;   ///< of those, over the smaller one's radius
     int64_t start_snapshot, n_start_snapshot; ///< that the start was, from 1, of so many; 0: none
-    int64_t start_step;                       ///< its TIMESTEP; -1: it told none
+    int64_t start_step;                       ///< its TIMESTEP; -1: it gave none
     int32_t n_stage;                          ///< stages that were gone through; 0: none were given
     int64_t n_left;                           ///< grains that left by outlets
     double mass_left;                         ///< [kg]

@@ -61,7 +61,7 @@ typedef struct clast_pairs {
 /// c is the domain's set covariance averaged over directions: closed form for boxes and spheres,
 /// quadrature to 1e-12 for long distances in boxes and for cylinders, quasi-Monte Carlo chords for
 /// half pipes and closed surfaces, pairs of points for far ones of slender bodies, points for a
-/// caller's map (edge_error tells how well).
+/// caller's map (edge_error says how well).
 ///
 /// @return CLAST_E_CONFIG for points with weights; CLAST_E_FORMAT for coordinates that are not
 /// finite, or points outside with CLAST_OUTSIDE_ERROR; CLAST_E_LIMIT for fewer than 2 points

@@ -3,7 +3,7 @@
 
 // Porosity of a bed: its profile with height, its bulk value, and where the bed lies.
 
-// Beds that a file tells of: a run's own, or the inside of a surface.
+// Beds that a file defines: a run's own, or the inside of a surface.
 
 // The same bed made several times: means and what they are good for.
 
@@ -23,7 +23,7 @@ typedef enum {
 typedef struct clast_bed {
     clast_bed_kind kind;
     bool is_part; ///< cylinder, box or surface in a greater packing: its sides are no walls, and
-                  ///< grains count by the share of 512 even points between them; else whole
+                  ///< grains count by the share of 512 quasi-random points between them; else whole
     double centre[2];       ///< cylinder [m]
     double radius;          ///< cylinder [m]
     double low[2], high[2]; ///< box and periodic; bounds of a surface [m]
@@ -95,8 +95,8 @@ CLAST_API clast_porosity_options clast_porosity_options_default(void);
 /// Spheres and ellipsoids in closed form, surfaces by exact integration over their clipped
 /// triangles, clumps whose spheres overlap by exact sections (union of discs) under 12-point Gauss
 /// rules between the heights where a sphere begins or ends, and up to 64 spheres also where two
-/// begin or cease to cross (error below 1e-4 of the clump; unevenness of the section's root at such
-/// heights is what is left).
+/// begin or cease to cross (error below 1e-4 of the clump; what remains are kinks of the section at
+/// such heights).
 ///
 /// @param edge   [n + 1] rising; the first may be -INFINITY, the last INFINITY [m]
 /// @param solid  [n] m^3
@@ -157,7 +157,7 @@ CLAST_API clast_bed_walls clast_bed_side_walls(const clast_bed *bed,
 /// What reaches beyond the sides of a bed: slices count grains whole, so that a bed which is
 /// smaller than what holds them has too low a porosity.
 typedef struct clast_bed_beyond {
-    int32_t n; ///< grains with one or more of 512 even points beyond: a contact's overlap has none
+    int32_t n; ///< grains with a point of 512 beyond (quasi-random): a contact's overlap has none
     double depth; ///< of the farthest: exact for spheres, else of its points [m]
     double solid; ///< theirs beyond the sides, by points [m^3]
 } clast_bed_beyond;
@@ -181,8 +181,8 @@ CLAST_API clast_status clast_bed_beyond_measure(const clast_bed *bed,
                                                 clast_porosity_method method,
                                                 clast_bed_beyond *beyond);
 
-/// Share of a bed's volume between two heights that lies outside another bed, by 20,000 even
-/// points: what a run's own bed does not hold has no grains, and would count as pores.
+/// Share of a bed's volume between two heights that lies outside another bed, by 20,000
+/// quasi-random points: what a run's own bed does not hold has no grains, and would count as pores.
 ///
 /// @param own    of a periodic one its first image; above and below a surface nothing is compared
 /// @param z      [2] lower and upper height [m]
@@ -195,17 +195,17 @@ CLAST_API clast_status clast_bed_outside(const clast_bed *bed, const clast_bed *
 typedef struct clast_porosity_core {
     double depth;    ///< left out at the side walls: middle of the ramp [m]
     double porosity; ///< of what is farther from them
-    double error;    ///< standard error, as if its points were random: an upper bound for even ones
+    double error;    ///< standard error as of random points, an upper bound for quasi-random ones
     double share;    ///< of the side walls: bulk porosity - that of the core
 } clast_porosity_core;
 
 /// Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.
 ///
-/// A place counts by w, which rises from 0 at n_size - 1/2 grain sizes (clast_bed_side_walls) from
+/// A point counts by w, which rises from 0 at n_size - 1/2 grain sizes (clast_bed_side_walls) from
 /// the nearest side wall to 1 at n_size + 1/2: grains stand in layers there, and one layer's width
 /// evens out what a sharp cut would find. Porosity is 1 - (integral of w over the solid) /
-/// (integral of w). Grains that lie on the ramp are stood for by 512 even points each, others are
-/// exact.
+/// (integral of w). Grains that lie on the ramp are represented by 512 quasi-random points each,
+/// others are exact.
 ///
 /// @param options  of the bulk
 /// @param n_size   1/2 at least
@@ -222,7 +222,7 @@ CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembl
 /// owns and frees.
 ///
 /// @param surface  empty
-/// @return CLAST_E_FORMAT when the file tells of none
+/// @return CLAST_E_FORMAT when the file defines none
 CLAST_API clast_status clast_bed_read(const char *path, clast_bed *bed, clast_mesh *surface);
 
 /// "mesh:FILE,UNIT", the inside of a surface whose holes are covered (a file by clast_mesh_write
@@ -246,7 +246,7 @@ CLAST_API clast_status clast_bed_load(const char *text, clast_bed *bed, clast_me
 /// @param z_high  and this [m]
 /// @param table  must be empty; written only on success
 /// @return CLAST_E_USAGE when no grain lies inside
-/// @note O(n) for even beds; the same bytes for any thread count
+/// @note O(n) for uniform beds; the same bytes for any thread count
 CLAST_API clast_status clast_porosity_local(const clast_assembly *assembly, const clast_bed *bed,
                                             double z_low, double z_high, clast_table *table);
 
@@ -258,10 +258,10 @@ typedef struct clast_radial_options {
 
 /// Porosity by distance from the axis of a cylindrical bed, between two heights.
 ///
-/// Each grain is stood for by `n_point` even points inside it (equal-volume spheres or true shapes
-/// by `method`); the error is that of random points, an upper bound for even ones. What pokes
-/// through the wall counts in the last ring; of a part of a packing it does not. Columns r_low_m,
-/// r_high_m, solid_m3, solid_error_m3, porosity, porosity_error.
+/// Each grain is represented by `n_point` quasi-random points inside it (equal-volume spheres or
+/// true shapes by `method`); the error is that of random points, an upper bound for these. What
+/// pokes through the wall counts in the last ring; of a part of a packing it does not. Columns
+/// r_low_m, r_high_m, solid_m3, solid_error_m3, porosity, porosity_error.
 ///
 /// @param z      [2] lower and upper height [m]
 /// @param table  must be empty; written only on success
@@ -271,7 +271,7 @@ CLAST_API clast_status clast_porosity_radial(const clast_assembly *assembly, con
                                              clast_table *table);
 
 typedef struct clast_pore_options {
-    int64_t n_point; ///< even points in the bed, of which those in pores count
+    int64_t n_point; ///< quasi-random points in the bed, of which those in pores count
     int32_t n_bin;
     double period[3]; ///< of the bed in x, y and z; 0: none
 } clast_pore_options;
@@ -356,7 +356,7 @@ CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const clast_
 /// @param contacts  of clast_dem_contact_table    @param z  heights [m]
 /// @return CLAST_E_FORMAT when the table is no such, CLAST_E_GEOMETRY where there is no volume,
 ///         CLAST_E_USAGE for heights farther apart than the period in z, and for a part of a
-///         packing: contacts are those of all grains (clast_bed_fields has stresses by place)
+///         packing: contacts are those of all grains (clast_bed_fields has stresses by position)
 CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed *bed,
                                     const double z[2], clast_table *table);
 

@@ -246,7 +246,8 @@ CLAST_API const clast_idle *clast_porosity_fit_idle(const clast_porosity_fit_con
 typedef struct clast_fit_data {
     clast_model_kind kind;
     clast_table beds; ///< columns row (from 1), porosity, then the candidates (NaN: not defined)
-    clast_table left_out; ///< columns row, reason
+    clast_table left_out;  ///< columns row, reason
+    char unread_count[64]; ///< of the grains: see clast_form_set; ""
 } clast_fit_data;
 
 /// Beds of one form each: 26 features from each row's flatness and elongation or L, I, S.
@@ -274,6 +275,22 @@ CLAST_API clast_status clast_fit_data_columns(const clast_table *beds,
                                               const clast_porosity_fit_config *config,
                                               clast_fit_data *data);
 CLAST_API void clast_fit_data_free(clast_fit_data *data);
+
+/// A line that people should know of a fit, spelt as `clast fit` prints it on the error stream.
+typedef struct clast_fit_note {
+    bool is_of_table; ///< the table's name goes before it
+    char text[1024];
+} clast_fit_note;
+
+/// The features of a fit that names none (`clast fit --features auto`): mixture with a second
+/// table, of the beds' grains; single form where the table's columns, or those of `columns`, are a
+/// form's by their names, whatever is in them; else the table's own columns.
+///
+/// @param note  its text is "", or what says that named columns are candidates though their numbers
+///              could be a form
+CLAST_API clast_status clast_porosity_fit_choose(const clast_table *beds, bool has_grains,
+                                                 const clast_porosity_fit_config *config,
+                                                 clast_model_kind *kind, clast_fit_note *note);
 
 typedef struct clast_porosity_fit {
     clast_porosity_model model; ///< with covariance, ranges and scores
@@ -316,5 +333,18 @@ CLAST_API clast_status clast_porosity_fit_data(const clast_fit_data *data, const
                                                const clast_porosity_fit_config *config,
                                                clast_porosity_fit *fit);
 CLAST_API void clast_porosity_fit_free(clast_porosity_fit *fit);
+
+/// What people should know of a fit, line by line: rows that were left out, columns of words that
+/// are no candidates, why a selection has fewer features than n_term, the column that names the
+/// beds, features that count the rows.
+///
+/// @param fit     NULL before it is made: the first lines, those of the table alone
+/// @param beds    the table that `data` was made of, with this configuration
+/// @param number  from 0
+/// @return false beyond the last line, and of a NULL; `note` is then untouched
+CLAST_API bool clast_porosity_fit_note(const clast_porosity_fit *fit, const clast_table *beds,
+                                       const clast_fit_data *data, int32_t number,
+                                       const clast_porosity_fit_config *config,
+                                       clast_fit_note *note);
 
 CLAST_END

@@ -14,7 +14,7 @@ typedef struct clast_image {
                        ///< middle of the view; 0 when not a picture of an assembly
 } clast_image;
 
-/// Room for the pixels, zeroed; `image` must be empty. CLAST_E_MEMORY.
+/// Allocates the pixels, zeroed; `image` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_image_alloc(int32_t width, int32_t height, clast_image *image);
 /// Frees the pixels; may be called twice.
 CLAST_API void clast_image_free(clast_image *image);
@@ -71,7 +71,7 @@ typedef struct clast_render_config {
     int32_t background;    ///< clast_render_background
     bool ground;           ///< shadow on a plane under the grains
     int32_t cut;           ///< clast_render_cut: removes the half nearer to the viewer
-    double cut_position;   ///< place of the plane: 0 first, 1 last end of the extent along its axis
+    double cut_position;   ///< of the plane: 0 first, 1 last end of the extent along its axis
     bool colour_bar;
     bool scale_bar;
     char *unit;           ///< unit of the coordinates when the assembly knows none ("" : not known)

@@ -44,4 +44,10 @@ CLAST_API clast_status clast_report_write_run(const char *folder, const char *pl
 CLAST_API clast_status clast_report_write_view(const clast_assembly *assembly, const char *path,
                                                const clast_report_config *config);
 
+/// SI unit of a number of a summary or of a table by its key, as the page shows it: "z_high" and
+/// "size_m" -> "m".
+///
+/// @return "" for none, for NULL and for a key that pages do not know
+CLAST_API const char *clast_report_unit(const char *key);
+
 CLAST_END

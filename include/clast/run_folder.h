@@ -119,9 +119,23 @@ CLAST_API clast_status clast_run_folder_end(clast_run_folder *run, clast_status 
 /// line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN".
 CLAST_API clast_status clast_run_folder_check(const char *folder);
 
-/// Whether an existing file is part of a run: its folder, or one above it, holds the run that wrote
-/// it. A page (report.html) can be made again at any time and is not.
-CLAST_API bool clast_run_folder_owns(const char *path);
+/// Refuses an output that is there as part of a run: its folder, or one above it, holds the run
+/// that wrote it. A page (report.html) can be made again at any time and is not.
+///
+/// @param option  what names the output, for the message: "-o", "output"
+/// @return CLAST_E_USAGE
+CLAST_API clast_status clast_run_folder_check_output(const char *option, const char *path);
+
+/// Refuses an output that is this input, or the folder that holds it, whatever the spelling or
+/// link.
+///
+/// @param input  a file or folder, which need not be there; "list:FILE" names one as FILE does
+/// @return CLAST_E_USAGE
+CLAST_API clast_status clast_run_folder_check_input(const char *option, const char *path,
+                                                    const char *input);
+
+/// Whether two paths are one place, whatever their spelling and links, where nothing need be yet.
+CLAST_API bool clast_run_folder_is_same(const char *path, const char *other);
 
 /// The state file that a command's argument means: a run folder's state.h5, else the argument
 /// itself.

@@ -10,7 +10,8 @@ struct clast_spheres {
     double *radius;      ///< [n] m
 };
 
-/// Room for n spheres, zeroed; `spheres` must be empty. CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
+/// Allocates n spheres, zeroed; `spheres` must be empty.
+/// CLAST_E_MEMORY; CLAST_E_ARGUMENT for n < 0.
 CLAST_API clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres);
 /// Frees the arrays; may be called twice.
 CLAST_API void clast_spheres_free(clast_spheres *spheres);
@@ -41,7 +42,7 @@ typedef struct clast_parts {
 /// What a shape's own material weighs.
 typedef struct clast_material {
     double density;       ///< mean: mass over volume [kg/m^3]; 0: not known
-    bool is_mixed;        ///< parts of several densities; then the two below tell where the mass is
+    bool is_mixed;        ///< parts of several densities; then the two below say where the mass is
     double centre[3];     ///< of mass, in the shape's frame
     double inertia[3][3]; ///< about that centre, at mean density 1
 } clast_material;
@@ -96,7 +97,7 @@ CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, 
 /// Reads a sphere set: a state file (.h5) or delimited text with columns x, y, z and radius.
 ///
 /// Text columns are found by name (x, y, z and radius, r, diameter or d, with or without a unit as
-/// in x_um) or, when the header names no x, y, z, by place: the first four. Numbers stay as they
+/// in x_um) or, when the header names no x, y, z, by position: the first four. Numbers stay as they
 /// are (a diameter is halved); columns of several units, radii and diameters in phi among them, are
 /// in that of x.
 ///
@@ -112,7 +113,7 @@ CLAST_API clast_status clast_spheres_read(const char *path, const char *name,
 /// .h5. A state file that exists keeps all else: the set is added, or replaces the one of its name.
 ///
 /// @param name  of the set in a state file; not written to text
-/// @param unit  of the coordinates ("um"), or NULL: model units
+/// @param unit  of the coordinates ("um"), which ends a CSV's names (x_um); NULL or "": model units
 /// @return CLAST_E_USAGE for another extension, or a state file in another unit; CLAST_E_DISK;
 ///         CLAST_E_FORMAT when the existing state file is damaged (it is left as it is)
 CLAST_API clast_status clast_spheres_write(const clast_spheres *spheres, const char *path,

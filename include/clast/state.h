@@ -78,13 +78,13 @@ typedef struct clast_packing_frame {
     double tilt[3]; ///< xy, xz, yz: how far the next image in y is along x, in z along x, along y
 } clast_packing_frame;
 
-/// What a packing's file told beside its grains.
+/// What a packing's file gave beside its grains.
 typedef struct clast_packing_report {
     int64_t snapshot, n_snapshot; ///< which one was read, from 1, of so many: the last; else 1, 1
-    clast_packing_frame frame;    ///< of a dump or data file
+    clast_packing_frame frame;    ///< of a dump, data file or .xyz
 } clast_packing_report;
 
-/// Reads a packing that another program made; densities are 1 where the file does not tell them,
+/// Reads a packing that another program made; densities are 1 where the file does not give them,
 /// and assembly->no_density is set.
 ///
 /// LAMMPS and LIGGGHTS data files and dumps: spheres and ellipsoids (shapex .. quatk) with their
@@ -94,15 +94,18 @@ typedef struct clast_packing_report {
 /// blanks), LAMMPS dumps, VTK points and .xyz (a count, a comment, then element x y z and perhaps a
 /// radius) by the names of their columns: x, y, z and radius, r, diameter or d, with or without a
 /// unit (x_mm); density or rho [kg/m^3] or with its unit (density_g/cm3), or mass with its unit
-/// (mass_g). Without names by place: x y z r, id x y z (voro++; give the diameter) or id x y z r,
-/// where the ids are the whole numbers from 0 or 1 on. `.xyzd` holds little-endian doubles x, y, z,
-/// diameter (packing-generation). Of several snapshots of a dump or .xyz the last is read.
+/// (mass_g). Without names in order: x y z r, id x y z (voro++; give the diameter) or id x y z r,
+/// where the ids are the whole numbers from 0 or 1 on. A column id, whole and unique, gives the
+/// grains' ids (assembly->has_ids). `.xyzd` holds little-endian doubles x, y, z,
+/// diameter (packing-generation). Of several snapshots of a dump or .xyz the last is read. The box
+/// of an .xyz is its Lattice="ax 0 0 bx by 0 cx cy cz", periodic but for pbc="F F F".
 ///
 /// @param assembly  empty; filled on success; in metres where the dump or all four columns say
 ///                  their unit, else "model"
 /// @param report    may be NULL
 /// @return CLAST_E_FORMAT for missing columns, units of some columns alone, numbers that are not
-///         finite, radii not above 0; CLAST_E_CONFIG for `columns` that name no x, y or z
+///         finite, radii not above 0, two grains of one id; CLAST_E_CONFIG for `columns` that name
+///         no x, y or z
 CLAST_API clast_status clast_packing_read(const char *path, const clast_packing_options *options,
                                           clast_assembly *assembly, clast_packing_report *report);
 
@@ -154,8 +157,13 @@ typedef struct clast_export_report {
     const char *unit;             ///< of lengths in the file; lasts as long as options and assembly
     double
         facet_ratio; ///< volume of spheres and ellipsoids as facets, by their own; NaN: no facets
+    double clump_ratio; ///< volume of clumps as facets, where their balls are whole and lie one in
+                        ///< another, by their own; NaN: no facets of clumps
     double ellipsoid_ratio; ///< LAMMPS: volume of the ellipsoids that stand for surfaces and
                             ///< clumps, by theirs; NaN: there are none
+    bool has_ids;           ///< the file holds the grains' ids
+    bool ids_kept;          ///< and those are of the file that the grains came from
+    int32_t id_offset;      ///< added to them: 1 where LAMMPS or voro++ count from 1, else 0
 } clast_export_report;
 
 /// Lower-case name of a format ("vtu").

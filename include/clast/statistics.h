@@ -105,7 +105,7 @@ typedef struct clast_histogram {
 } clast_histogram;
 
 /// Bins of width 2 IQR n^(-1/3) [Freedman1981], rounded to the nearest of 1, 2 or 5 times a power
-/// of ten, with edges at its multiples; at most 200. A sample that is constant, or so even that
+/// of ten, with edges at its multiples; at most 200. A sample that is constant, or so nearly that
 /// doubles have no edges between, gets one bin. Values that are not finite are left out.
 ///
 /// @return CLAST_E_FORMAT without a finite value, or where mean, deviation or range are beyond what

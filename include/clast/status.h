@@ -18,7 +18,7 @@
 #endif
 
 /// The release of these headers. Until 1.0 each minor one may change the interface, so a program
-/// and its library agree in both numbers; clast_version() tells the library's.
+/// and its library agree in both numbers; clast_version() returns the library's.
 #define CLAST_VERSION_MAJOR 0
 #define CLAST_VERSION_MINOR 2
 #define CLAST_VERSION_TEXT  "0.2.0"

@@ -34,6 +34,17 @@ extern CLAST_API const clast_field clast_study_fields[];
 ///         runs; errors of the CSV reader
 CLAST_API clast_status clast_study_plan(const clast_study_config *config, clast_table *plan);
 
+/// Refuses before the first run what every run would refuse: keys in `vary`, `table` or `set` that
+/// the command does not have, one of a single value that `set` gives twice, and several seeds where
+/// it draws nothing at random.
+///
+/// @param fields  of the command `run`: names and types alone are read, up to a row of zeros; NULL
+///                for none
+/// @param n_run   runs of the plan; may be NULL; written only on success
+/// @return CLAST_E_CONFIG names the key and one that is near; errors of clast_study_plan
+CLAST_API clast_status clast_study_check(const clast_study_config *config,
+                                         const clast_field *fields, int64_t *n_run);
+
 /// One run as its worker gets it. Borrowed for the call.
 typedef struct clast_study_item {
     int64_t row;           ///< of the plan
@@ -79,6 +90,17 @@ typedef struct clast_study_outcomes {
 
 /// Counts the runs of a study's results.csv; those without an exit code are open.
 CLAST_API clast_status clast_study_count(const clast_table *results, clast_study_outcomes *count);
+
+/// The grains of a study's beds, from FOLDER/runs/NNNNNN/out/grains.csv of each run: columns
+/// `group`, the run's number, flatness and elongation, as clast_fit_data_mixture takes them. Runs
+/// with another exit code than 0 are left out: they have no bed.
+///
+/// @param beds    results of the study, all or a part; the column `group` has the runs' numbers
+/// @param grains  must be empty; written only on success
+/// @return CLAST_E_FORMAT without these columns of numbers, for a number that no run has, or when
+///         no run has ended well; errors of the CSV reader
+CLAST_API clast_status clast_study_grains(const char *folder, const clast_table *beds,
+                                          const char *group, clast_table *grains);
 
 /// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.
 ///

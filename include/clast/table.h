@@ -70,9 +70,10 @@ typedef struct clast_csv_report {
 ///
 /// A column whose cells are all numbers, empty, NA, nan or inf holds numbers, also if they are
 /// quoted; every other holds texts. Numbers have '.' whatever the locale. Quoted cells may hold
-/// separators, quotes ("") and line ends; blanks around unquoted cells are dropped. Lines end in
-/// LF, CR LF or CR; a UTF-8 byte-order mark is skipped. A header's unit, as in diameter_m,
-/// "diameter (um)" or "rho [kg/m^3]", becomes the column's unit; numbers stay as they are.
+/// separators, quotes ("") and line ends; blanks around unquoted cells are dropped; of a header in
+/// blanks those before and in the brackets of a unit, "x (mm)", separate nothing. Lines end in LF,
+/// CR LF or CR; a UTF-8 byte-order mark is skipped. A header's unit, as in diameter_m, "diameter
+/// (um)" or "rho [kg/m^3]", becomes the column's unit; numbers stay as they are.
 ///
 /// @param options  NULL: guess
 /// @param table    must be empty; written only on success
@@ -104,7 +105,7 @@ CLAST_API clast_status clast_table_write_csv_note(const clast_table *table, cons
 /// does not have, become null. The file appears whole or not at all.
 CLAST_API clast_status clast_table_write_json(const clast_table *table, const char *path);
 
-/// Writes rows that are cells of an even grid, x fastest, as a VTK image (.vti) for ParaView:
+/// Writes rows that are cells of a uniform grid, x fastest, as a VTK image (.vti) for ParaView:
 /// columns x, y, z (middles) and dx, dy, dz (sides), each perhaps with a unit behind it (x_m); the
 /// other columns of numbers are its cell data, by their names.
 ///

@@ -12,7 +12,7 @@ typedef struct clast_voxels {
     double threshold; ///< of the grey values: labelled bricks are above it
 } clast_voxels;
 
-/// Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.
+/// Allocates n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.
 CLAST_API clast_status clast_voxels_alloc(const int32_t n[3], double edge, clast_voxels *voxels);
 CLAST_API void clast_voxels_free(clast_voxels *voxels);
 
@@ -79,7 +79,7 @@ typedef struct clast_volume {
     float *value;   ///< [n[2]][n[1]][n[0]], x fastest; whole numbers are exact up to 2^24
 } clast_volume;
 
-/// Room for the values, zeroed, edges 1; `volume` must be empty. CLAST_E_LIMIT beyond 2^31 bricks.
+/// Allocates the values, zeroed, edges 1; `volume` must be empty. CLAST_E_LIMIT beyond 2^31 bricks.
 CLAST_API clast_status clast_volume_alloc(const int32_t n[3], clast_volume *volume);
 CLAST_API void clast_volume_free(clast_volume *volume);
 

@@ -59,7 +59,7 @@ typedef struct clast_workspace_policy {
     int32_t pairs_every; ///< calls at least between two counts of the pairs of a cloud that cells
                          ///< do not resolve; 0: at each cut
     int32_t pairs_most;  ///< points that such a count takes at the most, of a greater cloud a part
-                         ///< chosen by their places; 0: all, else at least 1000
+                         ///< chosen by their positions; 0: all, else at least 1000
 } clast_workspace_policy;
 
 /// Fields of clast_workspace_policy: keys, defaults, ranges and units; ends with a row of zeros.
@@ -131,7 +131,7 @@ CLAST_API clast_status clast_workspace_decompose_in(clast_workspace *workspace,
 CLAST_API clast_status clast_workspace_cells(const clast_workspace *workspace, int64_t stride,
                                              int32_t *cell);
 
-/// Expected events of the cell of each point, shared evenly among its points, into
+/// Expected events of the cell of each point, shared equally among its points, into
 /// events[i * stride]: what a solver that keeps its own cells adds up. Without beta_dt its share of
 /// the pair integral [1/m^d]. 0 for points left out.
 ///

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import (Config, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, quantity,
-                    refuse, refuse_idle, settled, single, view, warn)
+from ._core import (Config, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, length,
+                    output_path, refuse, refuse_idle, settled, single, view, warn)
 from ._html import file_html
 from ._mesh import Mesh, warn_of_doubles
 from ._runs import Assembly
@@ -27,7 +27,8 @@ class Spheres:
     n_sphere: int
     solid_volume: float
     sphere_volume: float
-    filled_fraction: float
+    filled_fraction: float  #: share of the solid's volume that the spheres hold
+    outside_fraction: float  #: their volume outside of it, by its volume
     volume_error: float
     centroid_error: float
     inertia_error: float
@@ -49,14 +50,15 @@ class Spheres:
 
     def write(self, path: Path, name: str = "clump") -> None:
         """Writes the spheres as `clast fill -o` does, by the name's end."""
-        check(call("clast_spheres_write")(ctypes.byref(self._owner.struct), encoded("path", path), encoded("name", name), None))
+        check(call("clast_spheres_write")(ctypes.byref(self._owner.struct), output_path("path", path), encoded("name", name),
+                                         encoded("unit", self._mesh._unit)))
 
     def _repr_html_(self) -> str:
         return html_members(self, int, float)
 
 
-_TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume_error", "centroid_error", "inertia_error", "max_protrusion",
-         "n_protruding", "max_overlap", "deviation_mean", "deviation_max", "bound")
+_TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "outside_fraction", "volume_error", "centroid_error", "inertia_error",
+         "max_protrusion", "n_protruding", "max_overlap", "deviation_mean", "deviation_max", "bound")
 
 
 def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Spheres:
@@ -91,7 +93,7 @@ class Porosity:
     wall_ratio: float  #: least width of the bed by the grains' size; inf: no side walls (periodic, or a part of a packing)
     is_part: bool  #: the bed is a part of the packing: profile and bulk count what lies inside, contacts are all, there is no stress
     bed_outside: float  #: share of a given bed outside the run's own, where no grain is
-    n_beyond: int  #: grains that extend beyond the sides of a given bed, -1: the run's own, or periodic
+    n_beyond: int  #: grains that reach beyond the sides of a given bed, -1: the run's own, or periodic
     max_beyond: float
     core: float  #: porosity away from the side walls
     core_error: float
@@ -114,7 +116,7 @@ class Porosity:
     def chart(self, path: Path) -> None:
         """Draws the profile into an .svg, .pdf or .png file."""
         found = self._found.struct
-        check(call("clast_chart_porosity")(ctypes.byref(found.profile), ctypes.byref(found.bulk), self.unit.encode(), encoded("path", path)))
+        check(call("clast_chart_porosity")(ctypes.byref(found.profile), ctypes.byref(found.bulk), self.unit.encode(), output_path("path", path)))
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float)) and v == v})
@@ -155,7 +157,7 @@ class _Bed:
 
     def length(self, name: str, value: Quantity, low: float = 0.0) -> float:
         """A number in the run's unit, or a text with its unit for a run in metres."""
-        return quantity(name, value, "m" if self.grains.unit == "m" else "-", low, 1e9)
+        return length(name, value, self.grains.unit, low)
 
 
 def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, method: str = "exact", layer: Quantity = 0.0, cut: float = 0.5,
@@ -177,7 +179,7 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     check(call("clast_bed_measure")(ctypes.byref(b.grains._owner.struct), ctypes.byref(known), ctypes.byref(options), ctypes.byref(owner.struct)))
     f = owner.struct
     if f.beyond.n > 0:
-        warn(f"bed: {f.beyond.n} of {len(b.grains)} grains extend beyond its sides, by up to {f.beyond.depth:.4g}"
+        warn(f"bed: {f.beyond.n} of {len(b.grains)} grains reach beyond its sides, by up to {f.beyond.depth:.4g}"
              + (": a part of a packing; bulk and profile count what lies inside, contacts do not; there is no stress" if f.bed.is_part
                 else f", with {100 * f.beyond.solid / f.bulk.solid:.3g} % of the solid that counts as inside"))
     if f.outside > 1e-3:

@@ -117,7 +117,7 @@ class clast_heat(Structure):
 
 
 class clast_note(Structure):
-    """A word in the plot, centred at a place of the axes."""
+    """A word in the plot, centred at a point of the axes."""
 
 
 class clast_chart(Structure):
@@ -153,7 +153,7 @@ class clast_pearson(Structure):
 
 
 class clast_spacing(Structure):
-    """Mean distance to the nearest neighbour, across periodic faces, over that of uniform points: > 1 is more even than uniform (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 less even."""
+    """Mean distance to the nearest neighbour, across periodic faces, over that of uniform points: > 1 is regular (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 clustered or varying."""
 
 
 class clast_boundary_score(Structure):
@@ -185,7 +185,7 @@ class clast_cells(Structure):
 
 
 class clast_within_cells(Structure):
-    """What pairs show within the cells, whose points the cells take as even."""
+    """What pairs show within the cells, whose points the cells take as uniform."""
 
 
 class clast_decompose_parts(Structure):
@@ -197,7 +197,7 @@ class clast_dem_config(Structure):
 
 
 class clast_dem_grain(Structure):
-    """A grain to add: shape scaled, turned, moved."""
+    """A grain to add: shape scaled, rotated, translated."""
 
 
 class clast_dem_drive(Structure):
@@ -237,7 +237,7 @@ class clast_dem_load(Structure):
 
 
 class clast_scene_bed(Structure):
-    """Case P1 and its kin: grains of 63 gravel forms (152 points on a dented ellipsoid), D log-uniform in 5.6 to 8 mm, random form and turn, on a loose lattice in a box of width x width, periodic in x and y, over a floor, in water; the published law and shaking act."""
+    """Case P1 and its kin: grains of 63 gravel forms (152 points on a dented ellipsoid), D log-uniform in 5.6 to 8 mm, random form and orientation, on a loose lattice in a box of width x width, periodic in x and y, over a floor, in water; the published law and shaking act."""
 
 
 class clast_evolve_input(Structure):
@@ -544,6 +544,10 @@ class clast_porosity_fit_config(Structure):
     """clast_porosity_fit_config."""
 
 
+class clast_fit_note(Structure):
+    """A line that people should know of a fit, spelt as `clast fit` prints it on the error stream."""
+
+
 class clast_image(Structure):
     """Pixels in memory, row by row from the top, straight (not premultiplied) sRGB and alpha."""
 
@@ -609,7 +613,7 @@ class clast_packing_frame(Structure):
 
 
 class clast_packing_report(Structure):
-    """What a packing's file told beside its grains."""
+    """What a packing's file gave beside its grains."""
 
 
 class clast_export_options(Structure):
@@ -938,6 +942,7 @@ clast_assembly._fields_ = [
     ('grain_capacity', c_int32),
     ('contact_capacity', c_int32),
     ('no_density', c_bool),
+    ('has_ids', c_bool),
 ]
 clast_rigid_options._fields_ = [
     ('hull', c_bool),
@@ -1077,6 +1082,7 @@ clast_cloud._fields_ = [
     ('weight', POINTER(c_double)),
     ('velocity', POINTER(c_double)),
     ('variable', POINTER(c_double)),
+    ('unread_weight', (c_char * 64)),
 ]
 clast_points_options._fields_ = [
     ('dataset', c_char_p),
@@ -1166,6 +1172,7 @@ clast_decompose_config._fields_ = [
     ('lower', c_int32),
     ('strict', c_bool),
     ('beta_dt', c_double),
+    ('beta_dt_dimension', c_int32),
     ('tree_level', c_double),
     ('tree_root_level', c_double),
     ('variable_tolerance', c_double),
@@ -1481,6 +1488,7 @@ clast_fill_report._fields_ = [
     ('solid_volume', c_double),
     ('sphere_volume', c_double),
     ('filled_fraction', c_double),
+    ('outside_fraction', c_double),
     ('volume_error', c_double),
     ('centroid_error', c_double),
     ('inertia_error', c_double),
@@ -1530,7 +1538,10 @@ clast_form_set._fields_ = [
     ('flatness', POINTER(c_double)),
     ('elongation', POINTER(c_double)),
     ('size', POINTER(c_double)),
-    ('size_label', (c_char * 64)),
+    ('size_name', (c_char * 64)),
+    ('size_unit', (c_char * 16)),
+    ('is_sieve_size', c_bool),
+    ('unread_count', (c_char * 64)),
     ('n_left_out', c_int64),
     ('left_out', POINTER(clast_left_out)),
 ]
@@ -1562,6 +1573,7 @@ clast_grading_match._fields_ = [
     ('n', c_int64),
     ('distance_mass', c_double),
     ('distance_number', c_double),
+    ('distance_curve', c_double),
     ('achieved_d10', c_double),
     ('achieved_d50', c_double),
     ('achieved_d90', c_double),
@@ -2193,6 +2205,10 @@ clast_porosity_fit_config._fields_ = [
     ('n_permutation', c_int32),
     ('seed', c_uint64),
 ]
+clast_fit_note._fields_ = [
+    ('is_of_table', c_bool),
+    ('text', (c_char * 1024)),
+]
 clast_image._fields_ = [
     ('width', c_int32),
     ('height', c_int32),
@@ -2336,7 +2352,11 @@ clast_export_report._fields_ = [
     ('n_triangle', c_int64),
     ('unit', c_char_p),
     ('facet_ratio', c_double),
+    ('clump_ratio', c_double),
     ('ellipsoid_ratio', c_double),
+    ('has_ids', c_bool),
+    ('ids_kept', c_bool),
+    ('id_offset', c_int32),
 ]
 clast_export_given._fields_ = [
     ('format', c_int),
@@ -2562,6 +2582,7 @@ clast_spectrum._fields_ = [
     ('volume_fraction', c_double),
     ('law_M1', c_double),
     ('law_M2', c_double),
+    ('is_drawn', c_bool),
     ('mass_error', c_double),
     ('n_evaluation', c_int64),
     ('range', clast_range_report),
@@ -2584,7 +2605,9 @@ clast_agglomeration._fields_ = [
     ('members', clast_table),
     ('spectrum', clast_table),
     ('n_rebuilt', c_int32),
+    ('n_snapshot', c_int32),
     ('n_unresolved', c_int32),
+    ('n_repeated', c_int64),
     ('n_cell', c_int32),
     ('volume_fraction', c_double),
     ('has_exact', c_bool),
@@ -2808,6 +2831,7 @@ clast_evolve_result._fields_ = [
     ('mass_wall', c_double),
     ('gathered', c_double),
     ('gathered_top', c_double),
+    ('weight_words', (c_char * 160)),
     ('is_field_apart', c_bool),
     ('mass_balance', c_double),
     ('number_balance', c_int64),
@@ -2946,6 +2970,7 @@ clast_fit_data._fields_ = [
     ('kind', c_int),
     ('beds', clast_table),
     ('left_out', clast_table),
+    ('unread_count', (c_char * 64)),
 ]
 clast_porosity_fit._fields_ = [
     ('model', clast_porosity_model),
@@ -3007,7 +3032,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_interval': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_fit_estimate': (40, {'best': (0, 8), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_aggregate_fit': (1472, {'cone': (0, 8), 'rays': (8, 4), 'orientations': (12, 4), 'replicate': (16, 4), 'trials': (24, 40), 'n_replica': (64, 40), 'model': (104, 120), 'porosity': (224, 40), 'observed': (264, 24), 'error': (288, 24), 'pull': (312, 24), 'least': (336, 24), 'most': (360, 24), 'chi2': (384, 8), 'n_observed': (392, 4), 'n_choice': (396, 4), 'n_freedom': (400, 4), 'p_value': (408, 8), 'verdict': (416, 4), 'packing_edge': (420, 4), 'replicate_edge': (424, 4), 'n_level': (428, 4), 'cut_short': (432, 1), 'n_run': (436, 4), 'at_level': (440, 4), 'words': (444, 1024)}),
-    'clast_assembly': (128, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4), 'no_density': (120, 1)}),
+    'clast_assembly': (128, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4), 'no_density': (120, 1), 'has_ids': (121, 1)}),
     'clast_rigid_options': (8, {'hull': (0, 1), 'faces': (4, 4)}),
     'clast_union_options': (32, {'tolerance': (0, 8), 'n_sample': (8, 8), 'seed': (16, 8), 'find_depth': (24, 1)}),
     'clast_union': (48, {'volume': (0, 8), 'error': (8, 8), 'sum': (16, 8), 'is_exact': (24, 1), 'n_overlap': (28, 4), 'max_overlap': (32, 8), 'max_overlap_share': (40, 8)}),
@@ -3024,7 +3049,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_heat': (72, {'n_x': (0, 4), 'n_y': (4, 4), 'value': (8, 8), 'x_low': (16, 8), 'x_high': (24, 8), 'y_low': (32, 8), 'y_high': (40, 8), 'x_name': (48, 8), 'y_name': (56, 8), 'is_signed': (64, 1), 'has_text': (65, 1)}),
     'clast_note': (24, {'x': (0, 8), 'y': (8, 8), 'text': (16, 8)}),
     'clast_chart': (184, {'title': (0, 8), 'x': (8, 32), 'y': (40, 32), 'value_axis': (72, 32), 'series': (104, 8), 'n_series': (112, 4), 'heat': (120, 8), 'mark_y': (128, 8), 'mark_label': (136, 8), 'n_mark': (144, 4), 'note': (152, 8), 'n_note': (160, 4), 'equal': (164, 1), 'width': (168, 8), 'height': (176, 8)}),
-    'clast_cloud': (64, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'radius': (24, 8), 'mass': (32, 8), 'weight': (40, 8), 'velocity': (48, 8), 'variable': (56, 8)}),
+    'clast_cloud': (128, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'radius': (24, 8), 'mass': (32, 8), 'weight': (40, 8), 'velocity': (48, 8), 'variable': (56, 8), 'unread_weight': (64, 64)}),
     'clast_points_options': (16, {'dataset': (0, 8), 'frame': (8, 8)}),
     'clast_domain_map_functions': (40, {'dimension': (0, 4), 'volume': (8, 8), 'map': (16, 8), 'unmap': (24, 8), 'context': (32, 8)}),
     'clast_domain': (224, {'kind': (0, 4), 'dimension': (4, 4), 'low': (8, 24), 'high': (32, 24), 'radius': (56, 8), 'length': (64, 8), 'is_placed': (72, 1), 'centre': (80, 24), 'axes': (104, 72), 'user': (176, 40), 'surface': (216, 8)}),
@@ -3033,7 +3058,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_pearson': (64, {'n_pair': (0, 4), 'r': (8, 24), 'p': (32, 24), 'p_bonferroni': (56, 8)}),
     'clast_spacing': (24, {'ratio': (0, 8), 'z': (8, 8), 'p': (16, 8)}),
     'clast_boundary_score': (56, {'score': (0, 8), 'ideal': (8, 8), 'trapezoid': (16, 8), 'projected': (24, 8), 'projected_axis': (32, 24)}),
-    'clast_decompose_config': (144, {'domain': (0, 8), 'outside': (8, 4), 'variant': (12, 4), 'mesh': (16, 4), 'events': (20, 4), 'level': (24, 8), 'votes': (32, 4), 'tests': (40, 8), 'statistic': (48, 4), 'paper': (52, 1), 'ghost_samples': (56, 4), 'crossfit': (60, 1), 'max_pass': (64, 4), 'lower': (68, 4), 'strict': (72, 1), 'beta_dt': (80, 8), 'tree_level': (88, 8), 'tree_root_level': (96, 8), 'variable_tolerance': (104, 8), 'tree_least': (112, 4), 'tree_refine': (116, 1), 'extrapolate': (117, 1), 'pairs': (118, 1), 'pairs_radius': (120, 8), 'estimator': (128, 4), 'seed': (136, 8)}),
+    'clast_decompose_config': (152, {'domain': (0, 8), 'outside': (8, 4), 'variant': (12, 4), 'mesh': (16, 4), 'events': (20, 4), 'level': (24, 8), 'votes': (32, 4), 'tests': (40, 8), 'statistic': (48, 4), 'paper': (52, 1), 'ghost_samples': (56, 4), 'crossfit': (60, 1), 'max_pass': (64, 4), 'lower': (68, 4), 'strict': (72, 1), 'beta_dt': (80, 8), 'beta_dt_dimension': (88, 4), 'tree_level': (96, 8), 'tree_root_level': (104, 8), 'variable_tolerance': (112, 8), 'tree_least': (120, 4), 'tree_refine': (124, 1), 'extrapolate': (125, 1), 'pairs': (126, 1), 'pairs_radius': (128, 8), 'estimator': (136, 4), 'seed': (144, 8)}),
     'clast_vote': (40, {'name': (0, 8), 'statistic': (8, 8), 'p': (16, 8), 'reject': (24, 1), 'axis': (28, 8)}),
     'clast_uniformity': (232, {'n_test': (0, 4), 'vote': (8, 200), 'n_reject': (208, 4), 'reject': (212, 1), 'score': (216, 8), 'ideal': (224, 8)}),
     'clast_uniformity_config': (24, {'level': (0, 8), 'votes': (8, 4), 'left_out': (12, 4), 'liang': (16, 1), 'paper': (17, 1)}),
@@ -3054,23 +3079,23 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_load': (272, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'shear_modulus': (136, 8), 'fabric': (144, 48), 'n_contact': (192, 8), 'n_force': (200, 8), 'coordination': (208, 8), 'n_rattler': (216, 4), 'coordination_held': (224, 8), 'unbalanced': (232, 8), 'force_mean': (240, 8), 'force_below': (248, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
     'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
-    'clast_evolve_source': (656, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 64), 'field': (536, 64), 'input': (600, 56)}),
+    'clast_evolve_source': (784, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 128), 'field': (600, 128), 'input': (728, 56)}),
     'clast_text_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_f64_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_field': (88, {'name': (0, 8), 'offset': (8, 8), 'type': (16, 4), 'value': (24, 8), 'low': (32, 8), 'high': (40, 8), 'unit': (48, 8), 'help': (56, 8), 'text': (64, 8), 'group': (72, 8), 'common': (80, 1)}),
     'clast_idle': (24, {'is_idle': (0, 1), 'names': (8, 8), 'why': (16, 8)}),
     'clast_fill_config': (144, {'spheres': (0, 4), 'strategy': (4, 4), 'filled': (8, 8), 'volume_error': (16, 8), 'centroid_error': (24, 8), 'inertia_error': (32, 8), 'min_radius': (40, 8), 'min_share': (48, 8), 'tolerance': (56, 8), 'candidates': (64, 4), 'first_at_centre': (68, 1), 'vertex_subset': (69, 1), 'max_tries': (72, 8), 'outer': (80, 1), 'shrink': (88, 8), 'overlap': (96, 1), 'protrusion': (104, 8), 'allow_open': (112, 1), 'seed': (120, 8), 'name': (128, 8), 'history': (136, 8)}),
-    'clast_fill_report': (160, {'n_sphere': (0, 4), 'n_placed': (4, 4), 'end': (8, 4), 'n_open_edge': (12, 4), 'open_share': (16, 8), 'solid_volume': (24, 8), 'sphere_volume': (32, 8), 'filled_fraction': (40, 8), 'volume_error': (48, 8), 'centroid_error': (56, 8), 'inertia_error': (64, 8), 'max_protrusion': (72, 8), 'n_protruding': (80, 4), 'max_overlap': (88, 8), 'deviation_mean': (96, 8), 'deviation_max': (104, 8), 'radius_min': (112, 8), 'radius_median': (120, 8), 'radius_max': (128, 8), 'bound': (136, 8), 'n_tested': (144, 8), 'wall_s': (152, 8)}),
+    'clast_fill_report': (168, {'n_sphere': (0, 4), 'n_placed': (4, 4), 'end': (8, 4), 'n_open_edge': (12, 4), 'open_share': (16, 8), 'solid_volume': (24, 8), 'sphere_volume': (32, 8), 'filled_fraction': (40, 8), 'outside_fraction': (48, 8), 'volume_error': (56, 8), 'centroid_error': (64, 8), 'inertia_error': (72, 8), 'max_protrusion': (80, 8), 'n_protruding': (88, 4), 'max_overlap': (96, 8), 'deviation_mean': (104, 8), 'deviation_max': (112, 8), 'radius_min': (120, 8), 'radius_median': (128, 8), 'radius_max': (136, 8), 'bound': (144, 8), 'n_tested': (152, 8), 'wall_s': (160, 8)}),
     'clast_form_factor_entry': (64, {'name': (0, 8), 'inverse': (8, 8), 'symbol': (16, 8), 'label': (24, 8), 'formula': (32, 8), 'low': (40, 8), 'high': (48, 8), 'source': (56, 8)}),
     'clast_form_law': (48, {'flatness_mean': (0, 8), 'flatness_deviation': (8, 8), 'elongation_mean': (16, 8), 'elongation_deviation': (24, 8), 'low': (32, 8), 'high': (40, 8)}),
     'clast_form_law_moments': (32, {'flatness_mean': (0, 8), 'flatness_deviation': (8, 8), 'elongation_mean': (16, 8), 'elongation_deviation': (24, 8)}),
     'clast_left_out': (16, {'row': (0, 8), 'fault': (8, 4)}),
-    'clast_form_set': (120, {'n': (0, 8), 'row': (8, 8), 'flatness': (16, 8), 'elongation': (24, 8), 'size': (32, 8), 'size_label': (40, 64), 'n_left_out': (104, 8), 'left_out': (112, 8)}),
+    'clast_form_set': (208, {'n': (0, 8), 'row': (8, 8), 'flatness': (16, 8), 'elongation': (24, 8), 'size': (32, 8), 'size_name': (40, 64), 'size_unit': (104, 16), 'is_sieve_size': (120, 1), 'unread_count': (121, 64), 'n_left_out': (192, 8), 'left_out': (200, 8)}),
     'clast_sizes': (40, {'n': (0, 8), 'low': (8, 8), 'high': (16, 8), 'count': (24, 8), 'density': (32, 8)}),
     'clast_curve': (24, {'n_class': (0, 4), 'sieve': (8, 8), 'mass': (16, 8)}),
     'clast_curve_case': (88, {'name': (0, 8), 'mass': (8, 56), 'porosity': (64, 8), 'deviation': (72, 8), 'spacing': (80, 8)}),
     'clast_grading_sample': (24, {'n': (0, 8), 'size': (8, 8), 'volume': (16, 8)}),
-    'clast_grading_match': (72, {'n': (0, 8), 'distance_mass': (8, 8), 'distance_number': (16, 8), 'achieved_d10': (24, 8), 'achieved_d50': (32, 8), 'achieved_d90': (40, 8), 'wanted_d10': (48, 8), 'wanted_d50': (56, 8), 'wanted_d90': (64, 8)}),
+    'clast_grading_match': (80, {'n': (0, 8), 'distance_mass': (8, 8), 'distance_number': (16, 8), 'distance_curve': (24, 8), 'achieved_d10': (32, 8), 'achieved_d50': (40, 8), 'achieved_d90': (48, 8), 'wanted_d10': (56, 8), 'wanted_d50': (64, 8), 'wanted_d90': (72, 8)}),
     'clast_grading_list': (32, {'n_row': (0, 8), 'total': (8, 8), 'column': (16, 8), 'ignored': (24, 8)}),
     'clast_axes': (96, {'lis': (0, 24), 'direction': (24, 72)}),
     'clast_grain': (752, {'volume': (0, 8), 'area': (8, 8), 'pore_volume': (16, 8), 'pore_area': (24, 8), 'centroid': (32, 24), 'inertia': (56, 72), 'moments': (128, 24), 'axes': (152, 480), 'hull_volume': (632, 8), 'hull_area': (640, 8), 'longest': (648, 8), 'shortest': (656, 8), 'sphericity': (664, 8), 'convexity': (672, 8), 'roundness': (680, 8), 'roundness_deviation': (688, 8), 'n_outline': (696, 4), 'normal_roundness': (704, 8), 'angularity': (712, 8), 'projected_mean': (720, 8), 'projected_least': (728, 8), 'projected_greatest': (736, 8), 'hull_volume_added': (744, 8)}),
@@ -3129,6 +3154,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_prediction': (128, {'porosity': (0, 8), 'standard_error': (8, 8), 'model_error': (16, 8), 'coefficient_error': (24, 8), 'sampling_error': (32, 8), 'in_range': (40, 1), 'leverage': (48, 8), 'n_outside': (56, 4), 'outside': (60, 64)}),
     'clast_predict_given': (16, {'model': (0, 8), 'has_table': (8, 1), 'each': (9, 1), 'takes_columns': (10, 1)}),
     'clast_porosity_fit_config': (80, {'target': (0, 8), 'columns': (8, 8), 'group': (16, 8), 'n_term': (24, 4), 'use': (32, 8), 'correlation_limit': (40, 8), 'n_fold': (48, 4), 'n_repeat': (52, 4), 'score': (56, 4), 'validation': (60, 4), 'n_permutation': (64, 4), 'seed': (72, 8)}),
+    'clast_fit_note': (1025, {'is_of_table': (0, 1), 'text': (1, 1024)}),
     'clast_image': (24, {'width': (0, 4), 'height': (4, 4), 'rgba': (8, 8), 'pixel_size': (16, 8)}),
     'clast_render_config': (160, {'width': (0, 4), 'height': (4, 4), 'samples': (8, 4), 'ambient_rays': (12, 4), 'projection': (16, 4), 'up': (20, 4), 'azimuth': (24, 8), 'elevation': (32, 8), 'field_of_view': (40, 8), 'zoom': (48, 8), 'colour': (56, 4), 'tint': (64, 8), 'scale': (72, 4), 'shading': (76, 4), 'background': (80, 4), 'ground': (84, 1), 'cut': (88, 4), 'cut_position': (96, 8), 'colour_bar': (104, 1), 'scale_bar': (105, 1), 'unit': (112, 8), 'sun_azimuth': (120, 8), 'sun_elevation': (128, 8), 'sun_radius': (136, 8), 'ambient': (144, 8), 'seed': (152, 8)}),
     'clast_report_config': (24, {'title': (0, 8), 'rows': (8, 4), 'view': (12, 1), 'triangles': (16, 4), 'picture_mb': (20, 4)}),
@@ -3147,13 +3173,13 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_packing_frame': (88, {'step': (0, 8), 'has_box': (8, 3), 'is_periodic': (11, 3), 'low': (16, 24), 'high': (40, 24), 'tilt': (64, 24)}),
     'clast_packing_report': (104, {'snapshot': (0, 8), 'n_snapshot': (8, 8), 'frame': (16, 88)}),
     'clast_export_options': (40, {'format': (0, 4), 'level': (4, 4), 'points': (8, 1), 'colour': (12, 4), 'unit': (16, 8), 'values': (24, 8), 'frame': (32, 8)}),
-    'clast_export_report': (48, {'format': (0, 4), 'n_vertex': (8, 8), 'n_triangle': (16, 8), 'unit': (24, 8), 'facet_ratio': (32, 8), 'ellipsoid_ratio': (40, 8)}),
+    'clast_export_report': (64, {'format': (0, 4), 'n_vertex': (8, 8), 'n_triangle': (16, 8), 'unit': (24, 8), 'facet_ratio': (32, 8), 'clump_ratio': (40, 8), 'ellipsoid_ratio': (48, 8), 'has_ids': (56, 1), 'ids_kept': (57, 1), 'id_offset': (60, 4)}),
     'clast_export_given': (16, {'format': (0, 4), 'has_table': (4, 1), 'is_run': (5, 1), 'points': (6, 1), 'assembly': (8, 8)}),
     'clast_bootstrap': (24, {'n_resample': (0, 4), 'level': (8, 8), 'seed': (16, 8)}),
     'clast_sample_summary': (184, {'n': (0, 8), 'n_left_out': (8, 8), 'mean': (16, 8), 'deviation': (24, 8), 'deviation_ml': (32, 8), 'skewness': (40, 8), 'kurtosis': (48, 8), 'low': (56, 8), 'high': (64, 8), 'quantile': (72, 56), 'mean_low': (128, 8), 'mean_high': (136, 8), 'deviation_low': (144, 8), 'deviation_high': (152, 8), 'shapiro_w': (160, 8), 'shapiro_p': (168, 8), 'is_constant': (176, 1)}),
     'clast_statistics': (80, {'n': (0, 4), 'name': (8, 8), 'summary': (16, 8), 'r': (24, 8), 'r_p': (32, 8), 'n_pca': (40, 4), 'pca_column': (48, 8), 'variance': (56, 8), 'explained': (64, 8), 'loading': (72, 8)}),
     'clast_histogram': (48, {'n_bin': (0, 4), 'edge': (8, 8), 'count': (16, 8), 'density': (24, 8), 'mean': (32, 8), 'deviation_ml': (40, 8)}),
-    'clast_grain_statistics': (232, {'set': (0, 120), 'statistics': (120, 80), 'zingg': (200, 32)}),
+    'clast_grain_statistics': (320, {'set': (0, 208), 'statistics': (208, 80), 'zingg': (288, 32)}),
     'clast_monitor': (48, {'report': (0, 8), 'stop': (8, 8), 'note': (16, 8), 'context': (24, 8), 'n_word': (32, 4), 'word': (40, 8)}),
     'clast_study_config': (120, {'run': (0, 8), 'config': (8, 8), 'argument': (16, 16), 'set': (32, 16), 'vary': (48, 16), 'design': (64, 4), 'table': (72, 8), 'seeds': (80, 4), 'seed': (88, 8), 'keep': (96, 16), 'shard': (112, 8)}),
     'clast_study_item': (32, {'row': (0, 8), 'folder': (8, 8), 'n_argument': (16, 4), 'argument': (24, 8)}),
@@ -3173,9 +3199,9 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
-    'clast_spectrum': (224, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'volume_fraction': (96, 8), 'law_M1': (104, 8), 'law_M2': (112, 8), 'mass_error': (120, 8), 'n_evaluation': (128, 8), 'range': (136, 88)}),
-    'clast_agglomerate_config': (488, {'decompose': (0, 144), 'collide': (144, 288), 'kernel': (432, 8), 'duration': (440, 8), 'n_step': (448, 4), 'repeats': (452, 4), 'rebuild': (456, 4), 'change_level': (464, 8), 'fixed': (472, 4), 'depth': (480, 8)}),
-    'clast_agglomeration': (256, {'history': (0, 32), 'particles': (32, 32), 'members': (64, 32), 'spectrum': (96, 32), 'n_rebuilt': (128, 4), 'n_unresolved': (132, 4), 'n_cell': (136, 4), 'volume_fraction': (144, 8), 'has_exact': (152, 1), 'has_fixed': (153, 1), 'is_gelation': (154, 1), 'n_gelled': (156, 4), 'gel_time': (160, 8), 'range': (168, 88)}),
+    'clast_spectrum': (232, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'volume_fraction': (96, 8), 'law_M1': (104, 8), 'law_M2': (112, 8), 'is_drawn': (120, 1), 'mass_error': (128, 8), 'n_evaluation': (136, 8), 'range': (144, 88)}),
+    'clast_agglomerate_config': (496, {'decompose': (0, 152), 'collide': (152, 288), 'kernel': (440, 8), 'duration': (448, 8), 'n_step': (456, 4), 'repeats': (460, 4), 'rebuild': (464, 4), 'change_level': (472, 8), 'fixed': (480, 4), 'depth': (488, 8)}),
+    'clast_agglomeration': (272, {'history': (0, 32), 'particles': (32, 32), 'members': (64, 32), 'spectrum': (96, 32), 'n_rebuilt': (128, 4), 'n_snapshot': (132, 4), 'n_unresolved': (136, 4), 'n_repeated': (144, 8), 'n_cell': (152, 4), 'volume_fraction': (160, 8), 'has_exact': (168, 1), 'has_fixed': (169, 1), 'is_gelation': (170, 1), 'n_gelled': (172, 4), 'gel_time': (176, 8), 'range': (184, 88)}),
     'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'fall_speed': (289, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
     'clast_aggregate_result': (528, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'n_grain_all': (16, 4), 'contact': (20, 4), 'mass': (24, 8), 'solid_sum': (32, 8), 'solid_union': (40, 8), 'solid_union_error': (48, 8), 'n_envelope': (56, 4), 'envelope': (64, 280), 'porosity': (344, 56), 'd_agg': (400, 8), 'density': (408, 8), 'radius_of_gyration': (416, 8), 'settling_velocity': (424, 8), 'settling_velocity_permeable': (432, 8), 'permeable': (440, 4), 'coat_porosity': (448, 8), 'coat_grain': (456, 8), 'permeability': (464, 8), 'drag_permeable': (472, 8), 'max_overlap': (480, 8), 'max_overlap_relative': (488, 8), 'n_lost': (496, 4), 'stop': (500, 4), 'contact_s': (504, 8), 'envelope_s': (512, 8), 'wall_s': (520, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
@@ -3184,13 +3210,13 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (552, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'accept_faults': (280, 1), 'curve': (288, 8), 'particles': (296, 4), 'weight': (304, 8), 'release': (312, 8), 'points': (320, 8), 'columns': (328, 16), 'diameter_column': (344, 8), 'domain': (352, 8), 'floor': (360, 4), 'sides': (364, 4), 'open_top': (368, 1), 'wind': (376, 8), 'field': (384, 8), 'field_columns': (392, 8), 'wind_shear': (400, 8), 'eddy_diffusivity': (408, 8), 'brownian': (416, 1), 'fall': (420, 4), 'structure': (424, 1), 'collision_radius': (428, 4), 'meeting': (432, 4), 'walk_step': (440, 8), 'max_tries': (448, 4), 'even': (452, 4), 'change_level': (456, 8), 'duration': (464, 8), 'rows': (472, 4), 'step_error': (480, 8), 'time_step': (488, 8), 'seed': (496, 8), 'keep': (504, 4), 'bed_width': (512, 8), 'frames': (520, 4), 'checkpoint_time': (528, 8), 'resume': (536, 8), 'force': (544, 1)}),
-    'clast_evolve_result': (360, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'gathered_top': (112, 8), 'is_field_apart': (120, 1), 'mass_balance': (128, 8), 'number_balance': (136, 8), 'n_cut': (144, 8), 'n_test': (152, 8), 'n_unresolved': (160, 8), 'grains_most': (168, 8), 'deposit_diameter': (176, 8), 'deposit_porosity': (184, 8), 'deposit_speed': (192, 8), 'deposit_grains': (200, 8), 'volume_fraction': (208, 8), 'fall_reynolds': (216, 8), 'fall_reynolds_limit': (224, 8), 'fractal_dimension': (232, 8), 'fractal_error': (240, 8), 'range': (248, 40), 'hash': (288, 8), 'wall_s': (296, 8), 'n_frame': (304, 4), 'n_written': (308, 4), 'bed_width': (312, 8), 'bed_height': (320, 8), 'is_bed_empty': (328, 1), 'bed_mass': (336, 8), 'bed_least': (344, 8), 'folder': (352, 8)}),
+    'clast_evolve_result': (520, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'gathered_top': (112, 8), 'weight_words': (120, 160), 'is_field_apart': (280, 1), 'mass_balance': (288, 8), 'number_balance': (296, 8), 'n_cut': (304, 8), 'n_test': (312, 8), 'n_unresolved': (320, 8), 'grains_most': (328, 8), 'deposit_diameter': (336, 8), 'deposit_porosity': (344, 8), 'deposit_speed': (352, 8), 'deposit_grains': (360, 8), 'volume_fraction': (368, 8), 'fall_reynolds': (376, 8), 'fall_reynolds_limit': (384, 8), 'fractal_dimension': (392, 8), 'fractal_error': (400, 8), 'range': (408, 40), 'hash': (448, 8), 'wall_s': (456, 8), 'n_frame': (464, 4), 'n_written': (468, 4), 'bed_width': (472, 8), 'bed_height': (480, 8), 'is_bed_empty': (488, 1), 'bed_mass': (496, 8), 'bed_least': (504, 8), 'folder': (512, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
     'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_bed_findings': (696, {'bed': (0, 96), 'options': (96, 96), 'bulk': (192, 40), 'walls': (232, 24), 'beyond': (256, 24), 'outside': (280, 8), 'core': (288, 32), 'n_overlap': (320, 4), 'max_overlap': (328, 8), 'max_overlap_share': (336, 8), 'mean_coordination': (344, 8), 'knows_contacts': (352, 1), 'profile': (360, 32), 'coordination': (392, 32), 'fabric': (424, 32), 'local': (456, 32), 'radial': (488, 32), 'stress': (520, 32), 'stress_profile': (552, 32), 'fields': (584, 32), 'chains': (616, 32), 'pores': (648, 48)}),
-    'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
+    'clast_fit_data': (136, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32), 'unread_count': (72, 64)}),
     'clast_porosity_fit': (288, {'model': (0, 128), 'ranking': (128, 32), 'trials': (160, 32), 'terms': (192, 32), 'rows': (224, 32), 'n_removed': (256, 4), 'condition': (264, 8), 'r2_held_out': (272, 8), 'p_value': (280, 8)}),
     'clast_decomposition': (5472, {'n': (0, 8), 'n_outside': (8, 8), 'n_here': (16, 8), 'n_test': (24, 8), 'dimension': (32, 4), 'n_capped': (36, 4), 'before': (40, 232), 'n_pass': (272, 4), 'pass': (280, 4608), 'stop': (4888, 4), 'cells': (4896, 128), 'events': (5024, 8), 'events_low': (5032, 8), 'events_high': (5040, 8), 'points_needed': (5048, 8), 'events_cross': (5056, 8), 'points_per_bin': (5064, 8), 'search': (5072, 32), 'cells_bias': (5104, 8), 'bias_estimate': (5112, 8), 'smoothing_bias': (5120, 8), 'beta_dt': (5128, 8), 'volume': (5136, 8), 'seed': (5144, 8), 'pairs': (5152, 168), 'events_by_cells': (5320, 32), 'events_by_pairs': (5352, 32), 'estimator': (5384, 4), 'within': (5392, 72), 'disagree': (5464, 1), 'resolved': (5465, 1), 'keeps_apart': (5466, 1), 'has_drawn': (5467, 1)}),
 }
@@ -3211,9 +3237,11 @@ VALUES: dict[str, int] = {
     'CLAST_INITIAL_TABLE': 3,
     'CLAST_FRAGMENTS_POWER': 0,
     'CLAST_FRAGMENTS_HALVES': 1,
+    'CLAST_N_SPECTRUM_NOTE': 3,
     'CLAST_REBUILD_CHANGED': 0,
     'CLAST_REBUILD_ALWAYS': 1,
     'CLAST_REBUILD_NEVER': 2,
+    'CLAST_N_AGGLOMERATION_NOTE': 4,
     'CLAST_AGGREGATE_CORE': 0,
     'CLAST_AGGREGATE_CLUSTER': 1,
     'CLAST_CONTACT_EXACT': 0,
@@ -3339,6 +3367,7 @@ VALUES: dict[str, int] = {
     'CLAST_STOP_WHOLE': 9,
     'CLAST_STOP_DEPTH': 10,
     'CLAST_STOP_SPARED': 11,
+    'CLAST_N_DECOMPOSITION_NOTE': 3,
     'CLAST_DEM_LINEAR': 0,
     'CLAST_DEM_HERTZ': 1,
     'CLAST_DEM_EXPLICIT': 0,
@@ -3627,15 +3656,18 @@ VALUES: dict[str, int] = {
 PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_collide_config_default': (c_int, [POINTER(clast_collide_config)], 'Every member as `clast agglomerate` starts from it, of the members without a field: no kernel (set it with clast_kernel_parse), seed 0, count_unit 0 and keep_positions false.'),
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
-    'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
+    'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p, c_bool], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
     'clast_spectrum_idle': (POINTER(clast_idle), [POINTER(clast_spectrum_config), POINTER(clast_idle)], 'The fields, and `leap`, `block` and `seed`, that a box by the others does not look at (clast_fields_idle).'),
+    'clast_agglomerate_takes': (c_bool, [c_char_p, c_bool], 'Whether a key or option of `clast agglomerate` goes with a well-mixed box, or with the positions of a cloud; `kernel`, `duration`, `seed` and the like with both.'),
     'clast_spectrum_start_from_table': (c_int, [POINTER(clast_table), POINTER(clast_spectrum_start)], 'The start in a table: columns size and number, or size and n, as in spectrum.csv of a box, of whose rows (column time_s) those of the last time are taken, which move to the front of the two columns.'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
     'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_start), POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_monitor), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
+    'clast_spectrum_note': (c_char_p, [POINTER(clast_spectrum), c_int32, c_size_t, c_char_p], 'What to say of a box: 0, particles or collisions out of the range of their kernel; 1, particles that are too dense (clast_kernel_dense_words); 2, a drawn start whose M1 or M2 is over 1 % off that of its law.'),
     'clast_agglomerate_idle': (POINTER(clast_idle), [POINTER(clast_agglomerate_config), POINTER(clast_agglomerate_given), POINTER(clast_idle)], 'The fields that collisions by the others and of such particles do not look at (clast_fields_idle); those of the cells: clast_decompose_idle, of kernels, sticking and radii: clast_collide_idle.'),
     'clast_agglomerate': (c_int, [POINTER(clast_agglomerate_input), POINTER(clast_agglomerate_config), POINTER(clast_monitor), POINTER(clast_agglomeration)], 'Evolves the cloud; see docs/theory/agglomeration.md.'),
     'clast_agglomeration_free': (None, [POINTER(clast_agglomeration)], '.'),
+    'clast_agglomeration_note': (c_char_p, [POINTER(clast_agglomeration), c_int32, c_size_t, c_char_p], 'What to say of a cloud that agglomerates: 0 and 1 as of a box (clast_spectrum_note); 2, snapshots that are not resolved; 3, duplicate points, which collide.'),
     'clast_agglomeration_change_test': (c_int, [POINTER(c_double), POINTER(c_double), c_int64, c_int32, POINTER(c_double)], 'Whether two samples of n points of the unit cube have the same density: chi-square of their counts on a regular grid that is chosen without looking at them (10 points a block or more).'),
     'clast_aggregate_params_default': (c_int, [POINTER(clast_aggregate_params)], 'Those that `clast aggregate` starts from (clast describe lists them).'),
     'clast_aggregate_params_free': (None, [POINTER(clast_aggregate_params)], 'may be called twice.'),
@@ -3648,7 +3680,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_assembly': (POINTER(clast_assembly), [c_void_p], 'Grains so far; grain 0 (and those after it, if the core is a group) is the core.'),
     'clast_aggregate_history': (c_int, [c_void_p, POINTER(clast_table)], 'One row for the core and one for each particle.'),
     'clast_aggregate_measure': (c_int, [c_void_p, POINTER(clast_aggregate_result)], 'The numbers of what has grown so far, envelopes to a tighter bound than in the rows.'),
-    'clast_aggregate_members': (c_int, [c_void_p, POINTER(clast_table)], 'Cluster mode: table with the cluster of every grain and its place in it, which restoring needs.'),
+    'clast_aggregate_members': (c_int, [c_void_p, POINTER(clast_table)], 'Cluster mode: table with the cluster of every grain and its index in it, which restoring needs.'),
     'clast_aggregate_restore': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_aggregate_input), POINTER(clast_aggregate_saved), POINTER(c_void_p)], 'Goes on from there: the same particles follow, to the last bit.'),
     'clast_interval_of': (clast_interval, [c_int32, POINTER(c_double), c_double], 'Mean of n values and its interval at this confidence, in the unit of the values.'),
     'clast_aggregate_band': (c_int, [POINTER(clast_table), c_double, POINTER(clast_table)], 'Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, .'),
@@ -3698,7 +3730,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_assembly_radial_profile': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(clast_table)], 'Solid volume in n_bin shells of equal thickness about a centre (NULL: centre of mass), out to the farthest grain.'),
     'clast_assembly_coordination': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'Grains by number of contacts: columns coordination, n_grain, share.'),
     'clast_assembly_projected_area': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(c_double), POINTER(c_double)], "Area of the shadow along a direction, by n_line scan lines on which the shadow's length is exact; the error is the difference to half as many lines, or between even and odd ones where that is more."),
-    'clast_assembly_mean_projection': (c_int, [POINTER(clast_assembly), c_int32, c_int32, POINTER(c_double), POINTER(c_double)], 'Mean shadow over n_direction directions spread evenly over the half sphere; error: standard deviation over the root of their number (an upper bound for even directions).'),
+    'clast_assembly_mean_projection': (c_int, [POINTER(clast_assembly), c_int32, c_int32, POINTER(c_double), POINTER(c_double)], 'Mean shadow over n_direction directions distributed uniformly over the half sphere; error: standard deviation over the root of their number (an upper bound for uniform directions).'),
     'clast_assembly_extent': (c_int, [POINTER(clast_assembly), POINTER(clast_extent)], 'Exact for polyhedra, to 1e-9 for smooth grains.'),
     'clast_structure_options_default': (clast_structure_options, [], 'Options of the parts, air, 512 lines, 24 directions.'),
     'clast_structure': (c_int, [POINTER(clast_assembly), POINTER(clast_structure_options), POINTER(clast_table)], 'Everything above in one table: columns name, value, error, unit, meaning.'),
@@ -3722,17 +3754,17 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_chart_stress': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Normal stresses over height, of clast_stress_profile.'),
     'clast_chart_chains': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'Force chains of clast_bed_chains seen along y: lines as thick as their force, in four steps of the mean; contacts that are no link of a chain are grey.'),
     'clast_chart_zingg': (c_int, [POINTER(clast_form_set), c_char_p], 'Zingg diagram: elongation over flatness, with the class borders at 2/3, coloured by size if the set has sizes (log colour where they span more than a factor 5).'),
-    'clast_chart_histogram': (c_int, [POINTER(c_double), c_int64, c_char_p, c_char_p], "Histogram of one column as a density, with the normal law of maximum likelihood and, in the legend, its mean and deviation; the title holds Shapiro and Wilk's W and p."),
+    'clast_chart_histogram': (c_int, [POINTER(c_double), c_int64, c_char_p, c_char_p, c_char_p], "Histogram of one column as a density, with the normal law of maximum likelihood and, in the legend, its mean and deviation; the title holds Shapiro and Wilk's W and p."),
     'clast_chart_correlation': (c_int, [POINTER(clast_statistics), c_char_p], 'Correlation matrix as a heat map; form factors go by their symbols.'),
     'clast_chart_pca': (c_int, [POINTER(clast_statistics), c_char_p], 'Share of the variance that each principal component explains, and the running sum.'),
     'clast_fit_chart_name': (c_char_p, [c_int], '"feature", "predicted", "residuals", "leverage" .'),
     'clast_chart_fit': (c_int, [c_int, POINTER(clast_fit_data), POINTER(clast_porosity_fit), c_char_p], '.'),
-    'clast_cloud_alloc': (c_int, [c_int64, c_int32, POINTER(clast_cloud)], 'Room for n points, zeroed; `cloud` must be empty.'),
+    'clast_cloud_alloc': (c_int, [c_int64, c_int32, POINTER(clast_cloud)], 'Allocates n points, zeroed; `cloud` must be empty.'),
     'clast_cloud_free': (None, [POINTER(clast_cloud)], 'Frees the arrays; may be called twice.'),
     'clast_cloud_column': (c_int, [POINTER(clast_table), c_char_p, POINTER(POINTER(c_double))], 'Numbers of the named column; *column is NULL for a name that is empty or NULL.'),
-    'clast_cloud_column_si': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Takes numbers of the named column to SI by the unit that its name tells: in brackets anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); they stay what they are where it is empty or tells none.'),
-    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)", "u_cm/s", radii and diameters also "d (phi)") is converted; see clast_cloud_column_si.'),
-    'clast_cloud_unread_weight': (c_char_p, [POINTER(clast_table), POINTER(clast_cloud_columns)], 'The name of the first column that holds weights by it ("weight", "stat_weight", "statistical_weight", "parcel_weight", "n_real", "multiplicity"), some of which are not 1, where `columns` names no column of weights: each row is one particle then.'),
+    'clast_cloud_column_si': (c_int, [POINTER(clast_table), c_char_p, c_char_p, POINTER(c_double)], 'Takes numbers of the named column to SI by the unit that its name gives: in brackets anywhere ("G (1/min) mean"), or behind "_" ("U_cm/s_x"); they stay what they are where it is empty or gives none.'),
+    'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name gives a unit (x_mm, "r (um)", "u_cm/s", radii and diameters also "d (phi)") is converted; see clast_cloud_column_si.'),
+    'clast_cloud_weight_words': (c_char_p, [POINTER(clast_cloud), c_char_p, c_size_t, c_char_p], 'What to say of unread_weight: "points.csv: column \'weight\' is not looked at: each row is one particle (--weight-column weight)"; "" where nothing is.'),
     'clast_cloud_repeated': (c_int, [POINTER(clast_cloud), POINTER(c_int64)], 'Points that have the very coordinates of an earlier one; O(n).'),
     'clast_cloud_repeated_ranks': (c_int, [POINTER(clast_cloud), POINTER(clast_comm), POINTER(c_int64)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
@@ -3745,13 +3777,14 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_domain_of_mesh': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_domain)], 'The inside of a closed surface, which is copied, its coordinates times `scale`.'),
     'clast_domain_free': (None, [POINTER(clast_domain)], 'only a mesh holds memory.'),
     'clast_domain_volume': (c_double, [POINTER(clast_domain)], 'Volume [m^d].'),
+    'clast_cloud_corner_words': (c_char_p, [POINTER(clast_cloud), POINTER(clast_comm), POINTER(clast_domain), c_size_t, c_char_p], 'What to say of points that all lie within a thousandth of the domain\'s width (V^(1/d)), as where one of the two is in another unit; "" of others.'),
     'clast_domain_map': (c_bool, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'True when the point [dimension] is in the closed domain; u [dimension] is then its image in the unit cube.'),
     'clast_domain_unmap': (None, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'The inverse map: the point x [dimension] whose image in the unit cube is u [dimension].'),
     'clast_domain_read': (c_int, [c_char_p, c_char_p, POINTER(clast_domain)], 'As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).'),
     'clast_discrepancy_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_discrepancy)], 'All three discrepancies of n >= 2 points.'),
     'clast_henze_zirkler_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_henze_zirkler)], 'Scores are clamped to u in [2^-53, 1 - 2^-53].'),
     'clast_pearson_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_pearson)], '@return CLAST_E_ARGUMENT for n < 3.'),
-    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their places alone decide.'),
+    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their positions alone decide.'),
     'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
     'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
@@ -3760,7 +3793,6 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
     'clast_uniformity_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_uniformity_config), POINTER(clast_uniformity)], '@param u [n][d] in the unit cube @param side [3] for the score.'),
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
-    'clast_decompose_unbounded_text': (c_char_p, [c_int64], 'Why a decomposition has no number of events (its events_low is NaN), in words.'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
     'clast_decompose_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], 'The same of one cloud of which each rank has a part; points stay where they are.'),
@@ -3768,6 +3800,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),
+    'clast_decomposition_note': (c_char_p, [POINTER(clast_decomposition), c_int64, c_int32, c_size_t, c_char_p], 'What to say of a decomposition (but for the tests alone, whose one cell says nothing of events): 0, pairs by distance that disagree with the cells or are those of no density; 1, why there is no number of events (events_low is NaN); 2, too few points a bin.'),
     'clast_cells_write_vtu': (c_int, [POINTER(clast_decomposition), POINTER(clast_domain), c_char_p], 'Cells as an unstructured grid (VTU): lines, quadrilaterals or hexahedra with cell, count, volume, density and events (pair_integral without beta dt), label and pass where cells have them; unit, domain, volume, beta_dt and seed (of what was drawn) as field data.'),
     'clast_decomposition_write_points': (c_int, [POINTER(clast_decomposition), POINTER(clast_cloud), POINTER(clast_domain), c_char_p], 'Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass, weight and velocity where the cloud has them; -1 and 0 for points left out.'),
     'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG for a field out of its range (clast_dem_fields), or when the time step does not resolve the stiffest contact.'),
@@ -3802,12 +3835,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_mean_height': (c_double, [c_void_p, POINTER(c_double)], 'Mass-mean of z and the highest centre [m]: what the process asks often.'),
     'clast_dem_max_speed': (c_double, [c_void_p], "Largest speed of a grain's centre [m/s]."),
     'clast_dem_assembly': (c_int, [c_void_p, POINTER(clast_assembly)], 'All grains with their contacts, wrapped into the period.'),
-    'clast_dem_hash': (c_uint64, [c_void_p], '64-bit digest of all positions, turns, velocities and contact memories, bit by bit.'),
+    'clast_dem_hash': (c_uint64, [c_void_p], '64-bit digest of all positions, orientations, velocities and contact histories, bit by bit.'),
     'clast_dem_contact_table': (c_int, [c_void_p, POINTER(clast_table)], 'Forces of all contacts as they are now: columns a, b (grains; b -1: a wall), centre_z_m (of a), x_m, y_m, z_m (the point), branch_x_m .'),
     'clast_dem_scene_p1': (c_int, [POINTER(clast_scene_bed), POINTER(c_void_p)], 'Case P1 into *dem, which the caller destroys.'),
     'clast_dem_scene_e1': (c_int, [POINTER(clast_scene_bed), c_void_p, POINTER(c_void_p)], 'Case E1: the grains of a P1 as they are now, replaced by their mass-equivalent ellipsoids (axes times 0.985).'),
     'clast_dem_scene_s1': (c_int, [POINTER(c_void_p)], 'Case S1: 10,830 spheres of 6.7 mm on a simple-cubic lattice of 6.9 mm with random velocities, box of 0.134 m periodic in x and y; to be settled for 0.2 s.'),
-    'clast_evolve_create': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_input), POINTER(c_void_p)], 'All particles at their places at time 0.'),
+    'clast_evolve_create': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_input), POINTER(c_void_p)], 'All particles at their positions at time 0.'),
     'clast_evolve_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_evolve_advance': (c_int, [c_void_p], 'A leg of at most 16 steps, to the next row of the tables at the farthest.'),
     'clast_evolve_is_over': (c_bool, [c_void_p], 'The duration has passed, or nothing is left in the fluid.'),
@@ -3840,6 +3873,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fields_idle': (POINTER(clast_field), [POINTER(clast_field), c_void_p, POINTER(clast_idle), POINTER(c_char_p)], 'The first field that is idle by a rule and has another value than its default: a parameter without effect is a mistake of the person who gives it.'),
     'clast_unit_parse': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers are SI.'),
     'clast_unit_parse_asked': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'The same where a unit is asked for: a bare length or angle other than 0 is refused, with its nearest correct spelling ("270um", "50deg").'),
+    'clast_unit_parse_length': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'A length as typed, in a file\'s `own` unit ("mm"; "" or "model": it names none): one with a unit is converted, or refused where the file names none; a bare number is in the file\'s own, but for metres, of which it is refused as by clast_unit_parse_asked.'),
     'clast_unit_factor': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.'),
     'clast_unit_for': (c_char_p, [c_double, c_char_p, POINTER(c_double)], 'The unit in which a person would write `value` of this SI unit: "um" of 3.75e-6 m.'),
     'clast_fields_read': (c_int, [c_char_p, POINTER(clast_field), c_void_p], 'Reads a YAML mapping of keys to scalars or lists of scalars over `config` (already defaulted).'),
@@ -3868,12 +3902,13 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
     'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
+    'clast_form_set_count_words': (c_char_p, [POINTER(clast_form_set), c_size_t, c_char_p], 'What to say of unread_count: "column \'n\' is not looked at: each row is one grain"; "" where nothing is.'),
     'clast_form_set_factors': (c_int, [POINTER(clast_form_set), POINTER(clast_table)], "The 13 form factors of every grain, in Table 1's order, and its size if known: what clast_statistics_of takes."),
     'clast_form_set_left_out': (c_int, [POINTER(clast_form_set), POINTER(clast_table)], 'Rows left out, as columns row (from 1) and reason.'),
     'clast_reform_principal': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh), POINTER(c_double)], 'The grain with its centroid at the origin, L along x, I along y and S along z, unstretched.'),
     'clast_reform_mesh': (c_int, [POINTER(clast_mesh), POINTER(c_double), POINTER(clast_mesh)], 'The same stretched to these lengths L >= I >= S > 0; measured ones agree within 1e-13 for grains of S/L > 0.03.'),
     'clast_reform_hull': (c_int, [POINTER(clast_mesh), c_int32, POINTER(clast_mesh)], 'Convex hull of at most this many triangles: the hull, simplified at constant volume where it has more, and the hull of that, for simplifying leaves faces that bend inwards by little.'),
-    'clast_sizes_alloc': (c_int, [c_int64, POINTER(clast_sizes)], 'Room for n rows, zeroed; `sizes` must be empty.'),
+    'clast_sizes_alloc': (c_int, [c_int64, POINTER(clast_sizes)], 'Allocates n rows, zeroed; `sizes` must be empty.'),
     'clast_sizes_free': (None, [POINTER(clast_sizes)], 'Frees the arrays; may be called twice.'),
     'clast_curve_make': (c_int, [c_int32, POINTER(c_double), POINTER(c_double), POINTER(clast_curve)], 'Curve from sieves [n_class + 1] m in ascending order and masses [n_class] of any unit.'),
     'clast_curve_free': (None, [POINTER(clast_curve)], 'may be called twice.'),
@@ -3904,7 +3939,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_grading_list_of': (clast_grading_list, [c_void_p], 'The list that clast_grading_load read, by "list:FILE" or "masses:FILE"; its texts live as long as the grading.'),
     'clast_grading_list_text': (c_char_p, [POINTER(clast_grading_list), c_bool, c_size_t, c_char_p], 'The same in words, in `size` bytes: "40 rows, counted by column \'number\': 820 in all; not looked at: id"; "" for no list.'),
     'clast_grading_idle': (POINTER(clast_idle), [POINTER(clast_curve), c_int, POINTER(clast_idle)], 'Which of the options `spread` and `count` such sizes do not look at (clast_fields_idle).'),
-    'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or blanks; '#' starts a comment; a first line that is no number names the columns; a word may stand in quotes)."),
+    'clast_sizes_read': (c_int, [c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], "Sizes, sizes with counts, or bins with counts, from delimited text (clast_table_parse_csv; a comment may stand behind a row's cells too, a separator behind the last of them is none, and a first row that begins with a number names no columns)."),
     'clast_sizes_parse': (c_int, [c_char_p, c_char_p, c_char_p, c_char_p, POINTER(clast_sizes)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grain_measure': (c_int, [POINTER(clast_mesh), POINTER(clast_grain)], 'Measures the solid bounded by a closed outward surface.'),
     'clast_grain_measure_hull': (c_int, [POINTER(clast_mesh), POINTER(clast_grain)], "The same for the convex hull of the surface's vertices, which may be open or have no triangles; hull_volume_added is that of the surface given where it is closed, else NaN."),
@@ -3919,7 +3954,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_grains_kind_name': (c_char_p, [c_int], '"surface", "series", "voxels", "points", "table", "clump" .'),
     'clast_grains_to_metres': (c_int, [POINTER(clast_grains), c_double, POINTER(c_bool)], "Brings all lengths to metres: by the file's own unit where it says one, else by `unit_m`."),
     'clast_grains_table': (c_int, [POINTER(clast_grains), c_int, c_bool, POINTER(clast_table)], 'Everything as a table: a row a grain; L, I, S, D and the form factors by one definition, then L, I, S by each.'),
-    'clast_harmonics_alloc': (c_int, [c_int32, POINTER(clast_harmonics)], 'Room for all terms up to a degree, zeroed; `series` must be empty.'),
+    'clast_harmonics_alloc': (c_int, [c_int32, POINTER(clast_harmonics)], 'Allocates all terms up to a degree, zeroed; `series` must be empty.'),
     'clast_harmonics_free': (None, [POINTER(clast_harmonics)], '.'),
     'clast_harmonics_power': (c_double, [POINTER(clast_harmonics), c_int32, c_int32], 'Power of the degrees from low to high: the mean square over all directions of what they add to the radius, by 4 pi.'),
     'clast_harmonics_mesh': (c_int, [POINTER(clast_harmonics), c_int32, c_int, POINTER(clast_mesh)], 'Surface sampled on an icosahedron divided `level` times (0 to 8: 20 * 4^level triangles).'),
@@ -3939,6 +3974,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_impact_speed': (c_double, [c_uint32, POINTER(clast_medium), POINTER(clast_collider), POINTER(clast_collider)], 'Speed [m/s] at which a pair meets by the kernels of a mask: the sum over them of kernel over pi (a1 + a2)^2, without collision efficiency and clustering (the mean relative speed of straight paths).'),
     'clast_kernel_range_row': (POINTER(clast_kernel_range), [c_int32], 'Row k of the table; NULL where there is none.'),
     'clast_range_use_words': (c_char_p, [POINTER(clast_range_use), c_size_t, c_char_p], 'One line: the owner, the quantity, the farthest value, its range and the source.'),
+    'clast_range_report_use': (POINTER(clast_range_use), [POINTER(clast_range_report)], 'Of a run the use that tells more: collisions where some were outside, else particles at the start where some were; NULL of NULL.'),
+    'clast_kernel_dense_words': (c_char_p, [c_double, c_size_t, c_char_p], 'What to say of particles that fill over a tenth of the volume, where kernels are of dilute suspensions; "" of fewer and of NaN.'),
     'clast_sticking_check': (c_int, [POINTER(clast_sticking)], 'Whether a law has what it needs.'),
     'clast_sticking_stokes': (c_double, [POINTER(clast_sticking), POINTER(clast_impact)], 'Impact Stokes number of the law: m~ u / (6 pi mu a~^2) of reduced mass and radius of curvature for a viscous film [Ennis1991 for two equal spheres, u = 2 u_0: 8 rho u_0 a / (9 mu)], 8 rho u / (9 mu) d1 d2 / (d1 + d2) with the mean density of both for wet ash [Costa2010]; NaN for the other laws.'),
     'clast_sticking_speed': (c_double, [POINTER(clast_sticking), POINTER(clast_impact)], 'Speed [m/s] up to which elastic spheres stick: the work that a JKR contact takes to part, 7.09 (Gamma^5 a~^4 / E*^2)^(1/3), against m~ v^2 / 2.'),
@@ -3951,7 +3988,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_comm_one': (POINTER(clast_comm), [], 'The only rank of one.'),
     'clast_comm_agree': (c_int, [POINTER(clast_comm), c_int, c_char_p], 'Makes all ranks agree on how a step ended: OK when it was so for every one, else the status and text of the first rank that failed (one that was merely stopped only if none failed).'),
     'clast_mesh_free': (None, [POINTER(clast_mesh)], 'Frees the arrays; the mesh is then empty.'),
-    'clast_mesh_alloc': (c_int, [c_int32, c_int32, POINTER(clast_mesh)], 'Room for n_vert vertices and n_tri triangles, zeroed.'),
+    'clast_mesh_alloc': (c_int, [c_int32, c_int32, POINTER(clast_mesh)], 'Allocates n_vert vertices and n_tri triangles, zeroed.'),
     'clast_mesh_copy': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], 'Deep copy into an empty mesh.'),
     'clast_mesh_append': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], 'Appends all parts of `other` (vertex numbers shifted).'),
     'clast_mesh_bounds': (None, [POINTER(clast_mesh), POINTER(c_double), POINTER(c_double)], 'Axis-aligned box of all vertices; an empty mesh gives low > high.'),
@@ -3982,7 +4019,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_check_passed': (c_bool, [POINTER(clast_mesh_check_result)], 'Closed, oriented and manifold, and not flat: no blocking fault.'),
     'clast_mesh_weld': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_mesh), POINTER(c_int32)], 'Merges vertices nearer than `tolerance` times the extent (the diagonal of the box), drops triangles that collapse and vertices that nothing uses.'),
     'clast_mesh_repair_idle': (POINTER(clast_idle), [POINTER(clast_mesh_repair_config), POINTER(clast_idle)], 'The fields that a repair by the others does not look at (clast_fields_idle).'),
-    'clast_mesh_repair': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_repair_config), POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Makes a surface closed, oriented and manifold where it can, step by step, and tells every change.'),
+    'clast_mesh_repair': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_repair_config), POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Makes a surface closed, oriented and manifold where it can, step by step, and reports every change.'),
     'clast_mesh_weld_auto': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'The one weld that every command applies to a surface that it reads: vertices of open edges that rounding has parted become one (CLAST_WELD_AUTO).'),
     'clast_mesh_distance': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh), POINTER(clast_mesh_deviation)], '@return CLAST_E_GEOMETRY if one has no triangles @note O((n + m) log), any thread count alike.'),
     'clast_mesh_simplify': (c_int, [POINTER(clast_mesh), c_int32, POINTER(clast_mesh), POINTER(clast_mesh_simplify_report)], 'Fewer triangles, same volume: edges collapse, cheapest first, each to the point that keeps the volume exactly and moves the surface least.'),
@@ -3990,7 +4027,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_read_welded': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Reads a surface as every command does that needs a solid: clast_mesh_read, then clast_mesh_weld_auto.'),
     'clast_mesh_require_solid': (c_int, [POINTER(clast_mesh), c_char_p, c_char_p], 'Whether a surface that was read from a file bounds a solid: closed and outward.'),
     'clast_mesh_cure': (c_int, [POINTER(clast_mesh), c_char_p, c_size_t, c_char_p], 'The shell command that makes a file\'s surface closed and outward, tried here in memory: "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.'),
-    'clast_pack_create': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_input), POINTER(c_void_p)], '@return CLAST_E_CONFIG for weights or densities that do not match the shapes, a mass that cannot fit under the place of generation, a lattice that holds no grain; what clast_dem_create and clast_dem_add_shape refuse.'),
+    'clast_pack_create': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_input), POINTER(c_void_p)], '@return CLAST_E_CONFIG for weights or densities that do not match the shapes, a mass that cannot fit under the region of generation, a lattice that holds no grain; what clast_dem_create and clast_dem_add_shape refuse.'),
     'clast_pack_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_pack_advance': (c_int, [c_void_p, c_int64], 'Goes on by at most n_step steps, or until done.'),
     'clast_pack_is_over': (c_bool, [c_void_p], 'done, or at max_steps.'),
@@ -3998,7 +4035,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_phase_name': (c_char_p, [c_int], '"generate" .'),
     'clast_pack_dem': (c_void_p, [c_void_p], 'The simulation inside.'),
     'clast_pack_mass': (c_double, [c_void_p], 'made so far [kg].'),
-    'clast_pack_expected_steps': (c_int64, [c_void_p], 'Expected step of the end, as far as it can be told; 0 when not.'),
+    'clast_pack_expected_steps': (c_int64, [c_void_p], 'Expected step of the end, as far as it can be determined; 0 when not.'),
     'clast_pack_measure': (c_int, [c_void_p, POINTER(clast_pack_result)], 'The numbers of the bed as it lies, SI; free them with clast_pack_result_free.'),
     'clast_pack_result_free': (None, [POINTER(clast_pack_result)], 'Frees what clast_pack_measure or clast_pack_run filled; may be called twice.'),
     'clast_pack_bed': (clast_bed, [c_void_p], 'Where the grains lie, for porosities.'),
@@ -4032,7 +4069,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
     'clast_bed_side_walls': (clast_bed_walls, [POINTER(clast_bed), POINTER(clast_assembly)], 'NAN throughout for beds or assemblies that do not hold together.'),
     'clast_bed_beyond_measure': (c_int, [POINTER(clast_bed), POINTER(clast_assembly), POINTER(clast_porosity_bulk), c_int, POINTER(clast_bed_beyond)], 'Between the heights of the bulk.'),
-    'clast_bed_outside': (c_int, [POINTER(clast_bed), POINTER(clast_bed), POINTER(c_double), POINTER(c_double)], "Share of a bed's volume between two heights that lies outside another bed, by 20,000 even points: what a run's own bed does not hold has no grains, and would count as pores."),
+    'clast_bed_outside': (c_int, [POINTER(clast_bed), POINTER(clast_bed), POINTER(c_double), POINTER(c_double)], "Share of a bed's volume between two heights that lies outside another bed, by 20,000 quasi-random points: what a run's own bed does not hold has no grains, and would count as pores."),
     'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_options), POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
     'clast_bed_read': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], "The bed that a run's state file keeps."),
     'clast_bed_load': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], '"mesh:FILE,UNIT", the inside of a surface whose holes are covered (a file by clast_mesh_write that says its unit needs none here), or what clast_bed_parse takes.'),
@@ -4074,9 +4111,11 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
     'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target and `group`, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code but the seed, that is what was varied, and those that `use` names.'),
     'clast_fit_data_free': (None, [POINTER(clast_fit_data)], '.'),
+    'clast_porosity_fit_choose': (c_int, [POINTER(clast_table), c_bool, POINTER(clast_porosity_fit_config), POINTER(c_int), POINTER(clast_fit_note)], "The features of a fit that names none (`clast fit --features auto`): mixture with a second table, of the beds' grains; single form where the table's columns, or those of `columns`, are a form's by their names, whatever is in them; else the table's own columns."),
     'clast_porosity_fit_data': (c_int, [POINTER(clast_fit_data), c_char_p, c_char_p, POINTER(clast_porosity_fit_config), POINTER(clast_porosity_fit)], 'Fits a model.'),
     'clast_porosity_fit_free': (None, [POINTER(clast_porosity_fit)], '.'),
-    'clast_image_alloc': (c_int, [c_int32, c_int32, POINTER(clast_image)], 'Room for the pixels, zeroed; `image` must be empty.'),
+    'clast_porosity_fit_note': (c_bool, [POINTER(clast_porosity_fit), POINTER(clast_table), POINTER(clast_fit_data), c_int32, POINTER(clast_porosity_fit_config), POINTER(clast_fit_note)], 'What people should know of a fit, line by line: rows that were left out, columns of words that are no candidates, why a selection has fewer features than n_term, the column that names the beds, features that count the rows.'),
+    'clast_image_alloc': (c_int, [c_int32, c_int32, POINTER(clast_image)], 'Allocates the pixels, zeroed; `image` must be empty.'),
     'clast_image_free': (None, [POINTER(clast_image)], 'Frees the pixels; may be called twice.'),
     'clast_image_write_png': (c_int, [POINTER(clast_image), c_char_p], 'Writes a PNG file, whole or not at all.'),
     'clast_render_idle': (POINTER(clast_idle), [POINTER(clast_render_config), POINTER(clast_idle)], 'The fields that a picture by the others does not look at (clast_fields_idle).'),
@@ -4084,6 +4123,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_report_write': (c_int, [POINTER(c_char_p), c_int32, c_char_p, POINTER(clast_report_config)], 'Writes the page, whole or not at all.'),
     'clast_report_write_run': (c_int, [c_char_p, c_char_p], 'FOLDER/report.html of one run, as a command does at its end.'),
     'clast_report_write_view': (c_int, [POINTER(clast_assembly), c_char_p, POINTER(clast_report_config)], 'A page with nothing but the 3-D view of an assembly, whole or not at all: what a notebook shows in a frame.'),
+    'clast_report_unit': (c_char_p, [c_char_p], 'SI unit of a number of a summary or of a table by its key, as the page shows it: "z_high" and "size_m" -> "m" .'),
     'clast_manifest_create': (c_int, [c_char_p, c_int, POINTER(c_char_p), POINTER(c_void_p)], 'Starts a manifest: the clocks run from here.'),
     'clast_manifest_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_manifest_config': (c_int, [c_void_p, POINTER(clast_field), c_void_p], 'Keeps the full resolved configuration, SI, as the field table has it.'),
@@ -4105,7 +4145,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_run_folder_summary': (c_int, [c_void_p, c_char_p], 'Writes its summary.json, whole or not at all: a text of JSON and a newline.'),
     'clast_run_folder_end': (c_int, [c_void_p, c_int], 'Ends the run with the status of its work, which is returned (CLAST_OK: or why the folder could not be closed).'),
     'clast_run_folder_check': (c_int, [c_char_p], 'For readers: CLAST_OK when the folder holds a whole run, or a study, else CLAST_E_IO with one line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN" .'),
-    'clast_run_folder_owns': (c_bool, [c_char_p], 'Whether an existing file is part of a run: its folder, or one above it, holds the run that wrote it.'),
+    'clast_run_folder_check_output': (c_int, [c_char_p, c_char_p], 'Refuses an output that is there as part of a run: its folder, or one above it, holds the run that wrote it.'),
+    'clast_run_folder_check_input': (c_int, [c_char_p, c_char_p, c_char_p], 'Refuses an output that is this input, or the folder that holds it, whatever the spelling or link.'),
+    'clast_run_folder_is_same': (c_bool, [c_char_p, c_char_p], 'Whether two paths are one place, whatever their spelling and links, where nothing need be yet.'),
     'clast_run_folder_state': (c_int, [c_char_p, c_char_p], "The state file that a command's argument means: a run folder's state.h5, else the argument itself."),
     'clast_fluid_air': (clast_fluid, [], 'Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m^3, 1.7894e-5 Pa s; standard gravity 9.80665 m/s^2.'),
     'clast_drag_of_form': (c_int, [c_double, c_double, c_double, c_double, c_double, POINTER(clast_drag)], 'Corrections from the form dimensions L >= I >= S and the volume-equivalent diameter d (all in one unit), and from the density of the body over that of the fluid, r.'),
@@ -4118,7 +4160,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_permeability': (c_int, [c_int, c_double, c_double, POINTER(c_double)], "Permeability k [m^2] of grains of this size (6 times volume over surface, Sauter's mean) at this porosity e; with s = (1 - e)^(1/3) Happel k = d^2 / 18 (3 - 4.5 s + 4.5 s^5 - 3 s^6) / (s^3 (3 + 2 s^5)) [Happel1958] Kozeny, Carman k = d^2 e^3 / (180 (1 - e)^2) [Carman1937] @return CLAST_E_USAGE outside of the law's range of porosities, or for a size that is not > 0."),
     'clast_drag_permeable': (c_double, [c_double, c_double], "Stokes drag of a permeable sphere over that of a solid one: creeping flow outside, Brinkman's equation inside, beta the radius over the root of the permeability."),
     'clast_terminal_velocity_permeable': (c_int, [c_double, c_double, POINTER(clast_drag), POINTER(clast_fluid), POINTER(clast_porous), POINTER(clast_settling)], 'Terminal velocity with the whole drag law scaled by clast_drag_permeable.'),
-    'clast_spheres_alloc': (c_int, [c_int32, POINTER(clast_spheres)], 'Room for n spheres, zeroed; `spheres` must be empty.'),
+    'clast_spheres_alloc': (c_int, [c_int32, POINTER(clast_spheres)], 'Allocates n spheres, zeroed; `spheres` must be empty.'),
     'clast_spheres_free': (None, [POINTER(clast_spheres)], 'Frees the arrays; may be called twice.'),
     'clast_spheres_copy': (c_int, [POINTER(clast_spheres), POINTER(clast_spheres)], 'Copy that owns all it has; `copy` must be empty.'),
     'clast_shape_free': (None, [POINTER(clast_shape)], 'Frees all that a shape owns; may be called twice.'),
@@ -4139,7 +4181,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_state_write_spheres': (c_int, [POINTER(clast_spheres), c_char_p, c_char_p, c_char_p], 'One set of spheres alone.'),
     'clast_state_read_spheres': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres)], 'The named spheres of a state file; `name` NULL: the only ones.'),
     'clast_state_read_table': (c_int, [c_char_p, c_char_p, POINTER(clast_table)], 'The named table of a state file.'),
-    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly), POINTER(clast_packing_report)], 'Reads a packing that another program made; densities are 1 where the file does not tell them, and assembly->no_density is set.'),
+    'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly), POINTER(clast_packing_report)], 'Reads a packing that another program made; densities are 1 where the file does not give them, and assembly->no_density is set.'),
     'clast_state_read_frame': (c_int, [c_char_p, POINTER(clast_packing_frame)], 'Step of a run of clast pack, and the box of one that is periodic; of other states none.'),
     'clast_export_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("vtu").'),
     'clast_export_format_of_path': (c_int, [c_char_p], "Format by a path's extension (any case), or CLAST_EXPORT_ANY when it is none of ours."),
@@ -4171,7 +4213,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_source': (c_char_p, [], 'The source\'s commit, "8b3581966463", with "-dirty" where files had changed since; "unknown" where there was neither a repository nor an archive\'s commit.'),
     'clast_outputs_abandon': (None, [], 'Removes the temporary files of all outputs under way, of every thread.'),
     'clast_study_plan': (c_int, [POINTER(clast_study_config), POINTER(clast_table)], 'The runs as a table: number column `run` (from 1), a text column for each varied key, number column `seed`.'),
+    'clast_study_check': (c_int, [POINTER(clast_study_config), POINTER(clast_field), POINTER(c_int64)], 'Refuses before the first run what every run would refuse: keys in `vary`, `table` or `set` that the command does not have, one of a single value that `set` gives twice, and several seeds where it draws nothing at random.'),
     'clast_study_count': (c_int, [POINTER(clast_table), POINTER(clast_study_outcomes)], "Counts the runs of a study's results.csv; those without an exit code are open."),
+    'clast_study_grains': (c_int, [c_char_p, POINTER(clast_table), c_char_p, POINTER(clast_table)], "The grains of a study's beds, from FOLDER/runs/NNNNNN/out/grains.csv of each run: columns `group`, the run's number, flatness and elongation, as clast_fit_data_mixture takes them."),
     'clast_study_run': (c_int, [POINTER(clast_study_config), c_char_p, POINTER(clast_study_worker), POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_study_report)], 'Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.'),
     'clast_table_init': (c_int, [POINTER(clast_table), c_char_p, c_int64], 'Empty table of n_row rows with a name.'),
     'clast_table_free': (None, [POINTER(clast_table)], '.'),
@@ -4186,9 +4230,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_table_write_csv': (c_int, [POINTER(clast_table), c_char_p], "Writes RFC 4180 text: a header of the columns' names (which end in their units), ',', lines that end in LF, numbers in the fewest digits that read back as the same double, NaN (what does not exist) as empty cells, infinities as inf."),
     'clast_table_write_csv_note': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'The same below a line "# NOTE", which clast_table_read_csv passes over; the note is one line.'),
     'clast_table_write_json': (c_int, [POINTER(clast_table), c_char_p], 'Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON does not have, become null.'),
-    'clast_table_write_vti': (c_int, [POINTER(clast_table), c_char_p], 'Writes rows that are cells of an even grid, x fastest, as a VTK image (.vti) for ParaView: columns x, y, z (middles) and dx, dy, dz (sides), each perhaps with a unit behind it (x_m); the other columns of numbers are its cell data, by their names.'),
+    'clast_table_write_vti': (c_int, [POINTER(clast_table), c_char_p], 'Writes rows that are cells of a uniform grid, x fastest, as a VTK image (.vti) for ParaView: columns x, y, z (middles) and dx, dy, dz (sides), each perhaps with a unit behind it (x_m); the other columns of numbers are its cell data, by their names.'),
     'clast_table_write_vtp': (c_int, [POINTER(clast_table), c_char_p], 'Writes rows that are lines as VTK polydata (.vtp): columns x0, y0, z0, x1, y1, z1, as above.'),
-    'clast_voxels_alloc': (c_int, [POINTER(c_int32), c_double, POINTER(clast_voxels)], 'Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.'),
+    'clast_voxels_alloc': (c_int, [POINTER(c_int32), c_double, POINTER(clast_voxels)], 'Allocates n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.'),
     'clast_voxels_free': (None, [POINTER(clast_voxels)], '.'),
     'clast_voxels_labels': (c_int, [POINTER(clast_voxels), POINTER(POINTER(clast_voxel_label)), POINTER(c_int32)], 'The labels other than 0, rising.'),
     'clast_voxels_labels_free': (None, [POINTER(clast_voxel_label)], '.'),
@@ -4196,7 +4240,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_voxels_points': (c_int, [POINTER(clast_voxels), POINTER(clast_voxel_label), POINTER(clast_mesh)], "Centres of a label's outermost cubes, those with a face to another label: a point cloud whose convex hull is that of all its cubes' centres."),
     'clast_voxels_of_points': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_voxels), POINTER(c_double)], 'A cloud of points on a regular grid of this spacing (CT samples inside a grain) as cubes about them, all of label 1.'),
     'clast_volume_type_size': (c_int32, [c_int], 'Bytes of one value.'),
-    'clast_volume_alloc': (c_int, [POINTER(c_int32), POINTER(clast_volume)], 'Room for the values, zeroed, edges 1; `volume` must be empty.'),
+    'clast_volume_alloc': (c_int, [POINTER(c_int32), POINTER(clast_volume)], 'Allocates the values, zeroed, edges 1; `volume` must be empty.'),
     'clast_volume_free': (None, [POINTER(clast_volume)], '.'),
     'clast_volume_fill': (None, [POINTER(clast_volume), c_int64, c_int64, c_int, c_bool, c_void_p], 'Values of `type` in bytes of either order into value[first .'),
     'clast_volume_labels': (c_int, [POINTER(clast_volume), POINTER(clast_voxels)], "The volume's values as labels: whole numbers from 0, 0 is outside."),
@@ -4215,7 +4259,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_workspace_decompose': (c_int, [c_void_p, POINTER(clast_points), POINTER(clast_decompose_config), POINTER(POINTER(clast_decomposition))], 'Steps 1 to 3.'),
     'clast_workspace_decompose_in': (c_int, [c_void_p, POINTER(clast_domain), POINTER(clast_points), POINTER(clast_decompose_config), POINTER(POINTER(clast_decomposition))], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map, and without parsing a text at each step."),
     'clast_workspace_cells': (c_int, [c_void_p, c_int64, POINTER(c_int32)], 'Cell of each point of the last decomposition, -1 for points left out, into cell[i * stride].'),
-    'clast_workspace_events': (c_int, [c_void_p, c_int64, POINTER(c_double)], 'Expected events of the cell of each point, shared evenly among its points, into events[i * stride]: what a solver that keeps its own cells adds up.'),
+    'clast_workspace_events': (c_int, [c_void_p, c_int64, POINTER(c_double)], 'Expected events of the cell of each point, shared equally among its points, into events[i * stride]: what a solver that keeps its own cells adds up.'),
     'clast_workspace_collide': (c_int, [c_void_p, POINTER(clast_population), POINTER(clast_collide_cells), clast_workspace_step, POINTER(clast_collide_config), POINTER(c_int64)], 'clast_collide with the memory of the workspace.'),
 }
 
@@ -4253,7 +4297,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
     'mesh form': {
         'flatness': ('number', 0.0, '-', 0.0, 1.0, None, "wanted S/I; 0: the grain's own"),
         'elongation': ('number', 0.0, '-', 0.0, 1.0, None, "wanted I/L; 0: the grain's own"),
-        'size': ('number', 0.0, '-', 0.0, 1000000000000.0, None, "wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file; 0: the grain's own"),
+        'size': ('text', '0', '-', None, None, None, "wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file, or with its own where the file has one; 0: the grain's own"),
         'unit_form': ('flag', False, '-', None, None, None, 'take all form off: L = I = S = 1'),
         'hull': ('integer', 0.0, '-', 0.0, 1000000.0, None, 'take the convex hull first, with at most so many triangles; 0: the surface itself'),
     },
@@ -4266,7 +4310,8 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'elongation_deviation': ('number', 0.0, '-', 0.0, 10.0, None, 'likewise'),
         'form_low': ('number', 0.1, '-', 0.001, 1.0, None, 'least flatness and elongation'),
         'form_high': ('number', 1.0, '-', 0.001, 1.0, None, 'greatest'),
-        'size': ('number', 1.0, '-', 1e-12, 1000000000000.0, None, 'sieve size D = sqrt((S^2+I^2)/2), in the unit of the file'),
+        'size': ('text', '1', '-', None, None, None, 'sieve size D = sqrt((S^2+I^2)/2), in --unit, or with its own where that is given'),
+        'unit': ('text', '', '-', None, None, None, 'of lengths (mm, um, ..), which PLY, OBJ and OFF hand on; none: model units'),
         'measure': ('choice', 'angularity', '-', None, None, 'amplitude|normal_roundness|angularity', "what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or angularity"),
         'rough': ('number', 0.075, '-', 0.0, 1.0, None, 'wanted roughness'),
         'tolerance': ('number', 0.001, '-', 1e-06, 1.0, None, 'of the measured one'),

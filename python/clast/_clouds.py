@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._boxes import check_used, warn_of_dense, warn_of_range
+from ._boxes import check_used, warn_by
 from ._core import (Config, Fixed, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, fixed, html_last, html_members, html_table,
-                    items, numbers, people_write, refuse, refuse_idle, settled, single, view, warn, whole)
+                    items, numbers, output_path, refuse, refuse_idle, settled, single, view, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -88,7 +88,7 @@ class Decomposition:
         if not call("clast_decompose_chart_fits")(number, ctypes.byref(self._owner.struct)):
             raise refuse(f"name: nothing to draw for {name} ({self.stop})")
         check(call("clast_decompose_chart_write")(number, ctypes.byref(self._cloud._struct()), ctypes.byref(self._owner.struct),
-                                                  encoded("path", path)))
+                                                  output_path("path", path)))
 
     def _repr_html_(self) -> str:
         numbers = html_members(self, int, float, str)
@@ -148,9 +148,7 @@ class Cloud(Fixed):
         lists = [_text_list("columns", "x,y,z" if columns is None else columns), _text_list("velocity_columns", velocity_columns)]
         wanted.columns, wanted.velocity_columns = lists
         check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
-        unread = call("clast_cloud_unread_weight")(ctypes.byref(table.struct), ctypes.byref(wanted))
-        if unread is not None:
-            warn(f"{path}: column '{unread.decode()}' is not looked at: each row is one particle (weight_column='{unread.decode()}')")
+        warn_by("clast_cloud_weight_words", ctypes.byref(struct), encoded("path", path))
         owner, n, dimension = Owner(struct, "clast_cloud_free"), struct.n, struct.dimension
         shapes = {key: (n, dimension) if key == "velocity" else (n,) for key in _COLUMNS}
         given = {key: view(owner, getattr(struct, key), shape, np.float64) for key, shape in shapes.items() if getattr(struct, key)}
@@ -249,13 +247,9 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
         owner = Owner(result, "clast_decomposition_free")
         parts = _parts_of(cloud, own["sizes"], own["regular"], config.struct) if own["sizes"] else None
         _warn_of_units(config.struct, cloud)
-        is_test = config.struct.variant == c.VALUES["CLAST_VARIANT_TEST"]
-        if not is_test and result.pairs.n > 0:
-            _warn_of_pairs(result)
-        if not is_test and math.isnan(result.events_low):
-            _warn_of_no_number(result, cloud)
-    if result.n_pass > 0 and result.points_per_bin < 10:
-        warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
+    is_test = config.struct.variant == c.VALUES["CLAST_VARIANT_TEST"]
+    for k in range(0 if is_test else c.VALUES["CLAST_N_DECOMPOSITION_NOTE"]):
+        warn_by("clast_decomposition_note", ctypes.byref(result), cloud.n_repeated, k)
     return _decomposition(owner, cloud, parts, is_test)
 
 
@@ -269,24 +263,7 @@ def _warn_of_units(config: Any, cloud: Cloud) -> None:
     """Warns of points that take a thousandth of the domain's width or less, as the command does."""
     domain = Owner(c.clast_domain(), "clast_domain_free")
     check(call("clast_domain_parse")(config.domain, ctypes.byref(domain.struct)))
-    width = call("clast_domain_volume")(ctypes.byref(domain.struct)) ** (1 / cloud.positions.shape[1])
-    widest = float(np.ptp(cloud.positions, axis=0).max())
-    if 0 < widest < 1e-3 * width:
-        warn(f"all points lie within {people_write(widest, 'm')}, the domain is {people_write(width, 'm')} wide; are both in the same unit?")
-
-
-def _warn_of_no_number(found: Any, cloud: Cloud) -> None:
-    """Says why the events are nan, as the command does."""
-    warn(f"no {'number of events' if found.beta_dt > 0 else 'pair integral'}: {call('clast_decompose_unbounded_text')(cloud.n_repeated).decode()}")
-
-
-def _warn_of_pairs(found: Any) -> None:
-    """Warns where pairs and cells cannot both be right, as the command does."""
-    p = found.pairs.integral.fit_p
-    if found.disagree:
-        warn("events by pairs and by cells have no number in common; the cells hide structure, or points keep apart: look at g(r)")
-    elif p < 1e-3:
-        warn(f"g(r) is not that of points drawn from a density (p {f'= {p:.4g}' if p else '< 1e-300'}): it does not fall smoothly from r = 0")
+    warn_by("clast_cloud_corner_words", ctypes.byref(cloud._struct()), None, ctypes.byref(domain.struct))
 
 
 def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
@@ -349,16 +326,8 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
         check(monitor.run(lambda m: call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), m, ctypes.byref(owner.struct))))
         _warn_of_units(config.struct.decompose, made[0])
     r = owner.struct
-    warn_of_range(r.range)
-    warn_of_dense(r.volume_fraction)
-    n_repeated = max(cloud.n_repeated for cloud in made)
-    if r.n_unresolved > 0:
-        where = f"in {r.n_unresolved} of {len(made)} snapshot{'s' if len(made) > 1 else ''}"
-        warn(f"{where} the particles did not show their own structure (decompose reports more): collisions there are a best guess"
-             f"{'' if n_repeated > 0 else ', rather too few than too many'}")
-    if n_repeated > 0:
-        warn(f"{n_repeated} particle{'s' if n_repeated > 1 else ''}{' of a snapshot' if len(made) > 1 else ''} repeat{'' if n_repeated > 1 else 's'} "
-             "the place of an earlier one; each such pair counts as two particles that meet")
+    for k in range(c.VALUES["CLAST_N_AGGLOMERATION_NOTE"]):
+        warn_by("clast_agglomeration_note", ctypes.byref(r), k)
     members = table_of(owner, r.members) if r.members.n_column > 0 else None
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), members, table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 

@@ -148,6 +148,26 @@ def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
     return made
 
 
+def output_path(name: str, path: str | os.PathLike[str], *inputs: Any) -> bytes:
+    """A path to write to as C reads it: no file of a run, and none of the inputs that are files, as the commands refuse it."""
+    made = encoded(name, path)
+    check(call("clast_run_folder_check_output")(name.encode(), made))
+    for one in inputs:
+        if isinstance(one, (str, os.PathLike)):
+            check(call("clast_run_folder_check_input")(name.encode(), made, encoded(name, one)))
+    return made
+
+
+def run_path(output: str | os.PathLike[str] | None, keys: dict[str, Any]) -> bytes | None:
+    """The folder of a run to be written, which is not that of a file that the keys name."""
+    made = None if output is None else encoded("output", output)
+    for name, value in keys.items() if made is not None else ():
+        for one in items(name, value):
+            if isinstance(one, (str, os.PathLike)):
+                check(call("clast_run_folder_check_input")(b"output", made, encoded(name, one)))
+    return made
+
+
 class Owner:
     """A struct of the library's and the function that frees it, when nothing looks into it any more."""
 
@@ -255,12 +275,12 @@ def flag(name: str, value: Any) -> bool:
 _FLAGS = ("true", "yes", "on", "1", "false", "no", "off", "0")
 
 
-def quantity(name: str, value: Any, unit: str = "-", low: float = -math.inf, high: float = math.inf) -> float:
-    """A number in SI, or a text with its unit."""
+def quantity(name: str, value: Any, unit: str = "-", low: float = -math.inf, high: float = math.inf, bare: bool = False) -> float:
+    """A number in SI, or a text with its unit, `bare`: perhaps without."""
     one = single(name, value)
     if isinstance(one, str):
         number = ctypes.c_double()
-        check(call("clast_unit_parse_asked")(encoded(name, one), unit.encode(), ctypes.byref(number)), name)
+        check(call("clast_unit_parse" if bare else "clast_unit_parse_asked")(encoded(name, one), unit.encode(), ctypes.byref(number)), name)
         one = number.value
     try:
         if isinstance(one, bool) or not isinstance(one, Real) or one != one:
@@ -268,6 +288,16 @@ def quantity(name: str, value: Any, unit: str = "-", low: float = -math.inf, hig
         return _inside(name, float(one), low, high)
     except (TypeError, OverflowError):
         raise refuse(f"{name}: {one!r} is no number") from None
+
+
+def length(name: str, value: Any, unit: str, low: float = 0.0, high: float = 1e9) -> float:
+    """A length in a file's own unit: a number, or a text, which may have another unit where the file names its own."""
+    one = single(name, value)
+    if isinstance(one, str):
+        number = ctypes.c_double()
+        check(call("clast_unit_parse_length")(encoded(name, one), unit.encode(), ctypes.byref(number)), name)
+        one = number.value
+    return quantity(name, one, low=low, high=high)
 
 
 def whole(name: str, value: Any, low: float, high: float) -> int:

@@ -886,17 +886,20 @@ def mesh_form(
         *,
         flatness: float = 0.0,
         elongation: float = 0.0,
-        size: float = 0.0,
+        size: float | str = 0.0,
         unit_form: bool = False,
         hull: int = 0,
         output: Path | None = None,
 ) -> SurfaceResult:
     """A grain in its principal frame, stretched to S/I, I/L and sieve size (0: its own); hull > 0 takes the convex hull first.
 
+    `before` is of the surface (numbers are NaN where it bounds no solid), `hull` of the hull that is stretched. A `size` may have a unit ("7mm")
+    where the surface's file names its own.
+
     Keywords (None: the default; a number is SI, a text has its unit):
         flatness: wanted S/I; 0: the grain's own (0 to 1; default 0.0)
         elongation: wanted I/L; 0: the grain's own (0 to 1; default 0.0)
-        size: wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file; 0: the grain's own (0 to 1e+12; default 0.0)
+        size: wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file, or with its own where the file has one; 0: the grain's own (default 0)
         unit_form: take all form off: L = I = S = 1 (default False)
         hull: take the convex hull first, with at most so many triangles; 0: the surface itself (0 to 1e+06; default 0)
     """
@@ -971,13 +974,14 @@ def mesh_synthesize(
         index: int = 0,
         *,
         output: Path | None = None,
+        size: float | str = 1.0,
+        unit: str = '',
         flatness: float | None = None,
         flatness_deviation: float | None = None,
         elongation: float | None = None,
         elongation_deviation: float | None = None,
         form_low: float | None = None,
         form_high: float | None = None,
-        size: float | None = None,
         measure: Literal["amplitude", "normal_roundness", "angularity"] | None = None,
         rough: float | None = None,
         tolerance: float | None = None,
@@ -989,13 +993,14 @@ def mesh_synthesize(
     """A grain of a wanted form, size and roughness that nobody scanned: the one of this index and seed (`--count` makes 0, 1, 2 ...).
 
     Keywords (None: the default; a number is SI, a text has its unit):
+        size: sieve size D = sqrt((S^2+I^2)/2), in --unit, or with its own where that is given (default 1)
+        unit: of lengths (mm, um, ..), which PLY, OBJ and OFF hand on; none: model units (no default)
         flatness: S/I of the mass-equivalent ellipsoid, the mean when a deviation is given (0.001 to 1; default 0.647)
         flatness_deviation: of a normal law cut to form_low .. form_high (0 to 10; default 0.0)
         elongation: I/L, likewise (0.001 to 1; default 0.682)
         elongation_deviation: likewise (0 to 10; default 0.0)
         form_low: least flatness and elongation (0.001 to 1; default 0.1)
         form_high: greatest (0.001 to 1; default 1.0)
-        size: sieve size D = sqrt((S^2+I^2)/2), in the unit of the file (1e-12 to 1e+12; default 1.0)
         measure: what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or angularity (amplitude, normal_roundness, angularity; default angularity)
         rough: wanted roughness (0 to 1; default 0.075)
         tolerance: of the measured one (1e-06 to 1; default 0.001)

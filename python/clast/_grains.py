@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import (Error, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, html_table, items, note, quantity, refuse, refuse_idle,
-                    settled, status_name, view, warn)
+from ._core import (Error, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, html_table, items, note, output_path, quantity, refuse,
+                    refuse_idle, settled, status_name, view, warn)
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
@@ -31,7 +31,7 @@ class GrainStatistics:
     def write(self, folder: Path, charts: str = "svg") -> None:
         """Writes the tables and charts of `clast shape --statistics` into a folder, which is made."""
         os.makedirs(folder, exist_ok=True)
-        check(call("clast_grain_statistics_write")(ctypes.byref(self._owner.struct), encoded("folder", folder), encoded("charts", charts)))
+        check(call("clast_grain_statistics_write")(ctypes.byref(self._owner.struct), output_path("folder", folder), encoded("charts", charts)))
 
     def _repr_html_(self) -> str:
         def zingg(path: str) -> None:
@@ -82,12 +82,13 @@ def grain_statistics(table: Any, *, columns: str = "", resamples: int = 2000, se
                            view(owner, s.variance, (s.n_pca,), np.float64), view(owner, s.explained, (s.n_pca,), np.float64), owner)
 
 
-def warn_of_rows(forms: Any) -> None:
-    """Warns of the rows of a table that were left out."""
+def warn_of_rows(forms: Any, is_bed: bool = True) -> None:
+    """Warns of the rows of a table that were left out and, where all are one bed's, of numbers of grains that are not looked at."""
     words = ctypes.create_string_buffer(512)
-    call("clast_form_set_complaint")(ctypes.byref(forms), len(words), ctypes.cast(words, ctypes.c_char_p))
-    if words.value:
-        warn(words.value.decode("utf-8", "replace"))
+    for of in ("clast_form_set_complaint", "clast_form_set_count_words")[:1 + is_bed]:
+        call(of)(ctypes.byref(forms), len(words), ctypes.cast(words, ctypes.c_char_p))
+        if words.value:
+            warn(words.value.decode("utf-8", "replace"))
 
 
 def _numbers(name: str, value: Any, counts: tuple[int, ...]) -> list[float]:
@@ -121,7 +122,7 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
                                      has_threshold=threshold is not None,
                                      threshold=0.0 if threshold is None else quantity("threshold", threshold), least_voxels=given["least_voxels"],
                                      columns=encoded("columns", columns) or None,
-                                     folder=None if surfaces is None else encoded("surfaces", surfaces))
+                                     folder=None if surfaces is None else output_path("surfaces", surfaces, *files))
     volume = options.volume
     volume.type, volume.is_big_endian, volume.skip = choice("voxel_type", given["voxel_type"], words["voxel_type"][5] or ""), given["big_endian"], given["skip"]
     if voxels is not None:

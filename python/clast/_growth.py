@@ -7,8 +7,8 @@ import os
 from typing import Any
 
 from . import _bindings as c
-from ._boxes import warn_of_dense
-from ._core import Config, Monitor, Progress, call, check, encoded, flag, note, people_write, refuse, text_of, warn
+from ._boxes import warn_by
+from ._core import Config, Monitor, Progress, call, check, encoded, flag, note, people_write, refuse, run_path, text_of, warn
 from ._runs import Result
 from ._tables import Path
 
@@ -22,7 +22,7 @@ def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: 
     """
     report = c.clast_aggregate_report()
     monitor = Monitor(progress)
-    folder = None if output is None else encoded("output", output)
+    folder = run_path(output, keys)
     adds_body = keys.get("printable") is not None and flag("printable", keys["printable"]) and _is_whole(keys)
     resumed = _resumed(output, keys, ("printable", "neck", "spacing") if adds_body else ())
     try:
@@ -82,7 +82,7 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
     """Pours, shakes and damps a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0)."""
     result = c.clast_pack_result()
     monitor = Monitor(progress)
-    folder = None if output is None else encoded("output", output)
+    folder = run_path(output, keys)
     resumed = _resumed(output, keys, ("max_steps",))
     try:
         with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
@@ -119,7 +119,7 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
     """
     result = c.clast_evolve_result()
     monitor = Monitor(progress)
-    folder = None if output is None else encoded("output", output)
+    folder = run_path(output, keys)
     resumed = _resumed(output, keys)
     try:
         with Config(c.clast_evolve_config(), "clast_evolve_fields", keys) as config:
@@ -140,7 +140,9 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
                  "the velocity is that at its edge)")
         if result.is_bed_empty:
             note("bed_width: nothing lies on the floor; there is no deposit.h5")
-        warn_of_dense(result.volume_fraction)
+        if result.weight_words:
+            warn(result.weight_words.decode())
+        warn_by("clast_kernel_dense_words", result.volume_fraction)
         return Result(values, _folder(output, resumed))
     finally:
         call("clast_evolve_result_free")(ctypes.byref(result))

@@ -7,6 +7,7 @@ import tempfile
 from html import escape
 from typing import Callable
 
+from ._core import output_path
 from ._tables import Path
 
 
@@ -33,7 +34,7 @@ class View:
 
     def write(self, path: Path) -> None:
         """Writes the page."""
-        with open(path, "wb") as file:
+        with open(output_path("path", path), "wb") as file:
             file.write(self.page)
 
     def __repr__(self) -> str:

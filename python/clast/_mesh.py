@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import (Equal, Error, Floats, Owner, call, changed, check, choice, encoded, fixed, flag, html_table, note, numbers, pinned, refuse, refuse_idle,
-                    settled, view, warn, whole)
+from ._core import (Equal, Error, Floats, Owner, call, changed, check, choice, encoded, fixed, flag, html_table, note, numbers, output_path, pinned, refuse,
+                    refuse_idle, settled, view, warn, whole)
 from ._tables import Path
 
 
@@ -263,7 +263,8 @@ class Mesh:
         """Writes STL, OBJ, PLY or OFF by the name's end; mesh_convert writes 3MF too, which needs the unit."""
         if os.fsdecode(encoded("path", path)).lower().endswith(".3mf"):
             raise refuse("path: 3MF is in millimetres and a mesh has no unit; mesh_convert(mesh, path, unit='mm') writes it")
-        check(call("clast_mesh_write")(self._struct(), encoded("path", path), None))
+        options = c.clast_mesh_write_options(unit=encoded("unit", self._unit) or None)
+        check(call("clast_mesh_write")(self._struct(), output_path("path", path), ctypes.byref(options)))
 
     def check(self) -> MeshCheck:
         """What is this surface, and can it be trusted?"""

@@ -9,16 +9,16 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Mapping, Sequence
 
-import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import (Config, Equal, Error, Fixed, Owner, call, changed, check, choice, encoded, html_members, html_table, items, note, refuse, refuse_idle, settled,
-                    warn)
+from ._core import (Config, Equal, Fixed, Owner, call, changed, check, choice, encoded, html_members, html_table, items, note, output_path, refuse, refuse_idle,
+                    settled, warn)
 from ._grains import warn_of_rows
 from ._html import file_html
-from ._tables import Path, Table, given_table, read_table, table_of
+from ._tables import Path, Table, given_table, table_of
 
+_SINGLE, _MIXTURE = c.VALUES["CLAST_MODEL_SINGLE"], c.VALUES["CLAST_MODEL_MIXTURE"]
 Moments = float | str | Sequence[float] | NDArray[Any]
 
 
@@ -58,7 +58,7 @@ class Model(Fixed):
     def write(self, path: Path) -> None:
         """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
         origin = (ctypes.c_char_p * 2)(b"clast", c.VERSION.encode())
-        check(call("clast_porosity_model_write")(ctypes.byref(self._model), origin, 1, encoded("path", path)))
+        check(call("clast_porosity_model_write")(ctypes.byref(self._model), origin, 1, output_path("path", path)))
 
     def __repr__(self) -> str:
         return f"<clast.Model {self.name}>"
@@ -127,7 +127,7 @@ def _settled(model: Model | Fit | Path, has_table: bool, **given: Any) -> dict[s
 
 
 def _prediction(model: Model, found: Any, inputs: Any, source: str) -> Prediction:
-    if model._model.kind == c.VALUES["CLAST_MODEL_SINGLE"] and inputs.has_deviation:
+    if model._model.kind == _SINGLE and inputs.has_deviation:
         note("a single-form model at the mean form: it leaves the spread of the forms out")
     told = {name: getattr(inputs, name) for name in ("n_grain", "flatness_mean", "flatness_deviation", "elongation_mean",
                                                      "elongation_deviation", "equancy_mean", "equancy_deviation")}
@@ -204,7 +204,7 @@ def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str
         return table_of(beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", given["columns"]), ctypes.byref(owner.struct)))
-    warn_of_rows(owner.struct)
+    warn_of_rows(owner.struct, False)
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
     return table_of(beds)
 
@@ -238,7 +238,7 @@ class Fit:
         """Draws "feature", "predicted", "residuals" or "leverage" into an .svg, .pdf or .png file."""
         names = "|".join(call("clast_fit_chart_name")(k).decode() for k in range(c.VALUES["CLAST_N_FIT_CHART"]))
         number = choice("name", name, names)
-        check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), encoded("path", path)))
+        check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), output_path("path", path)))
 
     def _repr_html_(self) -> str:
         return html_members(self, int, float) + self.model._repr_html_() + file_html(lambda path: self.chart("predicted", path), "svg", "predicted and measured")
@@ -253,67 +253,41 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
     """
     beds = given_table("table", table)
     data, made = Owner(c.clast_fit_data(), "clast_fit_data_free"), Owner(c.clast_porosity_fit(), "clast_porosity_fit_free")
-    choice("features", features, c.KEYS["fit"]["features"][5] or "")
+    number = choice("features", features, c.KEYS["fit"]["features"][5] or "")
     with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
-        what = features if features != "auto" else "mixture" if grains is not None else \
-            "form" if _takes_forms(beds, config.struct.columns) else "columns"
-        refuse_idle(config.changed(), "clast_porosity_fit_idle", ctypes.byref(config.struct), what != "form")
-        if (what == "mixture") != (grains is not None):
+        asked = ctypes.byref(config.struct)
+        kind = number - 1 if number > 0 else _kind_of(beds, grains is not None, asked)  # behind "auto" as clast_model_kind
+        refuse_idle(config.changed(), "clast_porosity_fit_idle", asked, kind != _SINGLE)
+        if (kind == _MIXTURE) != (grains is not None):
             raise refuse("features: 'mixture' and grains belong together: the features are means and deviations over the grains")
-        ends = (ctypes.byref(config.struct), ctypes.byref(data.struct))
-        if what == "mixture":
-            group = config.struct.group.decode()
-            rows = given_table("grains", _study_grains(grains, table_of(beds), group) if _is_folder(grains) else grains)
-            check(call("clast_fit_data_mixture")(ctypes.byref(beds.struct), ctypes.byref(rows.struct), *ends))
+        if kind == _MIXTURE:
+            rows = _study_grains(grains, beds, config.struct.group) if _is_folder(grains) else given_table("grains", grains)
+            check(call("clast_fit_data_mixture")(ctypes.byref(beds.struct), ctypes.byref(rows.struct), asked, ctypes.byref(data.struct)))
         else:
-            check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
-        use, columns, group, n_term = (*(getattr(config.struct, key).decode() for key in ("use", "columns", "group")), config.struct.n_term)
+            check(call("clast_fit_data_single" if kind == _SINGLE else "clast_fit_data_columns")(
+                ctypes.byref(beds.struct), asked, ctypes.byref(data.struct)))
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
-        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source),
-                                              ctypes.byref(config.struct), ctypes.byref(made.struct)))
-    left_out = data.struct.left_out
-    if left_out.n_row > 0:
-        warn(f"{left_out.n_row} of {beds.struct.n_row} rows left out (first: row {left_out.column[0].number[0]:.0f}, "
-             f"{left_out.column[1].text[0].decode('utf-8', 'replace')})")
-    found = _fit(data, made)
-    if use == "":
-        _warn_of_words(table_of(beds), found, columns)
-        _warn_of_few(found, n_term)
-        _warn_of_numbers(table_of(beds), found, columns, group)
-    return found
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source), asked,
+                                              ctypes.byref(made.struct)))
+        told, n_told = c.clast_fit_note(), 0
+        while call("clast_porosity_fit_note")(ctypes.byref(made.struct), ctypes.byref(beds.struct), ctypes.byref(data.struct), n_told, asked, ctypes.byref(told)):
+            _warn_of(told)
+            n_told += 1
+    return _fit(data, made)
 
 
-def _warn_of_words(beds: Table, found: Fit, columns: str) -> None:
-    """Columns of words where a fit of columns looks for candidates."""
-    names = list(beds.columns)
-    if names[:1] == ["run"] and "exit_code" in names:
-        names = names[:names.index("exit_code")]
-    words = [name for name in names if beds[name].dtype.kind != "f" and name not in found.features.columns]
-    if found.model.kind == "columns" and columns == "" and words:
-        warn(f"{len(words)} {'columns of words are no candidates' if len(words) > 1 else 'column of words is no candidate'}: {', '.join(words)}")
+def _kind_of(beds: Owner, has_grains: bool, config: Any) -> int:
+    kind, told = ctypes.c_int(), c.clast_fit_note()
+    check(call("clast_porosity_fit_choose")(ctypes.byref(beds.struct), has_grains, config, ctypes.byref(kind), ctypes.byref(told)))
+    if told.text:
+        _warn_of(told)
+    return kind.value
 
 
-def _warn_of_numbers(beds: Table, found: Fit, columns: str, group: str) -> None:
-    """The column that names the bed is no candidate; a feature that counts the rows fits well if they are sorted."""
-    names = list(beds.columns)
-    if found.model.kind != "columns" or columns != "" or (names[:1] == ["run"] and "exit_code" in names):
-        return
-    if group in names and beds[group].dtype.kind == "f":
-        warn(f"column '{group}' names the bed and is no candidate")
-    for name in found.model.coefficients:
-        places = found.features[name] - found.features["row"]
-        if places[0] in (0, -1) and np.all(places == places[0]):
-            warn(f"feature '{name}' counts the rows; if it says nothing of a bed, name the candidates (columns=)")
-
-
-def _warn_of_few(found: Fit, n_term: int) -> None:
-    """Why a selection has fewer features than it was asked for."""
-    n, states = len(found.model.coefficients), list(found.ranking["state"])
-    n_useless = len(states) - n - found.n_removed
-    if n < n_term:
-        warn(f"{n} of {n_term} features: " + (
-            "with one more no candidate can be fitted to each training set" if "kept" in states else
-            f"no candidate is left of {len(states)} ({found.n_removed} like a chosen one, {n_useless} constant or not finite in some row)"))
+def _warn_of(told: Any) -> None:
+    """A note of the command's, whose advice is in options."""
+    line = told.text.decode("utf-8", "replace")
+    warn(line.replace(": --features columns --columns a,b", " (columns=)").replace("--features form", "features='form'"))
 
 
 def _fit(data: Owner, made: Owner) -> Fit:
@@ -324,34 +298,12 @@ def _fit(data: Owner, made: Owner) -> Fit:
                features=table_of(data, data.struct.beds), left_out=table_of(data, data.struct.left_out), _data=data, _fit=made)
 
 
-def _takes_forms(beds: Owner, columns: bytes) -> bool:
-    """Whether the columns are a form's by their names; else they are candidates."""
-    if not columns:
-        return bool(call("clast_form_set_named")(ctypes.byref(beds.struct)))
-    owner = Owner(c.clast_form_set(), "clast_form_set_free")
-    if call("clast_form_set_of")(ctypes.byref(beds.struct), columns, ctypes.byref(owner.struct)) != 0:
-        return False
-    if call("clast_form_columns_named")(columns):
-        return True
-    warn(f"columns {columns.decode()} are candidates; features='form' takes them as a form")
-    return False
-
-
 def _is_folder(value: Any) -> bool:
     return isinstance(value, (str, os.PathLike)) and os.path.isdir(value)
 
 
-def _study_grains(folder: Path, beds: Table, group: str) -> dict[str, Any]:
+def _study_grains(folder: Path, beds: Owner, group: bytes) -> Owner:
     """Forms of the grains of a study's runs that ended well."""
-    if group not in beds.columns or beds[group].dtype.kind != "f":
-        raise refuse(f"table: no column of numbers '{group}' names the run (group='run')")
-    is_good = beds["exit_code"] == 0 if "exit_code" in beds.columns else np.ones(len(beds), bool)
-    parts = []
-    for run in beds[group][is_good]:
-        grains = read_table(os.path.join(folder, "runs", f"{int(run):06d}", "out", "grains.csv"))
-        if not {"flatness", "elongation"} <= set(grains.columns):
-            raise Error("CLAST_E_FORMAT", f"grains: run {int(run)} of {os.fspath(folder)} has no columns flatness and elongation")
-        parts.append((np.full(len(grains), run), grains["flatness"], grains["elongation"]))
-    if not parts:
-        raise refuse(f"grains: no run of {os.fspath(folder)} ended well")
-    return {name: np.concatenate(column) for name, column in zip((group, "flatness", "elongation"), zip(*parts))}
+    grains = Owner(c.clast_table(), "clast_table_free")
+    check(call("clast_study_grains")(encoded("grains", folder), ctypes.byref(beds.struct), group, ctypes.byref(grains.struct)))
+    return grains

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, changed, check, choice, encoded, fixed, html_table, quantity, refuse,
-                    refuse_idle, settled, single, view, warn)
+from ._core import (Config, Error, Fixed, Floats, Missing, Owner, Quantity, call, changed, check, choice, encoded, fixed, html_table, length, output_path,
+                    quantity, refuse, refuse_idle, settled, single, view, warn)
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
@@ -104,13 +104,16 @@ class Assembly(Fixed):
 
         Of several snapshots the last. Where the file gives no densities they are 1 until they are written into, and `write` leaves them out.
         """
-        size = 0.0 if diameter is None else quantity("diameter", diameter, "m", 0, 1e9)
+        asked = 0.0 if diameter is None else single("diameter", diameter)
+        size = quantity("diameter", asked, "m", 0, 1e9, bare=True)  # the file's unit says below how to read it
         options, struct = c.clast_packing_options(columns=encoded("columns", "" if columns is None else columns), diameter=size), c.clast_assembly()
         told = c.clast_packing_report()
         check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct), ctypes.byref(told)))
+        made = cls(Owner(struct, "clast_assembly_free"), told.frame)
+        length("diameter", asked, made.unit)
         if told.n_snapshot > 1:
             warn(f"{os.fspath(path)}: snapshot {told.snapshot} of {told.n_snapshot}" + (f", TIMESTEP {told.frame.step}" if told.frame.step >= 0 else ""))
-        return cls(Owner(struct, "clast_assembly_free"), told.frame)
+        return made
 
     def _copy(self) -> Assembly:
         struct = c.clast_assembly()
@@ -141,7 +144,7 @@ class Assembly(Fixed):
     def write(self, path: Path) -> None:
         """Writes by the name's end, as `export`; lengths are in the assembly's own unit."""
         options = c.clast_export_options(level=3, frame=self._framed())
-        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), ctypes.byref(options), None))
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), output_path("path", path), ctypes.byref(options), None))
 
     def view(self, triangles: int = 100_000, title: str = "clast") -> View:
         """The interactive 3-D view, grains simplified to so many triangles together."""
@@ -197,6 +200,7 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     asked = c.clast_export_given(format=call("clast_export_format_of_path")(encoded("output", output)), has_table=bool(table),
                                  is_run=not _is_other(run), points=given["points"])
     refuse_idle(names, "clast_export_given_idle", ctypes.byref(asked))
+    place = output_path("output", output, run)
     if table:
         if isinstance(run, Assembly):
             raise refuse("table: an assembly has none; give the run's folder")
@@ -205,15 +209,15 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
     grains = _placed(run, given["columns"], single("diameter", diameter), given["density"])
     asked.assembly = ctypes.pointer(grains._owner.struct)
     refuse_idle(names, "clast_export_given_idle", ctypes.byref(asked))
-    bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
+    bare = asked.format in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
     chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
     options = c.clast_export_options(level=given["level"], points=given["points"], colour=choice("colour", given["colour"], "grain|order|size|shape"),
                                      unit=None if chosen is None else encoded("chosen", chosen), frame=grains._framed())
     told = c.clast_export_report()
-    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
+    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), place, ctypes.byref(options), ctypes.byref(told)))
     return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),
             "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle, "facet_ratio": told.facet_ratio,
-            "ellipsoid_ratio": told.ellipsoid_ratio}
+            "clump_ratio": told.clump_ratio, "ellipsoid_ratio": told.ellipsoid_ratio, "ids_kept": told.ids_kept, "id_offset": told.id_offset}
 
 
 def state_table(run: Path, name: str) -> Table:

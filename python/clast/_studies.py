@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, encoded, given, items, nearest, refuse, settled, single, SIZES, size, warn, whole, written
+from ._core import Config, Monitor, Progress, call, check, encoded, given, items, nearest, refuse, run_path, single, SIZES, size, warn, whole, written
 from ._tables import Path, Table, read_table
 
 
@@ -106,24 +106,11 @@ class _Workers:
             process.send_signal(signal.SIGTERM)
 
 
-
-def _check_keys(command: str, keys: dict[str, Any]) -> None:
-    """Refuses keys that the command does not have before the first run."""
-    if command not in c.STUDIED:
-        raise refuse(f"run: clast {command} has no numbers for a study to tabulate" if command in c.KEYS
-                     else f"run: '{command}' is no command that a study can run{nearest(command, c.STUDIED)}")
-    fixed: set[str] = set()
-    for name in ("vary", "fix"):
-        for entry in [] if keys.get(name) is None else map(str, items(name, keys[name])):
-            key = entry.split("=")[0].strip().replace("-", "_")
-            if "=" not in entry or key not in c.KEYS[command]:
-                raise Error("CLAST_E_CONFIG", f"{name}: clast {command} has no key '{key}'{nearest(key, c.KEYS[command])}" if "=" in entry
-                            else f"{name}: takes key=value, not '{entry}'")
-            if name == "fix" and key in fixed and c.KEYS[command][key][0] not in ("texts", "numbers"):
-                raise Error("CLAST_E_CONFIG", f"fix: '{key}' is given twice; it takes one value")
-            fixed.add(key if name == "fix" else "")
-    if settled("study", dict(seeds=keys.get("seeds")))["seeds"] > 1 and "seed" not in c.KEYS[command]:
-        raise refuse(f"seeds: clast {command} draws nothing at random; seeds must be 1")
+def _fields(command: str) -> Any:
+    """Names of a command's keys and whether they take lists, as the library checks those of a study."""
+    lists = {"texts": c.VALUES["CLAST_FIELD_TEXT_LIST"], "numbers": c.VALUES["CLAST_FIELD_F64_LIST"]}
+    made = [c.clast_field(name=key.encode(), type=lists.get(kind, c.VALUES["CLAST_FIELD_F64"])) for key, (kind, *_) in c.KEYS[command].items()]
+    return (c.clast_field * (len(made) + 1))(*made)
 
 
 def _entries(command: str, name: str, values: dict[str, Any]) -> list[str]:
@@ -160,15 +147,20 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
             raise refuse(f"{name}: a table; give a dictionary of values, as {{'spheres': [5, 9]}}, or rows that go together by table='runs.csv'")
         if value is not None:
             keys[name] = _entries(run, name, value) if isinstance(value, dict) else value
-    _check_keys(run, keys)
-    n_job = whole("jobs", jobs, 0, 4096)
-    workers, report, monitor = _Workers(_program(), run), c.clast_study_report(), Monitor(progress)
+    if run not in c.STUDIED:
+        raise refuse(f"run: clast {run} has no numbers for a study to tabulate" if run in c.KEYS
+                     else f"run: '{run}' is no command that a study can run{nearest(run, c.STUDIED)}")
+    n_job, folder = whole("jobs", jobs, 0, 4096), encoded("output", output)
+    run_path(output, keys)
+    report, monitor = c.clast_study_report(), Monitor(progress)
     before = call("clast_parallel_threads")()
     call("clast_parallel_set_threads")(n_job)
     try:
         with Config(c.clast_study_config(), "clast_study_fields", {"run": run, **keys}) as config:
-            status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), encoded("output", output),
-                                                                   ctypes.byref(workers.struct), None, m, ctypes.byref(report)))
+            check(call("clast_study_check")(ctypes.byref(config.struct), _fields(run), None))
+            workers = _Workers(_program(), run)
+            status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), folder, ctypes.byref(workers.struct), None, m,
+                                                                   ctypes.byref(report)))
         if workers.failed is not None:
             raise workers.failed
         if status != c.VALUES["CLAST_E_NO"]:

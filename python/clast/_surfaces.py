@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, changed, check, encoded, refuse, refuse_idle, settled, warn, whole
+from ._core import Config, Error, Owner, call, changed, check, encoded, length, output_path, refuse, refuse_idle, settled, single, warn, whole
 from ._mesh import Mesh, MeshCheck, warn_of_doubles
 from ._runs import Result
 from ._tables import Path
@@ -26,7 +26,10 @@ class SurfaceResult(Result):
         object.__setattr__(self, "mesh", mesh)
 
 
-def _read(surface: Surface, weld: bool = True) -> Mesh:
+def _read(surface: Surface, output: Path | None, weld: bool = True) -> Mesh:
+    """The surface, once the output is known to take no place of its own."""
+    if output is not None:
+        output_path("output", output, surface)
     return surface if isinstance(surface, Mesh) else Mesh.read(surface, weld)
 
 
@@ -35,7 +38,8 @@ def _numbers(struct: Any) -> dict[str, Any]:
     return {name: getattr(struct, name) for name, *_ in struct._fields_ if isinstance(getattr(struct, name), (bool, int, float))}
 
 
-def _keep(made: Mesh, values: dict[str, Any], output: Path | None) -> SurfaceResult:
+def _keep(made: Mesh, values: dict[str, Any], output: Path | None, unit: str = "") -> SurfaceResult:
+    made._unit = unit
     if output is not None:
         made.write(output)
     return SurfaceResult(made, values)
@@ -43,14 +47,14 @@ def _keep(made: Mesh, values: dict[str, Any], output: Path | None) -> SurfaceRes
 
 def mesh_repair(surface: Surface, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
     """Makes a surface closed, oriented and manifold where it can; reports each change, and in `check` what it is now."""
-    made, report, given = c.clast_mesh(), c.clast_mesh_repair_report(), _read(surface, weld=False)
+    made, report, given = c.clast_mesh(), c.clast_mesh_repair_report(), _read(surface, output, weld=False)
     with Config(c.clast_mesh_repair_config(), "clast_mesh_repair_fields", keys) as config:
         refuse_idle(config.changed(), "clast_mesh_repair_idle", ctypes.byref(config.struct))
         check(call("clast_mesh_repair")(given._struct(), ctypes.byref(config.struct), ctypes.byref(made),
                                         ctypes.byref(report)))
     mesh = Mesh._own(made)
     found: MeshCheck = mesh.check()
-    kept = _keep(mesh, {**_numbers(report), "is_solid": found.is_solid, "check": found}, output)
+    kept = _keep(mesh, {**_numbers(report), "is_solid": found.is_solid, "check": found}, output, given._unit)
     if report.n_separated > 0 and output is not None and _is_stl(output):
         warn(f"an STL cannot keep {report.n_separated} doubled vertices apart; write .ply, .obj or .off to keep touching surfaces separate")
     return kept
@@ -62,11 +66,11 @@ def _is_stl(path: Path) -> bool:
 
 def mesh_hull(surface: Surface, *, output: Path | None = None) -> SurfaceResult:
     """The convex hull of a surface or of points, and the volume that it adds."""
-    mesh = _read(surface, weld=False)
+    mesh = _read(surface, output, weld=False)
     hull = mesh.hull()
     volume = _solid_volume(mesh) if len(mesh.triangles) else float("nan")
     return _keep(hull, {"n_vertex": len(hull.vertices), "n_triangle": len(hull.triangles), "volume": volume, "area": mesh.area,
-                        "hull_volume": hull.volume, "hull_area": hull.area, "added_volume": hull.volume - volume}, output)
+                        "hull_volume": hull.volume, "hull_area": hull.area, "added_volume": hull.volume - volume}, output, mesh._unit)
 
 
 def _solid_volume(mesh: Mesh) -> float:
@@ -82,7 +86,7 @@ def _solid_volume(mesh: Mesh) -> float:
 def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = None) -> SurfaceResult:
     """Fewer triangles, same volume; reports how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`)."""
     wanted = settled("mesh simplify", dict(faces=faces))["faces"]
-    struct, report, given = c.clast_mesh(), c.clast_mesh_simplify_report(), _read(surface)
+    struct, report, given = c.clast_mesh(), c.clast_mesh_simplify_report(), _read(surface, output)
     check(call("clast_mesh_simplify")(given._struct(), wanted, ctypes.byref(struct), ctypes.byref(report)))
     made, volume, apart = Mesh._own(struct), report.volume_after, report.deviation
     if output is not None and _is_stl(output):  # 24 bits
@@ -99,35 +103,45 @@ def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = N
                  f"{found.n_intersection} pair{'' if found.n_intersection == 1 else 's'} of triangles that cut each other; ask for more faces")
         elif not before.doubles:
             warn_of_doubles(found, "the simpler surface", "; ask for more faces")
-    return _keep(made, values, output)
+    return _keep(made, values, output, given._unit)
 
 
-def mesh_form(surface: Surface, *, flatness: float = 0.0, elongation: float = 0.0, size: float = 0.0, unit_form: bool = False,
+def mesh_form(surface: Surface, *, flatness: float = 0.0, elongation: float = 0.0, size: float | str = 0.0, unit_form: bool = False,
               hull: int = 0, output: Path | None = None) -> SurfaceResult:
-    """A grain in its principal frame, stretched to S/I, I/L and sieve size (0: its own); hull > 0 takes the convex hull first."""
-    wanted = settled("mesh form", dict(flatness=flatness, elongation=elongation, size=size, unit_form=unit_form, hull=hull))
+    """A grain in its principal frame, stretched to S/I, I/L and sieve size (0: its own); hull > 0 takes the convex hull first.
+
+    `before` is of the surface (numbers are NaN where it bounds no solid), `hull` of the hull that is stretched. A `size` may have a unit ("7mm")
+    where the surface's file names its own.
+    """
+    wanted = settled("mesh form", dict(flatness=flatness, elongation=elongation, unit_form=unit_form, hull=hull))
     n_face = wanted["hull"]
-    if wanted["unit_form"] and (wanted["flatness"] or wanted["elongation"] or wanted["size"]):
+    if wanted["unit_form"] and (wanted["flatness"] or wanted["elongation"] or single("size", size) not in (0, "0")):
         raise refuse("unit_form: makes L = I = S = 1; leave flatness, elongation and size out")
     if 0 < n_face < 4:
         raise refuse(f"hull: a solid has 4 faces or more, not {n_face}")
-    mesh = _read(surface)
+    given = mesh = _read(surface, output)
+    wanted["size"] = length("size", size, given._unit, high=1e12)
     if n_face == 0:
         _require_solid(mesh)
     else:
         struct = c.clast_mesh()
         check(call("clast_reform_hull")(mesh._struct(), n_face, ctypes.byref(struct)))
         mesh = Mesh._own(struct)
-    turned, before = _principal(mesh)
-    own = dict(flatness=before["flatness"], elongation=before["elongation"], size=before["D"])
+    turned, axes = _principal(mesh)
+    values: dict[str, Any] = {"before": axes, "volume_before": mesh.volume}
+    if n_face > 0:
+        volume = _solid_volume(given) if len(given.triangles) else float("nan")
+        values = {"before": _principal(given)[1] if volume > 0 else dict.fromkeys(axes, float("nan")), "hull": axes, "volume_before": volume,
+                  "added_volume": mesh.volume - volume}
+    own = dict(flatness=axes["flatness"], elongation=axes["elongation"], size=axes["D"])
     lengths = (ctypes.c_double * 3)(1.0, 1.0, 1.0)
     if not wanted["unit_form"]:
         call("clast_form_lengths")(*(wanted[key] or own[key] for key in own), lengths)
     made = c.clast_mesh()
     check(call("clast_reform_mesh")(turned._struct(), lengths, ctypes.byref(made)))
     out = Mesh._own(made)
-    return _keep(out, {"before": before, "after": _principal(out)[1], "volume_hull": mesh.volume, "volume": out.volume,
-                       "n_triangle": len(out.triangles)}, output)
+    return _keep(out, {**values, "after": _principal(out)[1], "volume_hull": mesh.volume, "volume": out.volume,
+                       "n_triangle": len(out.triangles)}, output, "" if wanted["unit_form"] else given._unit)
 
 
 def _require_solid(mesh: Mesh) -> None:
@@ -149,14 +163,17 @@ def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
                                "flatness": least / middle, "elongation": middle / long}
 
 
-def mesh_synthesize(index: int = 0, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
+def mesh_synthesize(index: int = 0, *, output: Path | None = None, size: float | str = 1.0, unit: str = "", **keys: Any) -> SurfaceResult:
     """A grain of a wanted form, size and roughness that nobody scanned: the one of this index and seed (`--count` makes 0, 1, 2 ...)."""
     index = whole("index", index, 0, 2**64 - 1)
     struct, report = c.clast_mesh(), c.clast_synthesize_report()
+    if encoded("unit", unit):
+        _metres(unit)
+    keys["size"] = length("size", size, unit, high=1e12)
     with Config(c.clast_synthesize_config(), "clast_synthesize_fields", keys) as config:
         refuse_idle(config.changed(), "clast_synthesize_idle", ctypes.byref(config.struct))
         check(call("clast_synthesize_grain")(ctypes.byref(config.struct), index, ctypes.byref(struct), ctypes.byref(report)))
-    return _keep(Mesh._own(struct), _numbers(report), output)
+    return _keep(Mesh._own(struct), _numbers(report), output, unit)
 
 
 def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: str = "", scale: float = 1.0, name: str = "") -> SurfaceResult:
@@ -165,7 +182,7 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     of_path = call("clast_mesh_format_of_path")(encoded("output", output))
     if of_path == c.VALUES["CLAST_MESH_ANY"]:
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
-    mesh = _read(surface, weld=False)
+    mesh = _read(surface, output, weld=False)
     check(call("clast_mesh_require_unit")(b"the surface", ctypes.byref(c.clast_mesh_read_report(unit=mesh._unit.encode())), encoded("unit", unit)))
     unit = unit or mesh._unit
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Owner, call, check, encoded, html_table, refuse, unmasked, view
+from ._core import Owner, call, check, encoded, html_table, output_path, refuse, unmasked, view
 
 Path = str | os.PathLike[str]
 Text = Path  #: where a key takes words, or a file
@@ -64,7 +64,7 @@ class Table(NDArray[Any]):
         if not function:
             raise refuse(f"path: {os.fspath(path)}: a table is written as .csv or .json; to_pandas() writes others")
         owner = given_table("table", self)
-        check(call(function)(ctypes.byref(owner.struct), encoded("path", path)))
+        check(call(function)(ctypes.byref(owner.struct), output_path("path", path)))
 
     def _repr_html_(self) -> str:
         shown = self[:10] if self.ndim else self.reshape(1)

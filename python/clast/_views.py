@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Fixed, Monitor, Owner, Progress, call, check, encoded, refuse, refuse_idle, view
+from ._core import Config, Fixed, Monitor, Owner, Progress, call, check, encoded, output_path, refuse, refuse_idle, view
 from ._runs import Assembly
 from ._tables import Path
 
@@ -30,7 +30,7 @@ class Picture(Fixed):
         """Writes a PNG file, whole or not at all."""
         if not os.fsdecode(encoded("path", path)).lower().endswith(".png"):
             raise refuse(f"path: {os.fspath(path)}: a picture is written as .png")
-        check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), encoded("path", path)))
+        check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), output_path("path", path)))
 
     def __repr__(self) -> str:
         return f"<clast.Picture of {self.rgba.shape[1]} x {self.rgba.shape[0]} pixels>"
@@ -59,5 +59,6 @@ def report(*runs: Path, output: Path, **keys: Any) -> None:
     if not runs:
         raise refuse("runs: none is given")
     names = (ctypes.c_char_p * len(runs))(*(encoded("run", run) for run in runs))
+    place = output_path("output", output, *runs)
     with Config(c.clast_report_config(), "clast_report_fields", keys) as config:
-        check(call("clast_report_write")(names, len(runs), encoded("output", output), ctypes.byref(config.struct)))
+        check(call("clast_report_write")(names, len(runs), place, ctypes.byref(config.struct)))

@@ -108,6 +108,7 @@ clast_status clast_assembly_copy(const clast_assembly *assembly, clast_assembly 
     clast_assembly made = {0};
     memcpy(made.unit, assembly->unit, sizeof made.unit);
     made.no_density = assembly->no_density;
+    made.has_ids = assembly->has_ids;
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         CLX_TRY(clast_assembly_add_shape(&made, &assembly->shape[s], NULL));
     }

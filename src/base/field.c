@@ -190,6 +190,14 @@ static clast_status parse_number(const clast_field *f, const char *text, bool is
     return *value < f->low || *value > f->high ? bad_range(f, text) : CLAST_OK;
 }
 
+/// Keeps the dimension of a number of m^d behind it (CLAST_KEEPS_DIMENSION).
+static void keep_dimension(const clast_field *f, void *slot, int32_t dimension)
+{
+    if (f->text != NULL && strcmp(f->text, CLAST_KEEPS_DIMENSION) == 0) {
+        memcpy((char *)slot + sizeof(double), &dimension, sizeof dimension);
+    }
+}
+
 static clast_status append_f64(const clast_field *f, clast_f64_list *list, const char *text,
                                bool is_si)
 {
@@ -315,6 +323,7 @@ static clast_status set_value(const clast_field *f, void *config, const char *te
         status = parse_number(f, text, is_si, &value);
         if (status == CLAST_OK) {
             *(double *)slot = value;
+            keep_dimension(f, slot, clx_unit_dimension(text));
         }
         return status;
     case CLAST_FIELD_I32:
@@ -374,6 +383,7 @@ static clast_status set_default(const clast_field *f, void *config)
     switch (f->type) {
     case CLAST_FIELD_F64:
         *(double *)slot = f->value;
+        keep_dimension(f, slot, 0);
         break;
     case CLAST_FIELD_I32:
     case CLAST_FIELD_CHOICE:

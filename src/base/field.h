@@ -13,8 +13,12 @@ clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double 
 /// Whether it is a unit of any dimension, in either spelling: "um^2", "um2".
 bool clx_unit_is_known(const char *name);
 
-/// Whether the text is a finite number, bare or with a unit of any dimension; its value [SI].
-CLX_SHARED bool clx_unit_is_number(const char *text, double *value);
+/// Whether the text is a finite number, bare or with a unit of any dimension; its value [SI], and
+/// that SI unit, "-" of a bare one, where `si_unit` is not NULL.
+CLX_SHARED bool clx_unit_is_number(const char *text, double *value, const char **si_unit);
+
+/// The d of a number's unit m, m^2, m^3 or the like; 0 of others and bare ones.
+int32_t clx_unit_dimension(const char *text);
 
 /// Whether the value at `slot` is one that the field can have: finite and in its range, a choice of
 /// its list, a text.

@@ -309,6 +309,20 @@ double clx_number_read(const char *text, char **end)
     return value;
 }
 
+bool clx_number_has_comma(const char *text)
+{
+    char point[64];
+    double value = 0.0;
+    const size_t length = strlen(text);
+    const char *const comma = strchr(text, ',');
+    if (comma == NULL || length >= sizeof point || comma[1] < '0' || comma[1] > '9') {
+        return false;
+    }
+    memcpy(point, text, length + 1);
+    point[comma - text] = '.';
+    return clx_number_parse(point, point + length, &value) == point + length;
+}
+
 const char *clx_number_parse(const char *text, const char *end, double *value)
 {
     decimal d;

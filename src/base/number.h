@@ -16,6 +16,9 @@ const char *clx_number_parse(const char *text, const char *end, double *value);
 /// itself, with 0, where there is none.
 CLX_SHARED double clx_number_read(const char *text, char **end);
 
+/// Whether the text is a number but for a decimal comma: "1,5" or "-1,5e-3".
+bool clx_number_has_comma(const char *text);
+
 enum { CLX_NUMBER_POWER = 27 }; // 5^27 < 2^63
 
 /// word * 10^exponent rounded to nearest even; word > 0, |exponent| <= CLX_NUMBER_POWER.

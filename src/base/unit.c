@@ -123,12 +123,24 @@ enum { N_UNIT = sizeof units / sizeof units[0] };
 
 enum { KNOWN_SIZE = 256 };
 
+/// The d of "m", "m^2" and "m^3", else 0.
+static int32_t power_of(const char *si)
+{
+    return strcmp(si, "m") == 0 ? 1 : strcmp(si, "m^2") == 0 ? 2 : strcmp(si, "m^3") == 0 ? 3 : 0;
+}
+
+/// Whether a unit is one of this dimension; m^d is that of points.
+static bool is_of(const unit *u, const char *si)
+{
+    return strcmp(u->si, si) == 0 || (strcmp(si, "m^d") == 0 && power_of(u->si) > 0);
+}
+
 /// Units of a dimension, "m, cm, mm".
 static void list_known(const char *si, char known[KNOWN_SIZE])
 {
     known[0] = '\0';
     for (int i = 0; i < N_UNIT; ++i) {
-        if (strcmp(units[i].si, si) == 0) {
+        if (is_of(&units[i], si)) {
             const size_t used = strlen(known);
             (void)snprintf(known + used, KNOWN_SIZE - used, "%s%s", used > 0 ? ", " : "",
                            units[i].name);
@@ -202,7 +214,7 @@ clast_status clast_unit_factor(const char *name, const char *si_unit, double *fa
     char plain[KNOWN_SIZE];
     to_ascii(name, plain);
     for (int i = 0; i < N_UNIT; ++i) {
-        if (strcmp(units[i].name, plain) == 0 && strcmp(units[i].si, si_unit) == 0) {
+        if (strcmp(units[i].name, plain) == 0 && is_of(&units[i], si_unit)) {
             *factor = units[i].factor;
             return CLAST_OK;
         }
@@ -241,7 +253,7 @@ static const struct {
         const char *name;
         double factor; ///< from SI
     } unit[7];
-} ladders[] = {
+} prefixes[] = {
     {"m", "mm", 1.0, {{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}, {"nm", 1e9}}},
     {"m^2", "mm^2", 1e-3, {{"m^2", 1.0}, {"mm^2", 1e6}, {"um^2", 1e12}, {"nm^2", 1e18}}},
     {"m^3",
@@ -265,7 +277,7 @@ static const struct {
     {"1/m", "1/mm", 0.0, {{"1/mm", 1e-3}}},
 };
 
-enum { N_LADDER = sizeof ladders / sizeof ladders[0], MAX_LADDER = 7 };
+enum { N_PREFIX = sizeof prefixes / sizeof prefixes[0], MAX_PREFIX = 7 };
 
 const char *clast_unit_for(double value, const char *si_unit, double *factor)
 {
@@ -273,22 +285,23 @@ const char *clast_unit_for(double value, const char *si_unit, double *factor)
         return "";
     }
     *factor = 1.0;
-    for (int i = 0; i < N_LADDER && isfinite(value); ++i) {
-        if (strcmp(ladders[i].si, si_unit) != 0) {
+    for (int i = 0; i < N_PREFIX && isfinite(value); ++i) {
+        if (strcmp(prefixes[i].si, si_unit) != 0) {
             continue;
         }
         int best = 0;
-        for (int k = 0; k < MAX_LADDER && ladders[i].unit[k].name != NULL; ++k) {
-            const double f = ladders[i].unit[k].factor;
-            const bool is_it = value == 0.0 ? strcmp(ladders[i].unit[k].name, ladders[i].zero) == 0
-                                            : fabs(value) * f >= 0.9995 * ladders[i].least;
+        for (int k = 0; k < MAX_PREFIX && prefixes[i].unit[k].name != NULL; ++k) {
+            const double f = prefixes[i].unit[k].factor;
+            const bool is_it = value == 0.0
+                                   ? strcmp(prefixes[i].unit[k].name, prefixes[i].zero) == 0
+                                   : fabs(value) * f >= 0.9995 * prefixes[i].least;
             best = k;
             if (is_it) {
                 break;
             }
         }
-        *factor = ladders[i].unit[best].factor;
-        return ladders[i].unit[best].name;
+        *factor = prefixes[i].unit[best].factor;
+        return prefixes[i].unit[best].name;
     }
     return si_unit;
 }
@@ -355,7 +368,7 @@ clast_status clast_unit_parse(const char *text, const char *si_unit, double *val
     return status;
 }
 
-bool clx_unit_is_number(const char *text, double *value)
+bool clx_unit_is_number(const char *text, double *value, const char **si_unit)
 {
     char *end = NULL;
     char name[32];
@@ -365,12 +378,19 @@ bool clx_unit_is_number(const char *text, double *value)
     }
     (void)snprintf(name, sizeof name, "%s", end + strspn(end, " \t"));
     trim_end(name);
-    const unit *told = find_unit(name[0] != '\0' ? name : "-");
-    if (told == NULL) {
-        return strcmp(name, "phi") == 0 && clast_unit_parse(text, "m", value) == CLAST_OK;
+    const char *plain = name[0] != '\0' ? name : "-";
+    const unit *found = find_unit(strcmp(name, "phi") == 0 ? "m" : plain);
+    if (found != NULL && si_unit != NULL) {
+        *si_unit = found->si;
     }
-    *value = number * told->factor;
-    return true;
+    return found != NULL && clast_unit_parse(text, found->si, value) == CLAST_OK;
+}
+
+int32_t clx_unit_dimension(const char *text)
+{
+    double value = 0.0;
+    const char *si_unit = "";
+    return clx_unit_is_number(text, &value, &si_unit) ? power_of(si_unit) : 0;
 }
 
 /// The unit of length in which the number comes nearest to a typical length [m].
@@ -415,28 +435,53 @@ static clast_status refuse_bare(const char *si_unit, double value, double typica
                     likely, known);
 }
 
-clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
+/// No unit of a length or an angle ends like a number.
+static bool is_bare(const char *text)
 {
-    CLX_ARGUMENTS(text, si_unit, value);
-    return clx_unit_parse_asked(text, si_unit, 0.0, value);
+    size_t n = strlen(text);
+    while (n > 0 && isspace((unsigned char)text[n - 1])) {
+        --n;
+    }
+    return n > 0 && (isdigit((unsigned char)text[n - 1]) || text[n - 1] == '.');
 }
 
 clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double typical,
                                   double *value)
 {
     double parsed = 0.0;
-    size_t n = strlen(text);
-    while (n > 0 && isspace((unsigned char)text[n - 1])) {
-        --n;
-    }
-    // no unit of a length or an angle ends like a number
-    const bool is_bare = n > 0 && (isdigit((unsigned char)text[n - 1]) || text[n - 1] == '.');
     clast_status status = clast_unit_parse(text, si_unit, &parsed);
-    if (status == CLAST_OK && is_bare) {
+    if (status == CLAST_OK && is_bare(text)) {
         status = refuse_bare(si_unit, parsed, typical);
     }
     if (status == CLAST_OK) {
         *value = parsed;
     }
+    return status;
+}
+
+clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
+{
+    CLX_ARGUMENTS(text, si_unit, value);
+    return clx_unit_parse_asked(text, si_unit, 0.0, value);
+}
+
+clast_status clast_unit_parse_length(const char *text, const char *own, double *value)
+{
+    CLX_ARGUMENTS(text, own, value);
+    clast_status status = CLAST_OK;
+    double factor = 1.0;
+    double metres = 0.0;
+    if (strcmp(own, "m") == 0) {
+        return clast_unit_parse_asked(text, "m", value);
+    }
+    if (is_bare(text)) {
+        return clast_unit_parse(text, "-", value);
+    }
+    CLX_CHECK(own[0] != '\0' && strcmp(own, "model") != 0, CLAST_E_CONFIG,
+              "'%s': the lengths have no unit, so give a bare number in their own", text);
+    CLX_TRY(clast_unit_factor(own, "m", &factor));
+    CLX_TRY(clast_unit_parse(text, "m", &metres));
+    *value = metres / factor;
+done:
     return status;
 }

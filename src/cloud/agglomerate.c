@@ -569,6 +569,19 @@ done:
     return status;
 }
 
+/// Duplicates of an earlier particle, in the snapshot that has the most.
+static clast_status count_repeated(const clast_agglomerate_input *input, int64_t *n_repeated)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t k = 0; k < input->n_snapshot; ++k) {
+        int64_t n = 0;
+        CLX_TRY(clast_cloud_repeated(&input->snapshot[k], &n));
+        *n_repeated = n > *n_repeated ? n : *n_repeated;
+    }
+done:
+    return status;
+}
+
 clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                const clast_agglomerate_config *config, const clast_monitor *monitor,
                                clast_agglomeration *result)
@@ -576,7 +589,8 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     CLX_ARGUMENTS(input, config, result);
     CLX_ARRAY(input->snapshot, input->n_snapshot);
     clast_status status = CLAST_OK;
-    clast_agglomeration made = {.range = clx_range_begin()};
+    clast_agglomeration made = {.n_snapshot = (int32_t)input->n_snapshot,
+                                .range = clx_range_begin()};
     clast_decomposition first = {0};
     clx_evolution run = {.first = &first};
     columns c = {.monitor = monitor};
@@ -595,6 +609,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     CLX_TRY(clx_size_classes_table(&c.classes, config->repeats, c.time, &made.spectrum));
     CLX_TRY(clx_size_classes_columns(&c.classes, config->repeats, &made.history));
     CLX_TRY(add_exact(input, &run, &made));
+    CLX_TRY(count_repeated(input, &made.n_repeated));
     *result = made;
     made = (clast_agglomeration){0};
 done:

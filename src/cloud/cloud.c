@@ -339,6 +339,7 @@ clast_status clx_cloud_from_part(const clast_table *table, const clast_cloud_col
     CLX_TRY(take_property(table, columns->mass_column, "kg", 1.0, &made.mass));
     CLX_TRY(take_property(table, columns->weight_column, "-", 1.0, &made.weight));
     CLX_TRY(take_property(table, columns->variable_column, "-", 1.0, &made.variable));
+    clx_cloud_find_weight(table, columns, &made);
     *cloud = made;
     made = (clast_cloud){0};
 done:

@@ -48,15 +48,16 @@ static const struct {
 
 static const char *const fractal[] = {"fractal_dimension", "fractal_prefactor"};
 
-const char *clast_collide_idle(const clast_collide_config *config, const char *key)
+const char *clast_collide_idle(const clast_collide_config *config, const char *key, bool settles)
 {
     const int32_t law = config != NULL ? config->sticking.law : -1;
     if (key == NULL || law < 0 || law > CLAST_STICKING_CONTACT) {
         return NULL; // what is wrong with it is for others to say
     }
+    const uint32_t settling = settles && strcmp(key, "efficiency") != 0 ? KERNEL(SETTLING) : 0;
+    const uint32_t kernels = config->kernel | settling; // no pair of which meets by the settling
     for (size_t k = 0; k < sizeof use / sizeof use[0]; ++k) {
-        const bool is_used =
-            (use[k].kernels & config->kernel) != 0 || (use[k].laws >> law & 1U) != 0;
+        const bool is_used = (use[k].kernels & kernels) != 0 || (use[k].laws >> law & 1U) != 0;
         if (strcmp(use[k].key, key) == 0) {
             return is_used ? NULL : use[k].kernels != 0 ? "kernel" : "sticking";
         }

@@ -15,19 +15,6 @@
 enum { LIST_SIZE = 200, MOST_NAMES = 12 };
 
 /// "1,5" or "-1,5e-3".
-static bool has_decimal_comma(const char *text)
-{
-    char point[64];
-    double value = 0.0;
-    char *const comma = strchr(strncpy(point, text, sizeof point - 1), ',');
-    point[sizeof point - 1] = '\0';
-    if (comma == NULL || strlen(text) >= sizeof point || !isdigit((unsigned char)comma[1])) {
-        return false;
-    }
-    *comma = '.';
-    return clx_number_parse(point, point + strlen(point), &value) == point + strlen(point);
-}
-
 static bool is_number(const char *text)
 {
     double value = 0.0;
@@ -46,7 +33,7 @@ static clast_status text_column(const clast_table *table, const clast_column *co
     return clx_fail(CLAST_E_FORMAT,
                     "%s: column '%s' is no column of numbers: row %lld holds '%.40s'%s",
                     table->name, column->name, (long long)row + 1, text,
-                    has_decimal_comma(text) ? "; a decimal comma? write 0.5, not 0,5" : "");
+                    clx_number_has_comma(text) ? "; a decimal comma? write 0.5, not 0,5" : "");
 }
 
 static bool is_equal_but_for_case(const char *a, const char *b)
@@ -250,26 +237,25 @@ done:
     return status;
 }
 
-const char *clast_cloud_unread_weight(const clast_table *table, const clast_cloud_columns *columns)
+void clx_cloud_find_weight(const clast_table *table, const clast_cloud_columns *columns,
+                           clast_cloud *cloud)
 {
     static const char *const words[] = {
         "weight",       "stat_weight", "statistical_weight", "parcel_weight", "n_real",
         "multiplicity", NULL};
-    if (table == NULL || columns == NULL || clx_table_fault(table) != NULL ||
-        clx_texts_given(__func__, "columns", &columns->columns) != CLAST_OK ||
-        clx_texts_given(__func__, "velocity_columns", &columns->velocity_columns) != CLAST_OK ||
-        (columns->weight_column != NULL && columns->weight_column[0] != '\0')) {
-        return NULL;
+    if (columns->weight_column != NULL && columns->weight_column[0] != '\0') {
+        return;
     }
-    for (int32_t k = 0; k < table->n_column; ++k) {
+    for (int32_t k = 0; k < table->n_column && cloud->unread_weight[0] == '\0'; ++k) {
         const clast_column *c = &table->column[k];
         const bool is_weight =
             c->number != NULL && is_one_of(c->name, words) && !is_named(columns, c->name);
-        for (int64_t i = 0; is_weight && i < table->n_row; ++i) {
-            if (c->number[i] != 1.0) {
-                return c->name;
-            }
+        int64_t i = 0;
+        while (is_weight && i < table->n_row && c->number[i] == 1.0) {
+            ++i;
+        }
+        if (is_weight && i < table->n_row) {
+            (void)snprintf(cloud->unread_weight, sizeof cloud->unread_weight, "%s", c->name);
         }
     }
-    return NULL;
 }

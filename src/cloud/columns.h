@@ -25,6 +25,15 @@ void clx_times_add(const clast_table *table, const clast_cloud_columns *columns,
 /// CLAST_E_FORMAT where all ranks' times together are more than one. Called by all ranks.
 clast_status clx_times_check(const clast_comm *comm, const char *name, const clx_times *times);
 
+/// Finds the column of cloud->unread_weight.
+void clx_cloud_find_weight(const clast_table *table, const clast_cloud_columns *columns,
+                           clast_cloud *cloud);
+
+/// clast_cloud_weight_words with what would take the weights, for a command without columns of
+/// them.
+const char *clx_cloud_weight_words(const clast_cloud *cloud, const char *name, const char *instead,
+                                   size_t size, char *text);
+
 /// clast_cloud_from_table of a part of a file, whose times are checked together.
 clast_status clx_cloud_from_part(const clast_table *table, const clast_cloud_columns *columns,
                                  clast_cloud *cloud);

@@ -18,6 +18,7 @@
 #include "cloud/uniformity.h"
 #include "cloud/uniformity_tree.h"
 #include "math/fixed_sum.h"
+#include <assert.h>
 #include <clast/machine.h>
 #include <math.h>
 #include <string.h>
@@ -62,8 +63,8 @@ const clast_field clast_decompose_fields[] = {
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
     {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "m^d",
-     "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]", NULL,
-     .common = true},
+     "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]",
+     CLAST_KEEPS_DIMENSION, .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL, .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
@@ -125,13 +126,6 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
         return "not tested: the workspace's policy spares the tests; the tree alone decides";
     }
     return "";
-}
-
-const char *clast_decompose_unbounded_text(int64_t n_repeated)
-{
-    return n_repeated > 0 ? "so many points are duplicates (coincident points), where no density "
-                            "is defined; leave copies out"
-                          : "points lie closer together than cells of this domain can resolve";
 }
 
 static void free_cells(clast_cells *cells)
@@ -521,6 +515,9 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
 /// The domain's name may be missing where the domain itself is given.
 static clast_status check_config(const clast_decompose_config *config)
 {
+    static_assert(offsetof(clast_decompose_config, beta_dt_dimension) ==
+                      offsetof(clast_decompose_config, beta_dt) + sizeof(double),
+                  "CLAST_KEEPS_DIMENSION");
     clast_decompose_config named = *config;
     static char nameless[] = "";
     named.domain = config->domain != NULL ? config->domain : nameless;
@@ -533,6 +530,9 @@ clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *
     clast_status status = CLAST_OK;
     CLX_TRY(check_config(config));
     CLX_TRY(clx_domain_check(domain));
+    CLX_CHECK(config->beta_dt_dimension == 0 || config->beta_dt_dimension == domain->dimension,
+              CLAST_E_CONFIG, "beta_dt: is in m^%d, in %d dimensions it is in m^%d",
+              config->beta_dt_dimension, domain->dimension, domain->dimension);
     CLX_TRY(clx_cloud_check(cloud));
     CLX_CHECK(cloud->variable == NULL || clast_decompose_takes_tree(config), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");

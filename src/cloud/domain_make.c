@@ -114,10 +114,11 @@ static clast_status check_surface(const clast_mesh_check_result *found)
               (long long)found->n_intersection, found->intersection[0], found->intersection[1]);
     for (int32_t k = 0; k < found->n_part; ++k) {
         const clast_mesh_part *part = &found->part[k];
-        CLX_CHECK((part->depth % 2 == 0) == (part->volume > 0.0), CLAST_E_GEOMETRY,
-                  "part %d of the domain's surface lies in %d others and is oriented %sward: what is "
-                  "inside is not defined",
-                  k, part->depth, part->volume > 0.0 ? "out" : "in");
+        CLX_CHECK(
+            (part->depth % 2 == 0) == (part->volume > 0.0), CLAST_E_GEOMETRY,
+            "part %d of the domain's surface lies in %d others and is oriented %sward: what is "
+            "inside is not defined",
+            k, part->depth, part->volume > 0.0 ? "out" : "in");
     }
 done:
     return status;

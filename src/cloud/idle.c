@@ -1,7 +1,8 @@
-// Options that decompositions, collisions and boxes do not look at.
+// Options that decompositions, collisions and boxes do not look at, and which are whose.
 #include <clast/agglomerate.h>
 
 #include "base/field.h"
+#include <string.h>
 
 /// Whether pairs are counted by distance, or may be once the cells are known.
 static bool may_pair(const clast_decompose_config *c)
@@ -75,4 +76,22 @@ const clast_idle *clast_spectrum_idle(const clast_spectrum_config *c,
         {c->initial == CLAST_INITIAL_TABLE, "initial_mean|initial_sd", "with --initial table"},
         {c->initial != CLAST_INITIAL_LOGNORMAL, "initial_sd", "without --initial lognormal"}};
     return clx_idle_copy(made, rules);
+}
+
+bool clast_agglomerate_takes(const char *key, bool is_box)
+{
+    static const clast_field both[] = {
+        {.name = "box_model"}, {.name = "charts"}, {.name = "force"}, {.name = "seed"}, {0}};
+    static const clast_field cloud[] = {{.name = "rebuild"},         {.name = "change_level"},
+                                        {.name = "fixed"},           {.name = "depth"},
+                                        {.name = "self_collisions"}, {0}};
+    if (key == NULL) {
+        return false;
+    }
+    if (strcmp(key, "initial_file") == 0 || clast_fields_find(clast_spectrum_fields, key) != NULL) {
+        return is_box;
+    }
+    return !is_box || clast_fields_find(both, key) != NULL ||
+           (clast_fields_find(clast_agglomerate_fields, key) != NULL &&
+            clast_fields_find(cloud, key) == NULL);
 }

@@ -442,6 +442,14 @@ clast_status clx_range_up_to(const clast_collide_config *config, double time,
     return hold(config, &report->collisions, of, time, report);
 }
 
+const clast_range_use *clast_range_report_use(const clast_range_report *r)
+{
+    if (r == NULL) {
+        return NULL;
+    }
+    return r->collisions.outside > 0.0 || !(r->start.outside > 0.0) ? &r->collisions : &r->start;
+}
+
 const char *clast_range_use_words(const clast_range_use *use, size_t size, char *words)
 {
     if (use == NULL || words == NULL || size == 0) {

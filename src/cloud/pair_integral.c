@@ -573,7 +573,10 @@ static void judge(const clx_pair_shells *all, const answers *a, clx_mixture_fit 
     made->n_needed = a->fits && is_seen && is_allowed && factor <= CLX_MOST_FACTOR
                          ? fmax(least_points, in->n * factor)
                          : (double)INFINITY;
-    e->low = a->fits ? e->low : fmin(e->low, bound_of_shells(all));
+    // a few chance pairs may pass for a narrow structure: what all pairs within a radius show,
+    // whatever the shape, is the bound, where they are enough to show anything
+    const double least_shown = bound_of_shells(all);
+    e->low = a->fits && least_shown == 0.0 ? e->low : fmin(e->low, least_shown);
     e->high = INFINITY;
 }
 

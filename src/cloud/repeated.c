@@ -147,6 +147,13 @@ clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated)
     return clast_cloud_repeated_ranks(cloud, NULL, n_repeated);
 }
 
+const char *clx_repeated_text(int64_t n_repeated)
+{
+    return n_repeated > 0 ? "so many points are duplicates (coincident points), where no density "
+                            "is defined; leave copies out"
+                          : "points lie closer together than cells of this domain can resolve";
+}
+
 clast_status clx_repeated_check(const clast_decomposition *found, const clast_cloud *cloud,
                                 const char *of)
 {
@@ -156,8 +163,8 @@ clast_status clx_repeated_check(const clast_decomposition *found, const clast_cl
         return CLAST_OK;
     }
     CLX_TRY(clast_cloud_repeated(cloud, &n_repeated));
-    status = clx_fail(CLAST_E_FORMAT, "%s: no number of events: %s", of,
-                      clast_decompose_unbounded_text(n_repeated));
+    status =
+        clx_fail(CLAST_E_FORMAT, "%s: no number of events: %s", of, clx_repeated_text(n_repeated));
 done:
     return status;
 }

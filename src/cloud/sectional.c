@@ -35,8 +35,9 @@ clast_status clx_sectional_grid(double low, double high, double step, int32_t pe
     clast_status status = CLAST_OK;
     const double ratio = exp2(1.0 / per_octave);
     CLX_CHECK(low > 0.0 && high >= 4.0 * low && isfinite(high), CLAST_E_CONFIG,
-              "size_max: a grid from %g to %g monomers leaves too few size classes above its smallest; give a larger one", low,
-              high);
+              "size_max: a grid from %g to %g monomers leaves too few size classes above its "
+              "smallest; give a larger one",
+              low, high);
     CLX_TRY(clx_alloc(&s->x, MOST_SECTIONS, sizeof *s->x));
     double x = low;
     while (x < high * (1.0 + 1e-12)) {

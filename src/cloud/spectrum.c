@@ -449,6 +449,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
     CLX_TRY(check(config, collide));
     CLX_TRY(clx_start_begin(config, start_table, &start));
     start.monitor = monitor;
+    made.is_drawn = config->solver == CLAST_SOLVER_MONTE_CARLO;
     made.law_M1 = clx_start_moment(&start, 1);
     made.law_M2 = clx_start_moment(&start, 2);
     made.volume_fraction = collide->monomer_radius > 0.0 ? made.law_M1 * 4.0 / 3.0 * CLAST_PI *

@@ -121,64 +121,6 @@ done:
     return status;
 }
 
-clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id)
-{
-    CLX_ARGUMENTS(dem, shape, id);
-    CLX_WHOLE(shape, shape);
-    clast_status status = CLAST_OK;
-    const bool is_rigid = shape->parts.n > 0;
-    const bool is_clump = shape->kind == CLAST_SHAPE_CLUMP;
-    clx_dem_body made = {.is_round = shape->kind == CLAST_SHAPE_SPHERE};
-    CLX_CHECK(shape->volume > 0.0 && shape->bounding_radius > 0.0, CLAST_E_GEOMETRY,
-              "shape %s has no volume", shape->name);
-    CLX_CHECK(dem->n_grain == 0 || (is_rigid ? dem->has_parts : !is_clump || dem->has_items),
-              CLAST_E_USAGE, "%s: clumps and aggregates are added before the first grain",
-              shape->name);
-    CLX_CHECK(is_rigid || !shape->own.is_mixed, CLAST_E_USAGE,
-              "shape %s has parts of several densities, and no parts", shape->name);
-    CLX_TRY(clast_shape_copy(shape, &made.shape));
-    made.bounding_radius = shape->bounding_radius + v3_norm(shape->own.centre);
-    memcpy(made.inertia, shape->own.is_mixed ? shape->own.inertia : shape->inertia,
-           sizeof made.inertia);
-    CLX_CHECK(invert(made.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
-              "shape %s has no moments of inertia", shape->name);
-    if (is_rigid) {
-        CLX_TRY(read_parts(dem, &made));
-    } else if (shape->kind == CLAST_SHAPE_MESH) {
-        CLX_TRY(check_convex(shape->name, &shape->mesh));
-        CLX_TRY(clx_hull_core_create(&made.shape.mesh, &made.core));
-        clx_rounding_prepare(&made);
-    }
-    CLX_TRY(clx_realloc(&dem->body, dem->n_body + 1, sizeof *dem->body));
-    if (!made.is_round && !is_clump && dem->all_round) {
-        CLX_TRY(clx_items_begin_convex(dem));
-    }
-    dem->has_items = dem->has_items || is_clump || is_rigid;
-    dem->has_parts = dem->has_parts || is_rigid;
-    *id = dem->n_body;
-    dem->body[dem->n_body++] = made;
-    made = (clx_dem_body){0};
-done:
-    clx_body_free(&made);
-    return status;
-}
-
-void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
-{
-    if (dem == NULL || measures == NULL) {
-        return;
-    }
-    measures[0] = dem->body[shape].bounding_radius;
-    measures[1] = dem->body[shape].shape.volume;
-}
-
-static int32_t n_item_of(const clast_dem *dem, int32_t shape)
-{
-    CLAST_ASSERT(shape >= 0 && shape < dem->n_body);
-    const clast_shape *s = &dem->body[shape].shape;
-    return s->kind == CLAST_SHAPE_CLUMP ? s->spheres.n : s->parts.n > 0 ? s->parts.n : 1;
-}
-
 static clx_convex convex_of(const clast_dem *dem, int32_t i)
 {
     CLAST_ASSERT(i >= 0 && i < dem->list.item_capacity);
@@ -210,7 +152,7 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
 }
 
 /// From now on items have convex shapes and pairs have warm starts.
-clast_status clx_items_begin_convex(clast_dem *dem)
+static clast_status begin_convex(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_realloc(&dem->convex, dem->list.item_capacity + 1, sizeof *dem->convex));
@@ -220,6 +162,64 @@ clast_status clx_items_begin_convex(clast_dem *dem)
     dem->all_round = false;
 done:
     return status;
+}
+
+clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id)
+{
+    CLX_ARGUMENTS(dem, shape, id);
+    CLX_WHOLE(shape, shape);
+    clast_status status = CLAST_OK;
+    const bool is_rigid = shape->parts.n > 0;
+    const bool is_clump = shape->kind == CLAST_SHAPE_CLUMP;
+    clx_dem_body made = {.is_round = shape->kind == CLAST_SHAPE_SPHERE};
+    CLX_CHECK(shape->volume > 0.0 && shape->bounding_radius > 0.0, CLAST_E_GEOMETRY,
+              "shape %s has no volume", shape->name);
+    CLX_CHECK(dem->n_grain == 0 || (is_rigid ? dem->has_parts : !is_clump || dem->has_items),
+              CLAST_E_USAGE, "%s: clumps and aggregates are added before the first grain",
+              shape->name);
+    CLX_CHECK(is_rigid || !shape->own.is_mixed, CLAST_E_USAGE,
+              "shape %s has parts of several densities, and no parts", shape->name);
+    CLX_TRY(clast_shape_copy(shape, &made.shape));
+    made.bounding_radius = shape->bounding_radius + v3_norm(shape->own.centre);
+    memcpy(made.inertia, shape->own.is_mixed ? shape->own.inertia : shape->inertia,
+           sizeof made.inertia);
+    CLX_CHECK(invert(made.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
+              "shape %s has no moments of inertia", shape->name);
+    if (is_rigid) {
+        CLX_TRY(read_parts(dem, &made));
+    } else if (shape->kind == CLAST_SHAPE_MESH) {
+        CLX_TRY(check_convex(shape->name, &shape->mesh));
+        CLX_TRY(clx_hull_core_create(&made.shape.mesh, &made.core));
+        clx_rounding_prepare(&made);
+    }
+    CLX_TRY(clx_realloc(&dem->body, dem->n_body + 1, sizeof *dem->body));
+    if (!made.is_round && !is_clump && dem->all_round) {
+        CLX_TRY(begin_convex(dem));
+    }
+    dem->has_items = dem->has_items || is_clump || is_rigid;
+    dem->has_parts = dem->has_parts || is_rigid;
+    *id = dem->n_body;
+    dem->body[dem->n_body++] = made;
+    made = (clx_dem_body){0};
+done:
+    clx_body_free(&made);
+    return status;
+}
+
+void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
+{
+    if (dem == NULL || measures == NULL) {
+        return;
+    }
+    measures[0] = dem->body[shape].bounding_radius;
+    measures[1] = dem->body[shape].shape.volume;
+}
+
+static int32_t n_item_of(const clast_dem *dem, int32_t shape)
+{
+    CLAST_ASSERT(shape >= 0 && shape < dem->n_body);
+    const clast_shape *s = &dem->body[shape].shape;
+    return s->kind == CLAST_SHAPE_CLUMP ? s->spheres.n : s->parts.n > 0 ? s->parts.n : 1;
 }
 
 clast_status clx_grains_reserve(clast_dem *dem, int64_t n)

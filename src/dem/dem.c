@@ -119,8 +119,8 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
                   is_cell ? "half the period" : "the period", clx_unit_text(narrow, "m"));
     } else if (c->domain != CLAST_DEM_OPEN) {
         CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld has a bounding diameter of %s, the domain is only %s wide", (long long)number,
-                  clx_unit_text(2.0 * radius, "m"), clx_unit_text(narrow, "m"));
+                  "grain %lld has a bounding diameter of %s, the domain is only %s wide",
+                  (long long)number, clx_unit_text(2.0 * radius, "m"), clx_unit_text(narrow, "m"));
     }
     for (int32_t w = 0; w < dem->n_wall; ++w) {
         char bounds[BOUNDS_SIZE];

@@ -214,7 +214,6 @@ void clx_items_place(clast_dem *dem, int32_t g);
 
 /// From a grain's centre of mass, which mechanics moves, to the centre of its volume.
 void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3]);
-clast_status clx_items_begin_convex(clast_dem *dem);
 
 /// Walls and periods of the domain.
 void clx_dem_build_walls(clast_dem *dem);

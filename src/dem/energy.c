@@ -189,8 +189,8 @@ static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_
     const double share = share_of(dem, pair);
     const double apart = v3_dot(m.velocity, m.normal);
     const double before = m.overlap + dt * apart;
-    const double way = 0.5 * (before + m.overlap);
-    m.overlap = dem->law.has_neck ? way : sqrt(fmax(before, 0.0) * fmax(m.overlap, 0.0));
+    const double mean_overlap = 0.5 * (before + m.overlap);
+    m.overlap = dem->law.has_neck ? mean_overlap : sqrt(fmax(before, 0.0) * fmax(m.overlap, 0.0));
     const clx_springs s = clx_law_springs(law, &m);
     v3_copy(ahead, pair->slide);
     clx_law_rotate(&m, dt, ahead);
@@ -204,7 +204,7 @@ static void add_held(const clast_dem *dem, const clx_dem_pair *pair, clx_energy_
     // a pull that grows with the overlap is a spring, too; a constant one has its way
     held->attraction -= law->cohesion == CLAST_DEM_AREA
                             ? share * 0.5 * clx_law_pull(law, &m) * m.overlap
-                            : share * clx_law_pull(law, &m) * way;
+                            : share * clx_law_pull(law, &m) * mean_overlap;
 }
 
 clx_energy_held clx_energy_held_now(const clast_dem *dem)

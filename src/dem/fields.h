@@ -100,7 +100,7 @@
          0,                                                                                        \
          1,                                                                                        \
          "-",                                                                                      \
-         "normal forces exert torques on grains too; off: eq. 5 as printed",                                   \
+         "normal forces exert torques on grains too; off: eq. 5 as printed",                       \
          NULL},                                                                                    \
         {CLX_DEM_AT(TYPE, IN, gyroscopic, BOOL),                                                   \
          1,                                                                                        \

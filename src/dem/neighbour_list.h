@@ -68,6 +68,3 @@ clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *list, clx_dem_pa
 
 /// Capacity for n items; new ones are stale.
 clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item);
-
-/// Whether an item has used up this share of its margin.
-bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);

@@ -12,20 +12,20 @@
 
 static int by_grain(const void *left, const void *right)
 {
-    const clx_wall_push *a = left;
-    const clx_wall_push *b = right;
+    const clx_wall_force *a = left;
+    const clx_wall_force *b = right;
     return a->number != b->number ? (a->number > b->number) - (a->number < b->number)
                                   : (a->order > b->order) - (a->order < b->order);
 }
 
 /// The contacts of all ranks in the order of one; what failed on one before fails on all.
 static clast_status share(const clx_ranks *r, clast_status status, int64_t n,
-                          const clx_wall_push *push, clx_gathered *all)
+                          const clx_wall_force *wall_force, clx_gathered *all)
 {
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
-    CLX_TRY(clx_comm_share(r->comm, push, n * (int64_t)sizeof *push, all));
+    CLX_TRY(clx_comm_share(r->comm, wall_force, n * (int64_t)sizeof *wall_force, all));
     if (all->n > 0) {
-        qsort(all->bytes, (size_t)all->n / sizeof *push, sizeof *push, by_grain);
+        qsort(all->bytes, (size_t)all->n / sizeof *wall_force, sizeof *wall_force, by_grain);
     }
 done:
     return status;
@@ -40,11 +40,11 @@ clast_status clx_ranks_add_walls(clast_dem *whole)
     if (!walls->is_watched) {
         return CLAST_OK;
     }
-    CLX_TRY(share(r, CLAST_OK, walls->n_push, walls->push, &all));
-    clx_walls_add_pushes(r->local, all.n / (int64_t)sizeof(clx_wall_push),
-                         (const clx_wall_push *)(const void *)all.bytes);
-    r->counts.step_bytes += walls->n_push * (int64_t)sizeof(clx_wall_push);
-    walls->n_push = 0;
+    CLX_TRY(share(r, CLAST_OK, walls->n_wall_force, walls->wall_force, &all));
+    clx_walls_add_gathered(r->local, all.n / (int64_t)sizeof(clx_wall_force),
+                           (const clx_wall_force *)(const void *)all.bytes);
+    r->counts.step_bytes += walls->n_wall_force * (int64_t)sizeof(clx_wall_force);
+    walls->n_wall_force = 0;
 done:
     clx_gathered_free(&all);
     return status;
@@ -57,30 +57,30 @@ clast_status clx_wall_stiffness(const clast_dem *dem, int32_t wall, const double
     const bool is_spread = dem->ranks != NULL && dem->ranks->has_begun;
     const clast_dem *from = is_spread ? dem->ranks->local : dem;
     clx_gathered all = {0};
-    clx_wall_push *push = NULL;
+    clx_wall_force *wall_force = NULL;
     int64_t n = 0;
     double total = 0.0;
-    status = is_spread ? clx_alloc(&push, from->list.n_pair, sizeof *push) : CLAST_OK;
+    status = is_spread ? clx_alloc(&wall_force, from->list.n_pair, sizeof *wall_force) : CLAST_OK;
     for (int64_t k = 0; k < from->list.n_pair && status == CLAST_OK; ++k) {
         const clx_dem_pair *pair = &from->list.pair[k];
         const double spring = clx_wall_spring(from, pair, wall, along);
         if (!is_spread) {
             total += spring;
         } else if (spring != 0.0 && !clx_are_ghosts(from, pair->a, pair->a)) {
-            push[n] = (clx_wall_push){
+            wall_force[n] = (clx_wall_force){
                 .number = clx_grain_number(from, clx_item_grain(from, pair->a)), .order = n};
-            push[n++].force[0] = spring;
+            wall_force[n++].force[0] = spring;
         }
     }
     if (is_spread) {
-        CLX_TRY(share(dem->ranks, status, n, push, &all));
+        CLX_TRY(share(dem->ranks, status, n, wall_force, &all));
     }
-    for (int64_t k = 0; k < all.n / (int64_t)sizeof *push; ++k) {
-        total += ((const clx_wall_push *)(const void *)all.bytes)[k].force[0];
+    for (int64_t k = 0; k < all.n / (int64_t)sizeof *wall_force; ++k) {
+        total += ((const clx_wall_force *)(const void *)all.bytes)[k].force[0];
     }
     *sum = total;
 done:
-    clx_free(push);
+    clx_free(wall_force);
     clx_gathered_free(&all);
     return status;
 }

@@ -42,26 +42,26 @@ typedef struct clx_wall_body {
 } clx_wall_body;
 
 /// What one contact does to a wall in a step, on its way to other ranks.
-typedef struct clx_wall_push {
+typedef struct clx_wall_force {
     int32_t number; ///< of the grain
     int32_t wall;
     int64_t order;              ///< among the rank's own, which has all contacts of the grain
     double force[3], torque[3]; ///< about the pivot
-} clx_wall_push;
+} clx_wall_force;
 
 typedef struct clx_walls {
     int32_t n;
-    clx_wall_body *body; ///< [n] walls of the domain first
-    bool can_move;       ///< some wall has a motion, or had a drift
-    bool is_watched;     ///< forces are summed
-    double path;         ///< of the fastest point of any wall, toward grains [m]
-    double searched;     ///< path when all items searched their walls
-    double margin;       ///< path that this search covers
-    double step;         ///< path of the last step
-    double until;        ///< path that the inner list covers
-    double least;        ///< of a rank's own simulation: clx_walls_margin of the whole
-    clx_wall_push *push; ///< [n_push] of such a simulation: of the last step
-    int64_t n_push, push_capacity;
+    clx_wall_body *body;        ///< [n] walls of the domain first
+    bool can_move;              ///< some wall has a motion, or had a drift
+    bool is_watched;            ///< forces are summed
+    double path;                ///< of the fastest point of any wall, toward grains [m]
+    double searched;            ///< path when all items searched their walls
+    double margin;              ///< path that this search covers
+    double step;                ///< path of the last step
+    double until;               ///< path that the inner list covers
+    double least;               ///< of a rank's own simulation: clx_walls_margin of the whole
+    clx_wall_force *wall_force; ///< [n_wall_force] of such a simulation: of the last step
+    int64_t n_wall_force, wall_force_capacity;
 } clx_walls;
 
 /// Whether the contact law has to know velocities of walls.
@@ -89,7 +89,7 @@ clast_status clx_walls_add_forces(clast_dem *dem);
 void clx_walls_end_step(clast_dem *dem);
 
 /// The forces of a step over ranks, whose contacts come in the order of one rank.
-void clx_walls_add_pushes(clast_dem *dem, int64_t n, const clx_wall_push *push);
+void clx_walls_add_gathered(clast_dem *dem, int64_t n, const clx_wall_force *wall_force);
 
 /// Path that a new inner list covers.
 void clx_walls_look_ahead(clast_dem *dem);

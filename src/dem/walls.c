@@ -28,7 +28,7 @@ void clx_walls_free(clx_walls *walls)
         clx_wall_mesh_destroy(walls->body[i].mesh);
     }
     clx_free(walls->body);
-    clx_free(walls->push);
+    clx_free(walls->wall_force);
     *walls = (clx_walls){0};
 }
 
@@ -230,12 +230,12 @@ static void clear_forces(clx_walls *all)
     }
 }
 
-static void add_push(clx_walls *all, const clx_wall_push *push)
+static void add_wall_force(clx_walls *all, const clx_wall_force *wall_force)
 {
-    CLAST_ASSERT(push->wall >= 0 && push->wall < all->n);
-    clx_wall_body *w = &all->body[push->wall];
-    v3_add(w->force, w->force, push->force);
-    v3_add(w->torque, w->torque, push->torque);
+    CLAST_ASSERT(wall_force->wall >= 0 && wall_force->wall < all->n);
+    clx_wall_body *w = &all->body[wall_force->wall];
+    v3_add(w->force, w->force, wall_force->force);
+    v3_add(w->torque, w->torque, wall_force->torque);
 }
 
 /// Impulse, moment and work of a step whose forces are summed.
@@ -251,18 +251,19 @@ static void add_impulses(clast_dem *dem)
 }
 
 /// Adds a contact's force; one of a rank waits for the sum over ranks.
-static clast_status take_push(clast_dem *dem, const clx_wall_push *push)
+static clast_status take_wall_force(clast_dem *dem, const clx_wall_force *wall_force)
 {
     clast_status status = CLAST_OK;
     clx_walls *all = &dem->walls;
     if (dem->is_ghost == NULL) {
-        add_push(all, push);
+        add_wall_force(all, wall_force);
         return CLAST_OK;
     }
-    CLX_TRY(clx_grow(&all->push, &all->push_capacity, all->n_push + 1, sizeof *all->push));
-    all->push[all->n_push] = *push;
-    all->push[all->n_push].order = all->n_push;
-    ++all->n_push;
+    CLX_TRY(clx_grow(&all->wall_force, &all->wall_force_capacity, all->n_wall_force + 1,
+                     sizeof *all->wall_force));
+    all->wall_force[all->n_wall_force] = *wall_force;
+    all->wall_force[all->n_wall_force].order = all->n_wall_force;
+    ++all->n_wall_force;
 done:
     return status;
 }
@@ -272,7 +273,7 @@ clast_status clx_walls_add_forces(clast_dem *dem)
     clast_status status = CLAST_OK;
     const clx_inner_list *inner = &dem->inner;
     clear_forces(&dem->walls);
-    dem->walls.n_push = 0;
+    dem->walls.n_wall_force = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         const int32_t g = clx_item_grain(dem, i);
         const double *x = dem->grain[g].position;
@@ -283,14 +284,14 @@ clast_status clx_walls_add_forces(clast_dem *dem)
             }
             if (pair->touches != 0 && !clx_are_ghosts(dem, i, i)) {
                 const clx_wall_body *w = clx_wall_of(dem, pair->b);
-                clx_wall_push push = {.number = clx_grain_number(dem, g),
-                                      .wall = (int32_t)(w - dem->walls.body)};
+                clx_wall_force wall_force = {.number = clx_grain_number(dem, g),
+                                             .wall = (int32_t)(w - dem->walls.body)};
                 double arm[3];
                 v3_sub(arm, x, w->pivot);
-                v3_cross(push.torque, arm, inner->force[k].force);
-                v3_add(push.torque, push.torque, inner->force[k].torque_a);
-                v3_copy(push.force, inner->force[k].force);
-                CLX_TRY(take_push(dem, &push));
+                v3_cross(wall_force.torque, arm, inner->force[k].force);
+                v3_add(wall_force.torque, wall_force.torque, inner->force[k].torque_a);
+                v3_copy(wall_force.force, inner->force[k].force);
+                CLX_TRY(take_wall_force(dem, &wall_force));
             }
         }
     }
@@ -301,11 +302,11 @@ done:
     return status;
 }
 
-void clx_walls_add_pushes(clast_dem *dem, int64_t n, const clx_wall_push *push)
+void clx_walls_add_gathered(clast_dem *dem, int64_t n, const clx_wall_force *wall_force)
 {
     clear_forces(&dem->walls);
     for (int64_t k = 0; k < n; ++k) {
-        add_push(&dem->walls, &push[k]);
+        add_wall_force(&dem->walls, &wall_force[k]);
     }
     add_impulses(dem);
 }
@@ -360,9 +361,8 @@ static clast_status check_motion(const clx_wall_body *w, const clast_dem_wall_mo
         return CLAST_OK;
     }
     if (is_plane && turning > 0.0) {
-        CLX_CHECK(
-            fabs(v3_dot(m->axis, w->rest.normal)) > 1.0 - 1e-12, CLAST_E_CONFIG,
-            "a plane of the domain rotates about its normal alone; give a surface instead");
+        CLX_CHECK(fabs(v3_dot(m->axis, w->rest.normal)) > 1.0 - 1e-12, CLAST_E_CONFIG,
+                  "a plane of the domain rotates about its normal alone; give a surface instead");
     }
     if (!is_plane) {
         bool is_along = m->velocity[0] == 0.0 && m->velocity[1] == 0.0 && m->amplitude[0] == 0.0 &&
@@ -372,9 +372,10 @@ static clast_status check_motion(const clx_wall_body *w, const clast_dem_wall_mo
         }
         is_along = is_along && (turning == 0.0 || (fabs(m->axis[2]) > 1.0 - 1e-12 &&
                                                    m->pivot[0] == 0.0 && m->pivot[1] == 0.0));
-        CLX_CHECK(is_along, CLAST_E_CONFIG,
-                  "the domain's cylinder moves along z and rotates about its own axis alone; give a "
-                  "surface instead");
+        CLX_CHECK(
+            is_along, CLAST_E_CONFIG,
+            "the domain's cylinder moves along z and rotates about its own axis alone; give a "
+            "surface instead");
     }
 done:
     return status;

@@ -69,7 +69,8 @@ const clast_field clast_evolve_fields[] = {
            "bodies and events the mass of one",
            .common = true),
     TEXT(release, "",
-         "domain in which they start uniformly distributed (as domain), as far as it lies in that; a box in a box "
+         "domain in which they start uniformly distributed (as domain), as far as it lies in that; "
+         "a box in a box "
          "lies in it all; none: all of the domain"),
     TEXT(points, "", "file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5)"),
     {FIELD(TEXT_LIST, columns), 0, 0, 0, "-",
@@ -127,7 +128,8 @@ const clast_field clast_evolve_fields[] = {
         collision_radius, 0, "gyration|enclosing|volume",
         "radius that kernels use: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere"),
     CHOICE(even, 0, "tree|boxes|whole",
-           "where bodies count as uniformly distributed: cells that a test splits, boxes of bins, or the "
+           "where bodies count as uniformly distributed: cells that a test splits, boxes of bins, "
+           "or the "
            "whole domain"),
     NUMBER(change_level, 0.01, 1e-12, 0.5, "-",
            "false alarms of the test that finds the cells out of date"),
@@ -155,10 +157,10 @@ const clast_field clast_evolve_fields[] = {
 
     FLAG(structure, 1, "aggregates keep their grains as they touch; no: drops that merge",
          .group = "aggregates"),
-    CHOICE(
-        meeting, 0, "auto|ballistic|diffusive|central|reaction",
-        "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
-        "lines over the cross-section; reaction: all contacts equally likely, as where few touches stick"),
+    CHOICE(meeting, 0, "auto|ballistic|diffusive|central|reaction",
+           "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
+           "lines over the cross-section; reaction: all contacts equally likely, as where few "
+           "touches stick"),
     NUMBER(walk_step, 0.1, 1e-4, 1, "-",
            "diffusive: least step of the walk, in radii of the smallest released particle"),
     COUNT(max_tries, 100, 1, 1e6,
@@ -265,7 +267,7 @@ static clast_status check_used(const clast_evolve_config *c, const clast_collide
     }
     for (const clast_field *f = clast_evolve_fields; f->name != NULL; ++f) {
         const char *const key = strcmp(f->name, "fluid_density") == 0 ? "density" : f->name;
-        const char *const by = clast_collide_idle(&seen, key);
+        const char *const by = clast_collide_idle(&seen, key, false);
         const motion_use motion = motion_of(c, key);
         char word[256] = "";
         if (f->type != CLAST_FIELD_F64 || by == NULL || motion.is_used ||

@@ -37,8 +37,8 @@ static clast_status find_planes(const clast_cloud *cloud, int axis, clx_flow *fl
     for (int64_t i = 0; i < n; ++i) {
         const double off = x[i] - (x[0] + flow->step[axis] * (double)i);
         CLX_CHECK(fabs(off) <= EVEN * (double)n * flow->step[axis], CLAST_E_FORMAT,
-                  "its planes along %c are not evenly spaced: plane %lld of %lld is off by %s", "xyz"[axis],
-                  (long long)i + 1, (long long)n, clx_unit_text(off, "m"));
+                  "its planes along %c are not evenly spaced: plane %lld of %lld is off by %s",
+                  "xyz"[axis], (long long)i + 1, (long long)n, clx_unit_text(off, "m"));
     }
 done:
     clx_free(x);

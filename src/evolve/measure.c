@@ -2,6 +2,7 @@
 #include "evolve/state.h"
 
 #include "base/alloc.h"
+#include "cloud/columns.h"
 #include "evolve/walls.h"
 #include <math.h>
 #include <string.h>
@@ -142,6 +143,10 @@ clast_status clast_evolve_measure(const clast_evolve *e, clast_evolve_result *re
                                  e->config->fall == CLAST_FALL_STOKES ? 0.1 : 3e5,
                              .range = e->range,
                              .hash = hash_of(e)};
+    if (e->input->points != NULL) {
+        (void)clx_cloud_weight_words(e->input->points, "points", "--weight: of all alike",
+                                     sizeof r.weight_words, r.weight_words);
+    }
     count(e, &r);
     measure_deposit(e, &r);
     clx_evolve_fractal(e, &r.fractal_dimension, &r.fractal_error);

@@ -204,10 +204,11 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
                        "or inward outside of one)",
                        doubles->n_doubled, doubles->n_part, doubles->n_doubled == 1 ? "s" : "");
     } else if (doubles->n_repeated > 0) {
-        (void)snprintf(text, size,
-                       "%d of its triangles repeat%s another with the same winding; its volume counts twice "
-                       "what they bound",
-                       doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
+        (void)snprintf(
+            text, size,
+            "%d of its triangles repeat%s another with the same winding; its volume counts twice "
+            "what they bound",
+            doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
     }
 }
 

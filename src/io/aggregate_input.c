@@ -8,7 +8,7 @@
 #include "io/config_files.h"
 #include "io/mesh_io.h"
 #include "io/shape_word.h"
-#include "io/size_columns.h"
+#include "io/sizes.h"
 #include <clast/fill.h>
 #include <clast/grading.h>
 #include <clast/mesh.h>
@@ -200,10 +200,10 @@ static clast_status read_sizes(const clast_aggregate_config *config, clx_sizes_c
                                clast_sizes *sizes)
 {
     const bool by_mass = config->params.size_by_mass;
-    const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
-                               by_mass ? "leave size_by_mass out"
-                                       : "set size_by_mass and size_draw",
-                               ", or give size_unit (um, mm, m or phi)"};
+    const clx_sizes_use use = {
+        by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
+        by_mass ? "leave size_by_mass out" : "set size_by_mass and size_draw",
+        ", or give size_unit (um, mm, m or phi)", "give the ends of each class (low_mm, high_mm)"};
     return clx_sizes_read_for(&use, config->sizes, config->size_column, config->size_unit, columns,
                               sizes);
 }

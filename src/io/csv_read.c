@@ -2,14 +2,13 @@
 //
 // Two passes over the bytes: the first checks the shape and finds which columns hold numbers, the
 // second fills the table, so memory is taken only for cells that exist.
-#include "io/points.h"
-
-#include <clast/table.h>
+#include "io/csv_read.h"
 
 #include "base/alloc.h"
 #include "base/column_unit.h"
 #include "base/file.h"
 #include "base/number.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -30,8 +29,12 @@ typedef struct {
     int64_t line; ///< of `at`, from 1
     char separator, comment;
     bool has_comment;
-    bool is_part; ///< of a file: numbers of rows are not those of all
-    bool is_text; ///< all columns become texts
+    bool is_part;     ///< of a file: numbers of rows are not those of all
+    bool is_text;     ///< all columns become texts
+    bool is_list;     ///< comments end rows, too, and a separator behind the last cell is none
+    int32_t n_column; ///< of a list, once that is known: fewer cells are not the last
+    int64_t n_cell;   ///< of the row, so far
+    bool is_head;     ///< the row names columns, perhaps: of blanks those before a unit are none
     int64_t n_comment, n_blank;
 } cursor;
 
@@ -60,6 +63,12 @@ static bool is_line_end(char c)
 static bool separates(const cursor *c, char x)
 {
     return x == c->separator || (c->separator == ' ' && x == '\t');
+}
+
+/// Whether no cell follows in the row.
+static bool ends_row(const cursor *c)
+{
+    return c->at == c->end || is_line_end(*c->at) || (c->is_list && *c->at == c->comment);
 }
 
 /// Skips blanks that are not the separator.
@@ -96,6 +105,7 @@ static bool begin_row(cursor *c)
         const bool comment = c->at < c->end && c->has_comment && *c->at == c->comment;
         if (c->at < c->end && !is_line_end(*c->at) && !comment) {
             c->at = c->separator == ' ' ? c->at : start;
+            c->n_cell = 0;
             return true;
         }
         c->n_comment += comment;
@@ -160,15 +170,35 @@ static clast_status quoted_cell(cursor *c, cell *out)
                     opened);
 }
 
+/// Between names of a header, "x, y (mm)", above rows that have blanks alone.
+static bool is_mark(char c)
+{
+    return c == ',' || c == ';';
+}
+
+/// Whether the brackets of a unit follow the blanks: "Size (mm)", "Size [mm]".
+static bool is_before_unit(const cursor *c)
+{
+    const char *at = c->at;
+    while (at < c->end && is_blank(*at)) {
+        ++at;
+    }
+    return at < c->end && (*at == '(' || *at == '[');
+}
+
 static void plain_cell(cursor *c, cell *out)
 {
+    const bool is_name = c->is_head && c->separator == ' ';
+    bool in_unit = false;
     out->quoted = false;
     out->text = c->at;
-    while (c->at < c->end && !is_line_end(*c->at) && !separates(c, *c->at)) {
+    while (!ends_row(c) && (!separates(c, *c->at) || in_unit || (is_name && is_before_unit(c)))) {
+        in_unit = is_name &&
+                  (*c->at == '(' || *c->at == '[' || (in_unit && *c->at != ')' && *c->at != ']'));
         ++c->at;
     }
     const char *last = c->at;
-    while (last > out->text && is_blank(last[-1])) {
+    while (last > out->text && (is_blank(last[-1]) || (is_name && is_mark(last[-1])))) {
         --last;
     }
     out->n = last - out->text;
@@ -184,7 +214,7 @@ static clast_status next_cell(cursor *c, cell *out, bool *more)
             return status;
         }
         // with blanks as separators the blanks just skipped were one
-        if (c->at < c->end && !is_line_end(*c->at) && !separates(c, *c->at) &&
+        if (!ends_row(c) && !separates(c, *c->at) &&
             !(c->separator == ' ' && is_blank(c->at[-1]))) {
             return clx_fail(CLAST_E_FORMAT, "%s:%" PRId64 ": '%c' after a closing quote", c->name,
                             c->line, *c->at >= ' ' && *c->at < 127 ? *c->at : '?');
@@ -195,11 +225,16 @@ static clast_status next_cell(cursor *c, cell *out, bool *more)
     if (c->separator == ' ') {
         skip_blanks(c);
     }
-    *more = c->at < c->end && !is_line_end(*c->at);
+    *more = !ends_row(c);
     if (*more && c->separator != ' ') {
         ++c->at;
-    } else if (!*more) {
-        skip_line_end(c);
+    }
+    if (c->is_list && ++c->n_cell >= c->n_column) {
+        skip_blanks(c);
+        *more = !ends_row(c);
+    }
+    if (!*more) {
+        skip_line(c);
     }
     return CLAST_OK;
 }
@@ -255,7 +290,7 @@ static void count_separators(cursor *c, int64_t found[4])
     bool in_quotes = false;
     bool in_word = false;
     bool any_word = false;
-    for (; c->at < c->end && (in_quotes || !is_line_end(*c->at)); ++c->at) {
+    for (; c->at < c->end && (in_quotes || !ends_row(c)); ++c->at) {
         const bool blank = is_blank(*c->at) && !in_quotes;
         in_quotes = in_quotes != (*c->at == '"');
         for (int k = 0; k < 3 && !in_quotes; ++k) {
@@ -265,7 +300,7 @@ static void count_separators(cursor *c, int64_t found[4])
         in_word = !blank;
         any_word = any_word || in_word;
     }
-    skip_line_end(c);
+    skip_line(c);
 }
 
 /// Separator that both of the first two rows hold: tab, then ';', ',', then blanks.
@@ -298,26 +333,29 @@ static clast_status grow_columns(outline *o, int64_t n)
     return status;
 }
 
-/// Looks at one row; the first fixes the number of columns. `judge`: its cells count as data.
-static clast_status survey_row(cursor *c, outline *o, bool first, bool judge, bool *all_numbers)
+/// Looks at one row; the first fixes the number of columns, the cells of the others count as data.
+/// A row of a list that begins with a number is no header, whatever stands behind it.
+static clast_status survey_row(cursor *c, outline *o, bool first, bool *is_data)
 {
     clast_status status = CLAST_OK;
     const int64_t line = c->line;
     int64_t n = 0;
     bool more = true;
-    *all_numbers = true;
+    bool is_size = false;
+    *is_data = true;
     while (more) {
         cell x = {0};
         double value = 0.0;
         CLX_TRY(next_cell(c, &x, &more));
         const bool number = to_number(&x, &value);
-        *all_numbers = *all_numbers && number;
+        is_size = n == 0 ? c->is_list && number && !is_missing(&x) : is_size;
+        *is_data = *is_data && (number || is_size);
         CLX_CHECK(!first || n < COLUMN_LIMIT, CLAST_E_LIMIT, "%s:%" PRId64 ": more than %d columns",
                   c->name, line, COLUMN_LIMIT);
         if (first) {
             CLX_TRY(grow_columns(o, n + 1));
         }
-        if (judge && n < o->capacity && !is_missing(&x)) {
+        if (!first && n < o->capacity && !is_missing(&x)) {
             o->seen[n] |= number ? SEEN_NUMBER : SEEN_TEXT;
         }
         ++n;
@@ -335,16 +373,19 @@ done:
 static clast_status survey(cursor c, int header, outline *o, cursor *end)
 {
     clast_status status = CLAST_OK;
-    bool numbers = false;
+    bool is_data = false;
     const cursor start = c;
     CLX_CHECK(begin_row(&c), CLAST_E_FORMAT, "%s holds no table: it has no row", c.name);
-    CLX_TRY(survey_row(&c, o, true, false, &numbers));
-    o->has_header = header > 0 || (header == 0 && !numbers);
+    c.is_head = header >= 0;
+    CLX_TRY(survey_row(&c, o, true, &is_data));
+    c.is_head = false;
+    o->has_header = header > 0 || (header == 0 && !is_data);
     if (!o->has_header) {
         c = start;
     }
+    c.n_column = o->n_column;
     while (begin_row(&c)) {
-        CLX_TRY(survey_row(&c, o, false, true, &numbers));
+        CLX_TRY(survey_row(&c, o, false, &is_data));
         ++o->n_row;
     }
     CLX_CHECK(o->n_ragged == 0, CLAST_E_FORMAT,
@@ -436,6 +477,7 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
     bool *is_repeated = NULL;
     bool more = true;
     CLX_TRY(clx_alloc(&is_repeated, o->n_column, sizeof *is_repeated));
+    c->is_head = o->has_header;
     if (o->has_header) {
         (void)begin_row(c);
     }
@@ -454,6 +496,7 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
         clx_free(wanted);
         wanted = NULL;
     }
+    c->is_head = false;
     for (int32_t k = 0; k < o->n_column; ++k) {
         if (is_repeated[k]) {
             CLX_TRY(rename_first(table, k, report));
@@ -524,6 +567,7 @@ static clast_status parse(cursor c, const void *bytes, size_t n, const clast_csv
     CLX_TRY(check_bytes(&c, n > 0 ? bytes : "", n));
     c.separator = wish->separator != 0 ? wish->separator : guess_separator(c);
     CLX_TRY(survey(c, wish->header, &o, &end));
+    c.n_column = o.n_column;
     CLX_TRY(clast_table_init(&made, c.name, o.n_row));
     CLX_TRY(add_columns(&c, &o, &made, &found));
     CLX_TRY(fill(&c, &made, &found));
@@ -550,6 +594,36 @@ clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n
     CLX_ARGUMENTS(name, table);
     CLX_ARRAY(bytes, n);
     return parse((cursor){.name = name, .line = 1}, bytes, n, options, table, report);
+}
+
+clast_status clx_csv_parse_list(const char *name, const char *bytes, int64_t n, clast_table *table,
+                                clast_csv_report *report)
+{
+    const cursor start = {.name = name, .line = 1, .is_list = true};
+    return parse(start, bytes, (size_t)n, NULL, table, report);
+}
+
+clast_status clx_csv_list_cell(const char *bytes, int64_t n, const clast_csv_report *report,
+                               int64_t row, int32_t column, clx_csv_cell *found)
+{
+    clast_status status = CLAST_OK;
+    cursor c = {.name = "", .line = 1, .is_list = true, .has_comment = true, .comment = '#'};
+    cell x = {0};
+    bool more = true;
+    CLX_TRY(check_bytes(&c, bytes, (size_t)n));
+    c.separator = report->separator;
+    for (int64_t i = 0; i <= row; ++i) {
+        c.is_head = i == 0 && report->has_header;
+        c.n_column = i < row ? 0 : column + 1;
+        more = begin_row(&c);
+        found->line = c.line;
+        for (int32_t k = 0; more && (i < row || k <= column); ++k) {
+            CLX_TRY(next_cell(&c, &x, &more));
+        }
+    }
+    CLX_TRY(cell_text(&x, &found->text));
+done:
+    return status;
 }
 
 clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "io/curve_columns.h"
-#include "io/size_columns.h"
+#include "io/sizes.h"
 #include "shape/curve.h"
 #include <clast/field.h>
 #include <clast/table.h>
@@ -343,7 +343,9 @@ static clast_status load_list(const char *path, bool by_mass, clast_grading **gr
     clast_grading *made = NULL;
     clx_sizes_columns columns;
     const clx_sizes_use use = {by_mass ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_NUMBER,
-                               by_mass ? "take list:FILE" : "take masses:FILE", ""};
+                               by_mass ? "take list:FILE" : "take masses:FILE", "",
+                               by_mass ? "give the file without masses:"
+                                       : "give the file without list:"};
     CLX_TRY(clx_sizes_read_for(&use, path, "", "", &columns, &sizes));
     status = clast_grading_of_sizes(&sizes, by_mass, &made);
     if (status != CLAST_OK) {

@@ -85,17 +85,19 @@ done:
     return status;
 }
 
-/// What facets hold of the spheres and ellipsoids, whose vertices lie on them.
-static double facet_ratio(const clx_export *e)
+/// What facets hold of the clumps, whose balls are written whole, one within another; or of the
+/// spheres and ellipsoids, whose vertices lie on them. NaN of none.
+static double facet_ratio(const clx_export *e, bool of_clumps)
 {
     double all = 0.0;
     double held = 0.0;
     for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
         const int32_t s = e->assembly->shape_id[i];
-        if (!clx_is_stood_for(&e->assembly->shape[s])) {
+        const clast_shape *shape = &e->assembly->shape[s];
+        if (of_clumps ? shape->kind == CLAST_SHAPE_CLUMP : !clx_is_stood_for(shape)) {
             const double part = clast_mesh_volume(&e->parts.surface[s]);
             all += clx_grain_volume(e->assembly, i);
-            held += clx_grain_volume(e->assembly, i) * part / e->assembly->shape[s].volume;
+            held += clx_grain_volume(e->assembly, i) * part / shape->volume;
         }
     }
     return held / all;
@@ -122,7 +124,8 @@ static clast_status write_stream(clx_export *e, clast_export_format format, cons
     if (has_surfaces(format, e->options->points)) {
         CLX_TRY(clx_parts_make(e->assembly, e->options->level, &e->parts));
         CLX_TRY(find_factor(e, path));
-        report->facet_ratio = facet_ratio(e);
+        report->facet_ratio = facet_ratio(e, false);
+        report->clump_ratio = facet_ratio(e, true);
     } else if (format == CLAST_EXPORT_DUMP || format == CLAST_EXPORT_DATA) {
         report->ellipsoid_ratio = ellipsoid_ratio(e->assembly);
     }
@@ -147,6 +150,18 @@ static clast_status check_density(const clx_export *e, clast_export_format forma
                           "%s: %s a density of each grain, and theirs is not known; give it "
                           "(--density), or write .dump or .csv",
                           path, is_data ? "LAMMPS's data files need" : "Rockable needs");
+}
+
+/// What is told of the ids.
+static void find_ids(const clast_assembly *a, clast_export_report *report)
+{
+    const clast_export_format f = report->format;
+    const bool is_counted =
+        f == CLAST_EXPORT_DUMP || f == CLAST_EXPORT_DATA || f == CLAST_EXPORT_VORO;
+    report->has_ids = is_counted || f == CLAST_EXPORT_VTU || f == CLAST_EXPORT_OBJ ||
+                      f == CLAST_EXPORT_CSV || f == CLAST_EXPORT_JSON;
+    report->ids_kept = report->has_ids && a->has_ids;
+    report->id_offset = is_counted ? clx_export_id_offset(a) : 0;
 }
 
 static clast_status write_table(const clast_assembly *assembly, clast_export_format format,
@@ -180,7 +195,8 @@ static clast_status write_threemf(const clast_assembly *assembly, int level, con
     CLX_TRY(clast_mesh_write(&all, path, &options));
     report->n_vertex = all.n_vert;
     report->n_triangle = all.n_tri;
-    report->facet_ratio = facet_ratio(&e);
+    report->facet_ratio = facet_ratio(&e, false);
+    report->clump_ratio = facet_ratio(&e, true);
 done:
     clx_parts_free(&e.parts);
     clast_mesh_free(&all);
@@ -203,7 +219,7 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
                     .options = o,
                     .unit = o->unit != NULL ? o->unit : own,
                     .has_density = clx_has_density(assembly)};
-    clast_export_report made = {.facet_ratio = NAN, .ellipsoid_ratio = NAN};
+    clast_export_report made = {.facet_ratio = NAN, .clump_ratio = NAN, .ellipsoid_ratio = NAN};
     made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
     CLX_CHECK(made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
               "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, .json, .dump, "
@@ -221,6 +237,7 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
               CLAST_E_USAGE, "%s: values are for .vtu, a row for each of its %d grains", path,
               assembly->n_grain);
     CLX_TRY(check_density(&e, made.format, path));
+    find_ids(assembly, &made);
     made.unit = made.format == CLAST_EXPORT_3MF ? "mm" : e.unit;
     if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
         CLX_TRY(write_table(assembly, made.format, path));

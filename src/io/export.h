@@ -39,6 +39,10 @@ clast_status clx_export_rockable(const clast_assembly *assembly, const char *pat
 /// Numbers with a blank before each.
 void clx_export_numbers(clx_file *file, const double *x, int n);
 
+/// What files that count from 1 (LAMMPS, voro++) add to the grains' ids: 0 where another program
+/// gave them and none is 0, else 1.
+int32_t clx_export_id_offset(const clast_assembly *assembly);
+
 /// LAMMPS's type of each shape [n_shape], allocated: as it came, else its index from 1.
 clast_status clx_export_types(const clast_assembly *assembly, int32_t **type);
 

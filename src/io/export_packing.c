@@ -97,6 +97,7 @@ clast_status clx_export_data(clx_export *e)
     int32_t *type = NULL;
     int32_t n_type = 1;
     const bool is_sphere = are_spheres(a);
+    const int32_t offset = clx_export_id_offset(a);
     CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         n_type = type[a->shape_id[i]] > n_type ? type[a->shape_id[i]] : n_type;
@@ -106,7 +107,7 @@ clast_status clx_export_data(clx_export *e)
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double ratio = clx_ellipsoid_ratio(&a->shape[a->shape_id[i]]);
         const double size[2] = {is_sphere ? 2.0 * radius_of(a, i) : 1.0, a->density[i] / ratio};
-        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, type[a->shape_id[i]]);
+        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + offset, type[a->shape_id[i]]);
         clx_export_numbers(file, size, 2);
         clx_export_numbers(file, a->position[i], 3);
         CLX_TRY(clx_file_write(file, "\n", 1));
@@ -116,7 +117,7 @@ clast_status clx_export_data(clx_export *e)
         double axes[3];
         double q[4];
         clx_export_ellipsoid(a, i, axes, q);
-        (void)clx_file_print(file, "%" PRId64, a->id[i] + 1);
+        (void)clx_file_print(file, "%" PRId64, a->id[i] + offset);
         clx_export_numbers(file, axes, 3);
         clx_export_numbers(file, q, 4);
         CLX_TRY(clx_file_write(file, "\n", 1));
@@ -180,10 +181,11 @@ clast_status clx_export_voro(clx_export *e)
 {
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
+    const int32_t offset = clx_export_id_offset(a);
     CLX_TRY(need_spheres(e, "voro++'s text"));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double radius = radius_of(a, i);
-        (void)clx_file_print(&e->file, "%d", i + 1);
+        (void)clx_file_print(&e->file, "%" PRId64, a->id[i] + offset);
         clx_export_numbers(&e->file, a->position[i], 3);
         clx_export_numbers(&e->file, &radius, 1);
         CLX_TRY(clx_file_write(&e->file, "\n", 1));

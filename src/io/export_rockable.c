@@ -82,8 +82,8 @@ static clast_status check_names(const clast_assembly *a, const char *path)
     }
     for (int32_t i = 1; i < a->n_shape; ++i) {
         CLX_CHECK(strcmp(name[i], name[i - 1]) != 0, CLAST_E_USAGE,
-                  "%s: two shapes have the name %s, by which Rockable's grains refer to theirs", path,
-                  name[i]);
+                  "%s: two shapes have the name %s, by which Rockable's grains refer to theirs",
+                  path, name[i]);
     }
 done:
     clx_free(name);

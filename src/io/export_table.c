@@ -209,6 +209,15 @@ void clx_export_numbers(clx_file *file, const double *x, int n)
     }
 }
 
+int32_t clx_export_id_offset(const clast_assembly *a)
+{
+    int32_t i = 0;
+    while (a->has_ids && i < a->n_grain && a->id[i] > 0) {
+        ++i;
+    }
+    return a->has_ids && i == a->n_grain ? 0 : 1;
+}
+
 /// Greatest type of LAMMPS that a name "type-K" or "type-K-N" may have.
 enum { MOST_TYPES = 1000000 };
 
@@ -304,14 +313,15 @@ static void put_dump_head(clx_export *e)
 }
 
 /// LAMMPS: shapex, shapey, shapez are the diameters of an ellipsoid, radius is that of the sphere
-/// of its volume; atom ids and types count from 1. The density of an ellipsoid that stands for
-/// another shape gives the grain's mass, and with it its moments.
+/// of its volume; types count from 1, and so do ids but for those of a file. The density of an
+/// ellipsoid that stands for another shape gives the grain's mass, and with it its moments.
 clast_status clx_export_dump(clx_export *e)
 {
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
     clx_file *file = &e->file;
     int32_t *type = NULL;
+    const int32_t offset = clx_export_id_offset(a);
     put_dump_head(e);
     CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
@@ -322,7 +332,7 @@ clast_status clx_export_dump(clx_export *e)
         const double radius =
             axes[0] == axes[2] ? 0.5 * axes[0] : 0.5 * cbrt(axes[0] * axes[1] * axes[2]);
         const double last[2] = {radius, a->density[i] / clx_ellipsoid_ratio(shape)};
-        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, type[a->shape_id[i]]);
+        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + offset, type[a->shape_id[i]]);
         clx_export_numbers(file, a->position[i], 3);
         clx_export_numbers(file, q, 4);
         clx_export_numbers(file, axes, 3);

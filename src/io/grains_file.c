@@ -74,7 +74,8 @@ done:
     return status;
 }
 
-clast_status clx_grains_fault(clx_grains_task *task, clast_status about)
+/// Keeps the thread's error text as a fault of the file; memory trouble is returned instead.
+static clast_status note_fault(clx_grains_task *task, clast_status about)
 {
     if (about == CLAST_E_MEMORY || about == CLAST_E_STOPPED) {
         return about;
@@ -348,7 +349,7 @@ static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxel
         }
         const clast_status one = take_label(task, voxels, &labels[i], kind, offset);
         if (one != CLAST_OK) {
-            CLX_TRY(clx_grains_fault(task, one)); // the other labels may do
+            CLX_TRY(note_fault(task, one)); // the other labels may do
         }
     }
     if (n_small > 0) {
@@ -595,7 +596,7 @@ static clast_status read_files(int64_t begin, int64_t end, int32_t worker, void 
                   "stopped after %lld of %lld files; nothing is kept",
                   (long long)atomic_load(&r->n_done), (long long)r->n);
         status = take_file(&r->task[i]);
-        status = status != CLAST_OK ? clx_grains_fault(&r->task[i], status) : status;
+        status = status != CLAST_OK ? note_fault(&r->task[i], status) : status;
         if (status != CLAST_OK) {
             char why[256];
             (void)snprintf(why, sizeof why, "%s", clast_error_detail());

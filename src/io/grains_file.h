@@ -17,9 +17,6 @@ typedef struct clx_grains_task {
 /// A new record named after the file and a suffix, with a surface and a size.
 clast_status clx_grains_add(clx_grains_task *task, const char *suffix, clast_grain_record **record);
 
-/// Keeps the thread's error text as a fault of the file; memory trouble is returned instead.
-clast_status clx_grains_fault(clx_grains_task *task, clast_status about);
-
 /// Keeps a line that is no fault.
 clast_status clx_grains_note(clx_grains_task *task, const char *text);
 

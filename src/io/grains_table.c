@@ -10,23 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/// True when the table's size is the sieve size of eq. 1, from which L, I and S follow: its label
-/// is then "sieve size (mm)", with the metres in that unit; 0 if none. No other label begins so.
-static bool is_sieve_size(const clast_form_set *set, double *metre)
-{
-    char unit[16] = "";
-    const char *open = strchr(set->size_label, '(');
-    *metre = 0.0;
-    if (set->size == NULL || strncmp(set->size_label, "sieve size", 10) != 0) {
-        return false;
-    }
-    if (open != NULL) {
-        (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(open + 1, ")"), open + 1);
-        (void)clast_unit_factor(unit, "m", metre);
-    }
-    return true;
-}
-
 /// A row's L, I, S follow from its size; where that is not there, its form alone is known.
 static clast_status note_sizes(clx_grains_task *task, const clast_form_set *set)
 {
@@ -54,7 +37,9 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
     char text[512];
     CLX_TRY(clast_form_set_of(table, task->options->columns, &set));
     double unit = 0.0;
-    const bool is_sieve = is_sieve_size(&set, &unit);
+    if (set.is_sieve_size && set.size_unit[0] != '\0') {
+        CLX_TRY(clast_unit_factor(set.size_unit, "m", &unit));
+    }
     bool mixes_units = false;
     CLX_TRY(clx_form_set_mixes_units(table, task->options->columns, &mixes_units));
     for (int64_t i = 0; i < set.n; ++i) {
@@ -63,7 +48,7 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
         CLX_TRY(clx_grains_add(task, text, &record));
         record->kind = CLAST_GRAINS_TABLE;
         record->has_surface = false;
-        record->has_size = is_sieve && !isnan(set.size[i]);
+        record->has_size = set.is_sieve_size && !isnan(set.size[i]);
         record->in_metres = mixes_units;
         record->mixes_units = mixes_units;
         record->unit_m = unit;
@@ -76,8 +61,11 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
     if (text[0] != '\0') {
         CLX_TRY(clx_grains_note(task, text));
     }
-    if (is_sieve) {
+    if (set.is_sieve_size) {
         CLX_TRY(note_sizes(task, &set));
+    }
+    if (clast_form_set_count_words(&set, sizeof text, text)[0] != '\0') {
+        CLX_TRY(clx_grains_note(task, text));
     }
 done:
     clast_form_set_free(&set);

@@ -7,9 +7,6 @@
 #define CLX_H5_TRAILER "\nclast-crc32 %08" PRIx32 " of %016" PRId64 "\n"
 enum { CLX_H5_TRAILER_SIZE = 1 + 12 + 8 + 4 + 16 + 1 };
 
-/// CRC-32 of n more bytes after those whose CRC-32 is `crc` (0: none).
-uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n);
-
 /// Writes a file's image and the last line, atomically.
 clast_status clx_h5_put(const char *path, const char *image, int64_t n);
 

@@ -65,7 +65,8 @@ uint32_t clx_h5_sum(const char *bytes, int64_t n)
     return (c ^ b) - rotate_left(b, 24);
 }
 
-uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n)
+/// CRC-32 of n more bytes after those whose CRC-32 is `crc` (0: none).
+static uint32_t crc_after(uint32_t crc, const char *bytes, int64_t n)
 {
     CLAST_ASSERT(n >= 0);
     const int64_t step = 1 << 30;
@@ -82,7 +83,7 @@ clast_status clx_h5_put(const char *path, const char *image, int64_t n)
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_file_write(&file, image, (size_t)n));
-    CLX_TRY(clx_file_print(&file, CLX_H5_TRAILER, clx_h5_crc(0, image, n), n));
+    CLX_TRY(clx_file_print(&file, CLX_H5_TRAILER, crc_after(0, image, n), n));
     CLX_TRY(clx_file_commit(&file));
 done:
     clx_file_abandon(&file);
@@ -100,7 +101,7 @@ static clast_status crc_of(FILE *file, const char *path, int64_t n, uint32_t *cr
     for (int64_t left = n; left > 0;) {
         const size_t want = left < BLOCK ? (size_t)left : BLOCK;
         CLX_CHECK(fread(block, 1, want, file) == want, CLAST_E_IO, "cannot read %s", path);
-        *crc = clx_h5_crc(*crc, block, (int64_t)want);
+        *crc = crc_after(*crc, block, (int64_t)want);
         left -= (int64_t)want;
     }
 done:

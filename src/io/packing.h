@@ -77,6 +77,16 @@ clast_status clx_packing_densities(const clast_table *table, const clx_packing_w
                                    bool is_lammps, const clx_lammps_units *units,
                                    clast_assembly *assembly);
 
+/// The ids of grains that are the table's rows, where it has them: whole numbers from 0.
+///
+/// @return CLAST_E_FORMAT for two rows of one id, and in LAMMPS's files for what is no id
+clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted *wanted,
+                             bool is_lammps, clast_assembly *assembly);
+
+/// The box that the comment of an .xyz [n] tells: Lattice="ax 0 0 bx by 0 cx cy cz", pbc="T T F"
+/// (none: periodic), Origin="x y z". One that is turned otherwise is no box of LAMMPS: left out.
+void clx_xyz_lattice(const char *comment, size_t n, clast_packing_frame *frame);
+
 /// A configuration of Rockable and the library of shapes that it names.
 typedef struct {
     const char *name;  ///< of the configuration, for messages

@@ -20,7 +20,7 @@
 
 /// Rows of an .xyz, behind a count and a comment.
 typedef struct {
-    int64_t begin, end;
+    int64_t comment, begin, end;
 } rows;
 
 /// The rows of snapshot `wanted`, or of the last one before it, and how many there are up to it; 0
@@ -35,9 +35,12 @@ static int64_t find_xyz(const char *bytes, int64_t n, int64_t wanted, rows *foun
     int64_t count = 0;
     bool is_head = clx_text_word(&peek, &word) && clx_word_integer(word, &count) &&
                    !clx_text_word(&peek, &word);
-    while (is_head && n_snapshot <= wanted && clx_text_next_line(&text) &&
-           clx_text_next_line(&text)) {
-        *found = (rows){text.at - bytes, n};
+    while (is_head && n_snapshot <= wanted && clx_text_next_line(&text)) {
+        const int64_t comment = text.at - bytes;
+        if (!clx_text_next_line(&text)) {
+            break;
+        }
+        *found = (rows){comment, text.at - bytes, n};
         ++n_snapshot;
         for (int64_t i = 0; i < count && clx_text_next_line(&text); ++i) {
         }
@@ -59,12 +62,16 @@ static clast_status parse_xyz(const char *path, const char *bytes, int64_t n,
 {
     static const clast_csv_options atoms = {.separator = ' ', .no_comment = true, .header = -1};
     clast_status status = CLAST_OK;
-    rows found = {0, n};
+    rows found = {0, 0, n};
     const int64_t n_snapshot = find_xyz(bytes, n, INT64_MAX - 1, &found);
     const int64_t k = wanted->frame < 0 ? n_snapshot + wanted->frame : wanted->frame;
     CLX_CHECK(k >= 0 && k < n_snapshot, CLAST_E_FORMAT, "%s: there is no snapshot %lld among %lld",
               path, (long long)wanted->frame, (long long)n_snapshot);
     (void)find_xyz(bytes, n, k, &found);
+    if (!wanted->is_old) {
+        clx_xyz_lattice(bytes + found.comment, (size_t)(found.begin - found.comment),
+                        &report->frame);
+    }
     report->snapshot = k + 1;
     report->n_snapshot = n_snapshot;
     CLX_TRY(clast_table_parse_csv(path, bytes + found.begin, (size_t)(found.end - found.begin),
@@ -180,6 +187,8 @@ static clast_status read_table(const char *path, const char *bytes, int64_t n,
     CLX_TRY(clx_packing_of_table(&table, &own.spheres, is_lammps, assembly, told->unit));
     to_metres(metre, assembly, &told->report.frame);
     if (clx_yade_clump_column(o->columns) < 0) {
+        CLX_TRY(wanted->is_old ? CLAST_OK
+                               : clx_packing_ids(&table, &own.spheres, is_lammps, assembly));
         CLX_TRY(clx_packing_densities(&table, &own, is_lammps, told->units, assembly));
     } else {
         assembly->no_density = true;

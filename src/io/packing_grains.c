@@ -282,3 +282,43 @@ done:
     clast_spheres_free(&spheres);
     return status;
 }
+
+/// Ids of other programs lie below: all are doubles.
+static const double MOST_ID = 9e15;
+
+static int by_number(const void *a, const void *b)
+{
+    const int64_t x = *(const int64_t *)a;
+    const int64_t y = *(const int64_t *)b;
+    return (x > y) - (x < y);
+}
+
+clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted *wanted,
+                             bool is_lammps, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = assembly->n_grain;
+    const double *id =
+        is_lammps ? clast_table_numbers(table, "id") : clx_spheres_ids(table, wanted);
+    int64_t *sorted = NULL;
+    bool are_ids = id != NULL && n > 0;
+    CLX_TRY(clx_alloc(&sorted, n, sizeof *sorted));
+    for (int32_t i = 0; i < n && are_ids; ++i) {
+        are_ids = id[i] >= 0.0 && id[i] < MOST_ID && id[i] == floor(id[i]);
+        CLX_CHECK(are_ids || !is_lammps, CLAST_E_FORMAT, "row %d has the id %g", i + 1, id[i]);
+        sorted[i] = are_ids ? (int64_t)id[i] : 0;
+    }
+    if (!are_ids) {
+        goto done;
+    }
+    memcpy(assembly->id, sorted, (size_t)n * sizeof *sorted);
+    assembly->has_ids = true;
+    qsort(sorted, (size_t)n, sizeof *sorted, by_number);
+    for (int32_t i = 1; i < n; ++i) {
+        CLX_CHECK(sorted[i] != sorted[i - 1], CLAST_E_FORMAT, "two rows have the id %lld",
+                  (long long)sorted[i]);
+    }
+done:
+    clx_free(sorted);
+    return status;
+}

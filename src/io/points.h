@@ -1,8 +1,9 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
 #include "base/status.h"
-#include <clast/cloud.h>
 #include <clast/table.h>
+
+typedef struct clast_points_options clast_points_options;
 
 /// Some rows of an array.
 typedef struct clx_rows {
@@ -72,31 +73,6 @@ clast_status clx_points_check_kind(const char *name, const char *bytes, size_t n
 /// Refuses (CLAST_E_FORMAT on all ranks) a file that is not the one that rank 0 reads, by its size
 /// and blocks of it. Called by all ranks.
 clast_status clx_points_agree(const clast_comm *comm, const char *path);
-
-/// Part of a file of delimited text, whose first line has this number.
-clast_status clx_csv_parse_part(const char *name, const void *bytes, size_t n,
-                                const clast_csv_options *options, int64_t first_line,
-                                clast_table *table);
-
-/// A row of delimited text, which is a line; {0} stands before the first.
-typedef struct clx_csv_row {
-    int64_t begin, next;  ///< its first byte, and the first one behind its line end
-    int64_t line, n_line; ///< lines before `begin` and before `next`
-} clx_csv_row;
-
-/// Goes to the next row that clast_table_parse_csv finds in bytes without quotes; false at the end.
-bool clx_csv_next_row(const char *bytes, int64_t n, char separator, clx_csv_row *row);
-
-/// Whether a line surely begins at byte `at` of n: behind LF, or behind CR that no LF follows, as
-/// of the last byte is not known.
-bool clx_csv_begins_line(const char *bytes, int64_t at, int64_t n);
-
-/// Line ends (LF, CR LF or CR) of some bytes; `before`: the byte that stands before them, 0: none.
-int64_t clx_csv_count_lines(const char *bytes, int64_t n, char before);
-
-/// clast_table_read_csv, and the same rows with the cells of all columns as they are written.
-CLX_SHARED clast_status clx_csv_read_texts(const char *path, clast_table *table,
-                                           clast_table *texts);
 
 /// Adds an array value [n_row][width] as columns: `name` for one number, name_x .. for two or
 /// three, name_0 .. for more; plain x, y, z for the name "". A name that is taken gets "_2", "_3",

@@ -1,5 +1,6 @@
 // One file of points, read by ranks together: each reads its stretch of the bytes of a text, or of
 // the rows of an HDF5 file, some at a time, so that no rank ever holds the file.
+#include "io/csv_read.h"
 #include "io/points.h"
 
 #include "base/alloc.h"
@@ -24,6 +25,7 @@ typedef struct {
     clast_cloud cloud;
     int64_t capacity;
     clx_times times;
+    int32_t weight; ///< number of the column cloud.unread_weight
 } sink;
 
 /// Appends n numbers to an array of the cloud, where the piece has it and the capacity is enough.
@@ -63,6 +65,11 @@ static clast_status take_rows(sink *s, const clast_table *table, const clast_clo
     CLX_TRY(append(&c->velocity, c->n * d, s->capacity * d, piece.velocity, piece.n * d));
     CLX_TRY(append(&c->variable, c->n, s->capacity, piece.variable, piece.n));
     c->n += piece.n;
+    const int32_t weight = clast_table_find(table, piece.unread_weight);
+    if (piece.unread_weight[0] != '\0' && (c->unread_weight[0] == '\0' || weight < s->weight)) {
+        memcpy(c->unread_weight, piece.unread_weight, sizeof c->unread_weight);
+        s->weight = weight;
+    }
 done:
     clast_cloud_free(&piece);
     return status;
@@ -431,6 +438,15 @@ done:
     return status;
 }
 
+/// The column of weights that nothing names, the first that any rank has seen.
+static void agree_weight(const clast_comm *comm, sink *s)
+{
+    const int64_t own = s->cloud.unread_weight[0] != '\0' ? s->weight : INT32_MAX;
+    const int64_t least = comm->least(comm->context, own * comm->n_rank + comm->rank);
+    comm->broadcast(comm->context, (int32_t)(least % comm->n_rank), s->cloud.unread_weight,
+                    (int64_t)sizeof s->cloud.unread_weight);
+}
+
 clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
                                     const clast_cloud_columns *columns,
                                     const clast_points_options *options, clast_cloud *cloud)
@@ -452,6 +468,7 @@ clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
         CLX_TRY(clast_comm_agree(all, status, NULL));
     }
     CLX_TRY(clx_times_check(all, path, &s.times)); // the same on all
+    agree_weight(all, &s);
     *cloud = s.cloud;
     s.cloud = (clast_cloud){0};
 done:

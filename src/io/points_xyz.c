@@ -2,10 +2,14 @@
 // numbers alone, which many tools call XYZ too, are delimited text without a header.
 #include "io/points.h"
 
+#include "io/packing.h"
 #include "io/text.h"
 #include <clast/table.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <strings.h>
 
 enum { MOST_COLUMNS = 64 };
 
@@ -100,4 +104,56 @@ clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast
 done:
     clast_table_free(&made);
     return status;
+}
+
+/// The words within the quotes of key="...", a key of extended XYZ; none of a key that is not
+/// there.
+static clx_text quoted(const char *line, size_t n, const char *key)
+{
+    const size_t length = strlen(key);
+    for (size_t at = 0; at + length + 2 < n; ++at) {
+        const char *mark = line + at + length;
+        if ((at == 0 || line[at - 1] == ' ') && strncasecmp(line + at, key, length) == 0 &&
+            mark[0] == '=' && (mark[1] == '"' || mark[1] == '\'')) {
+            const char *begin = mark + 2;
+            const char *end = memchr(begin, mark[1], (size_t)(line + n - begin));
+            return clx_text_begin(begin, end != NULL ? (size_t)(end - begin) : 0, '\0', false);
+        }
+    }
+    return clx_text_begin(line, 0, '\0', false);
+}
+
+/// n numbers, all finite.
+static bool read_numbers(clx_text text, int n, double *value)
+{
+    clx_word word;
+    int k = 0;
+    while (k < n && clx_text_word(&text, &word) && clx_word_number(word, &value[k]) &&
+           isfinite(value[k])) {
+        ++k;
+    }
+    return k == n;
+}
+
+void clx_xyz_lattice(const char *comment, size_t n, clast_packing_frame *frame)
+{
+    double side[9]; // a, b, c
+    double origin[3];
+    clx_text borders = quoted(comment, n, "pbc");
+    clx_word word;
+    const bool has_origin = read_numbers(quoted(comment, n, "Origin"), 3, origin);
+    if (!read_numbers(quoted(comment, n, "Lattice"), 9, side) || side[1] != 0.0 || side[2] != 0.0 ||
+        side[5] != 0.0 || side[0] <= 0.0 || side[4] <= 0.0 || side[8] <= 0.0) {
+        return;
+    }
+    for (int k = 0; k < 3; ++k) {
+        frame->has_box[k] = true;
+        frame->is_periodic[k] =
+            !clx_text_word(&borders, &word) || strchr("Tt1", word.text[0]) != NULL;
+        frame->low[k] = has_origin ? origin[k] : 0.0;
+        frame->high[k] = frame->low[k] + side[4 * k];
+    }
+    frame->tilt[0] = side[3];
+    frame->tilt[1] = side[6];
+    frame->tilt[2] = side[7];
 }

@@ -9,6 +9,7 @@
 #include "shape/whole.h"
 #include <clast/state.h>
 #include <clast/table.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -49,15 +50,19 @@ clast_status clast_spheres_read(const char *path, const char *name, clast_sphere
     return read_csv(path, spheres);
 }
 
-static clast_status write_csv(const char *path, const clast_spheres *spheres)
+static clast_status write_csv(const char *path, const clast_spheres *spheres, const char *unit)
 {
     static const char *const names[4] = {"x", "y", "z", "radius"};
     clast_status status = CLAST_OK;
     clast_table table = {0};
+    const bool is_known = strcmp(unit, "model") != 0;
     CLX_TRY(clast_table_init(&table, "spheres", spheres->n));
     for (int k = 0; k < 4; ++k) {
         double *column = NULL;
-        CLX_TRY(clast_table_add_number(&table, names[k], "model", &column));
+        char name[32];
+        (void)snprintf(name, sizeof name, "%s%s%s", names[k], is_known ? "_" : "",
+                       is_known ? unit : "");
+        CLX_TRY(clast_table_add_number(&table, name, unit, &column));
         for (int32_t i = 0; i < spheres->n; ++i) {
             column[i] = k < 3 ? spheres->centre[i][k] : spheres->radius[i];
         }
@@ -124,11 +129,12 @@ clast_status clast_spheres_write(const clast_spheres *spheres, const char *path,
 {
     CLX_ARGUMENTS(path, name, spheres);
     CLX_WHOLE(spheres, spheres);
+    const char *own = unit != NULL && unit[0] != '\0' ? unit : "model";
     if (is_state(path)) {
-        return write_state(path, name, spheres, unit != NULL ? unit : "model");
+        return write_state(path, name, spheres, own);
     }
     if (!clx_path_is(path, "csv")) {
         return clx_fail(CLAST_E_USAGE, "%s: spheres are written to .csv or .h5", path);
     }
-    return write_csv(path, spheres);
+    return write_csv(path, spheres, own);
 }

@@ -16,6 +16,7 @@ enum { RADIUS = 3, N_COLUMN = 4 };
 typedef struct {
     const clast_column *column[N_COLUMN];
     bool is_diameter;
+    const clast_column *id;
 } columns;
 
 static const char *const names[] = {"x", "y", "z", "radius", "r", "diameter", "d"};
@@ -93,11 +94,14 @@ static void take_named(const clast_table *table, bool are_read, columns *c)
 /// d_mm rather than an r_ft beside it.
 static void find_names(const clast_table *table, columns *c)
 {
-    columns other = {{NULL}, false};
+    columns other = {.is_diameter = false};
     take_named(table, true, c);
     take_named(table, false, &other);
     if (c->column[RADIUS] == NULL) {
         c->is_diameter = other.is_diameter;
+    }
+    for (int32_t i = 0; i < table->n_column && c->id == NULL; ++i) {
+        c->id = strcasecmp(table->column[i].name, "id") == 0 ? &table->column[i] : NULL;
     }
     for (int k = 0; k < N_COLUMN; ++k) {
         c->column[k] = c->column[k] != NULL ? c->column[k] : other.column[k];
@@ -106,7 +110,7 @@ static void find_names(const clast_table *table, columns *c)
 
 bool clx_spheres_are_named(const clast_table *table)
 {
-    columns c = {{NULL}, false};
+    columns c = {.is_diameter = false};
     find_names(table, &c);
     return c.column[0] != NULL && c.column[1] != NULL && c.column[2] != NULL &&
            c.column[RADIUS] != NULL && !clast_form_set_named(table);
@@ -145,6 +149,9 @@ static clast_status take_list(const clast_table *table, const clx_spheres_wanted
                 take_column(c, name, &table->column[n]);
             }
         }
+        if (length == 2 && strncasecmp(at, "id", length) == 0) {
+            c->id = &table->column[n];
+        }
         at += length + (at[length] == ',');
     }
     CLX_CHECK(c->column[0] != NULL && c->column[1] != NULL && c->column[2] != NULL, CLAST_E_CONFIG,
@@ -179,6 +186,10 @@ static clast_status take_places(const clast_table *table, const clx_spheres_want
     const words w = words_of(wanted);
     const clast_column *number[5] = {NULL};
     int n = 0;
+    CLX_CHECK(clast_table_find(table, "xu") < 0 || wanted == NULL, CLAST_E_FORMAT,
+              "xu, yu and zu are positions without the period; of a dump x, y, z or xs, ys, zs are "
+              "read; to take them, name all columns in their order with %s id,type,x,y,z,r",
+              w.columns);
     for (int32_t i = 0; i < table->n_column; ++i) {
         if (table->column[i].number != NULL) {
             CLX_CHECK(n < 5 || wanted == NULL, CLAST_E_FORMAT,
@@ -203,6 +214,7 @@ static clast_status take_places(const clast_table *table, const clx_spheres_want
     for (int k = 0; k < N_COLUMN && n >= 3; ++k) {
         c->column[k] = has_id + k < 5 && has_id + k < n ? number[has_id + k] : NULL;
     }
+    c->id = has_id ? number[0] : NULL;
 done:
     return status;
 }
@@ -282,7 +294,7 @@ static clast_status find_columns(const clast_table *table, const clx_spheres_wan
     } else {
         find_names(table, c);
         if (c->column[0] == NULL && c->column[1] == NULL && c->column[2] == NULL) {
-            *c = (columns){{NULL}, false};
+            *c = (columns){.is_diameter = false};
             CLX_TRY(take_places(table, wanted, c));
         }
     }
@@ -328,7 +340,7 @@ clast_status clx_spheres_of_columns(const clast_table *table, const clx_spheres_
                                     clast_spheres *spheres, char unit[16])
 {
     clast_status status = CLAST_OK;
-    columns c = {{NULL}, false};
+    columns c = {.is_diameter = false};
     bool in_metres = false;
     CLX_TRY(find_columns(table, wanted, &c));
     CLX_TRY(make_spheres(table, wanted, &c, &in_metres, spheres));
@@ -342,11 +354,17 @@ done:
     return status;
 }
 
+const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted)
+{
+    columns c = {.is_diameter = false};
+    return find_columns(table, wanted, &c) == CLAST_OK && c.id != NULL ? c.id->number : NULL;
+}
+
 clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,
                                   clast_spheres *spheres, double *unit_m, bool *mixes)
 {
     clast_status status = CLAST_OK;
-    columns c = {{NULL}, false};
+    columns c = {.is_diameter = false};
     bool in_metres = false;
     const clx_spheres_wanted wanted = {.options =
                                            options != NULL ? *options : (clast_packing_options){0}};

@@ -35,6 +35,10 @@ typedef struct clx_spheres_wanted {
                         ///< be given
 } clx_spheres_wanted;
 
+/// The spheres' ids [n_row], or NULL: the column that the list calls id, else the one named so,
+/// else without names the first that counts the rows.
+const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted);
+
 /// clx_spheres_of_table so.
 ///
 /// @param unit  of the columns' lengths as x says it, "" for none

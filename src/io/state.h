@@ -12,12 +12,8 @@ clast_status clx_state_put_head(clx_h5 *h5, const char *unit);
 /// Checks the mark; version and unit may be NULL.
 clast_status clx_state_take_head(clx_h5 *h5, char version[32], char unit[16]);
 
-/// Keeps an assembly, spheres or a table under a folder such as "/assembly".
-clast_status clx_state_put_assembly(clx_h5 *h5, const char *folder, const clast_assembly *assembly);
-clast_status clx_state_put_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres);
-clast_status clx_state_put_table(clx_h5 *h5, const char *folder, const clast_table *table);
-
-/// Takes them out again; the outputs must be empty and stay so on failure.
+/// Takes an assembly, spheres or a table out of a folder such as "/assembly"; the outputs must be
+/// empty and stay so on failure.
 clast_status clx_state_take_assembly(clx_h5 *h5, const char *folder, clast_assembly *assembly);
 clast_status clx_state_take_spheres(clx_h5 *h5, const char *folder, clast_spheres *spheres);
 clast_status clx_state_take_table(clx_h5 *h5, const char *folder, clast_table *table);

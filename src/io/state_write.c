@@ -40,7 +40,7 @@ done:
     return status;
 }
 
-clast_status clx_state_put_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres)
+static clast_status put_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(
@@ -85,7 +85,7 @@ static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape 
                             shape->mesh.tri));
     }
     if (shape->spheres.n > 0) {
-        CLX_TRY(clx_state_put_spheres(h5, folder, &shape->spheres));
+        CLX_TRY(put_spheres(h5, folder, &shape->spheres));
     }
     if (shape->parts.n > 0) {
         CLX_TRY(put_rigid(h5, folder, &shape->parts));
@@ -140,7 +140,7 @@ done:
     return status;
 }
 
-clast_status clx_state_put_assembly(clx_h5 *h5, const char *folder, const clast_assembly *assembly)
+static clast_status put_assembly(clx_h5 *h5, const char *folder, const clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -203,7 +203,7 @@ done:
     return status;
 }
 
-clast_status clx_state_put_table(clx_h5 *h5, const char *folder, const clast_table *table)
+static clast_status put_table(clx_h5 *h5, const char *folder, const clast_table *table)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_h5_write_folder(h5, folder));
@@ -245,15 +245,15 @@ clast_status clx_state_put(clx_h5 *h5, const clast_state *state)
         CLX_TRY(clx_h5_write_text(h5, "/", "config", state->config));
     }
     if (state->assembly != NULL) {
-        CLX_TRY(clx_state_put_assembly(h5, "/assembly", state->assembly));
+        CLX_TRY(put_assembly(h5, "/assembly", state->assembly));
     }
     for (int32_t i = 0; i < state->n_spheres; ++i) {
         CLX_TRY(name_part(h5, "/spheres", state->spheres[i].name, path));
-        CLX_TRY(clx_state_put_spheres(h5, path, &state->spheres[i].spheres));
+        CLX_TRY(put_spheres(h5, path, &state->spheres[i].spheres));
     }
     for (int32_t i = 0; i < state->n_table; ++i) {
         CLX_TRY(name_part(h5, "/table", state->table[i].name, path));
-        CLX_TRY(clx_state_put_table(h5, path, &state->table[i]));
+        CLX_TRY(put_table(h5, path, &state->table[i]));
     }
 done:
     return status;
@@ -315,7 +315,7 @@ clast_status clast_state_write_assembly(const clast_assembly *assembly, const ch
     if (config != NULL) {
         CLX_TRY(clx_h5_write_text(h5, "/", "config", config));
     }
-    CLX_TRY(clx_state_put_assembly(h5, "/assembly", assembly));
+    CLX_TRY(put_assembly(h5, "/assembly", assembly));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);
@@ -333,7 +333,7 @@ clast_status clast_state_write_spheres(const clast_spheres *spheres, const char 
     CLX_TRY(clx_h5_create(&h5));
     CLX_TRY(clx_state_put_head(h5, unit));
     CLX_TRY(name_part(h5, "/spheres", name, folder));
-    CLX_TRY(clx_state_put_spheres(h5, folder, spheres));
+    CLX_TRY(put_spheres(h5, folder, spheres));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);

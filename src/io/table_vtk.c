@@ -106,8 +106,9 @@ static clast_status find_grid(const clast_table *table, const clast_column *cons
             is_even = is_even && fabs(place[k]->number[i] - x) <= 1e-6 * g->step[k];
         }
     }
-    CLX_CHECK(is_even, CLAST_E_USAGE, "table '%s' is not a uniform grid, x fastest, of %" PRId64 " rows",
-              table->name, table->n_row);
+    CLX_CHECK(is_even, CLAST_E_USAGE,
+              "table '%s' is not a uniform grid, x fastest, of %" PRId64 " rows", table->name,
+              table->n_row);
 done:
     return status;
 }

@@ -168,7 +168,7 @@ clast_status clx_pack_contain(clast_pack *p)
     clast_mesh walls = {0};
     double low[3];
     double high[3];
-    p->tall = d->height;
+    p->height = d->height;
     if (mesh == NULL) {
         return clast_dem_create(d, &p->dem);
     }
@@ -179,17 +179,17 @@ clast_status clx_pack_contain(clast_pack *p)
               clx_unit_text(low[2], "m"));
     CLX_CHECK(!d->lid, CLAST_E_CONFIG, "a container has its own lid, or none: leave out lid");
     p->base = d->floor ? 0.0 : low[2];
-    p->tall = high[2] - p->base;
+    p->height = high[2] - p->base;
     d->domain = CLAST_DEM_OPEN;
     d->width = high[0] - low[0];
     d->depth = high[1] - low[1];
-    d->height = p->tall;
+    d->height = p->height;
     for (int k = 0; k < 2; ++k) {
         p->middle[k] = 0.5 * (low[k] + high[k]);
     }
     p->is_held = mesh->n_tri == p->input.container->n_tri;
     CLX_TRY(clast_dem_create(d, &p->dem));
-    CLX_TRY(walls_of(p->input.container, d->floor, p->tall, &walls));
+    CLX_TRY(walls_of(p->input.container, d->floor, p->height, &walls));
     CLX_TRY(clast_dem_add_container(p->dem, &walls));
     CLX_TRY(clast_bvh_create(mesh, &p->inside));
 done:

@@ -11,17 +11,18 @@ double clx_pack_fill_low(const clast_pack *p)
     if (c->dem.domain == CLAST_DEM_CELL) {
         return p->base;
     }
-    return p->base + p->tall * (p->n_fill == 0 && c->first_low >= 0.0 ? c->first_low : c->fill_low);
+    return p->base +
+           p->height * (p->n_fill == 0 && c->first_low >= 0.0 ? c->first_low : c->fill_low);
 }
 
 static double fill_high(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;
     if (c->dem.domain == CLAST_DEM_CELL) {
-        return p->base + p->tall;
+        return p->base + p->height;
     }
     return p->base +
-           p->tall * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
+           p->height * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
 }
 
 enum { LATTICE_LIMIT = 1 << 26 };

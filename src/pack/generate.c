@@ -286,7 +286,8 @@ clast_status clx_pack_check_draws(clast_pack *p)
     for (int64_t i = 0; mass < p->config.mass; ++i) {
         CLX_TRY(measure_draw(p, &all, i));
         CLX_CHECK(all.bounding_radius <= all.limit, CLAST_E_GEOMETRY,
-                  "grain %lld of this seed has a bounding diameter of %s, more than %s of %s; take a wider "
+                  "grain %lld of this seed has a bounding diameter of %s, more than %s of %s; take "
+                  "a wider "
                   "domain, or another seed if few grains are as large",
                   (long long)i, clx_unit_text(2.0 * all.bounding_radius, "m"),
                   d->domain == CLAST_DEM_CELL       ? "half the period, less the skin,"

@@ -43,12 +43,12 @@ double clx_pack_speed_limit(const clast_pack *p)
 {
     double low = 0.0;
     double high = 0.0;
-    double light = 0.0;
-    double heavy = 0.0;
+    double min_density = 0.0;
+    double max_density = 0.0;
     clast_grading_range(p->input.grading, &low, &high);
-    clx_pack_densities(p, &light, &heavy);
+    clx_pack_densities(p, &min_density, &max_density);
     const double r = 0.5 * low;
-    const double mass = heavy * 4.0 / 3.0 * CLAST_PI * r * r * r;
+    const double mass = max_density * 4.0 / 3.0 * CLAST_PI * r * r * r;
     double least = INFINITY;
     for (int32_t i = 0; i < p->dem->n_body; ++i) {
         for (int32_t k = 0; k < clx_n_law(p->dem); ++k) {

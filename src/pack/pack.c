@@ -77,32 +77,32 @@ static clast_status check_mass_fits(const clast_pack *p)
     const clast_pack_config *c = &p->config;
     const clast_bed bed = clast_pack_bed(p);
     const bool is_cell = c->dem.domain == CLAST_DEM_CELL;
-    const double edge[2] = {p->base, p->base + (is_cell ? 1.0 : c->fill_low) * p->tall};
+    const double edge[2] = {p->base, p->base + (is_cell ? 1.0 : c->fill_low) * p->height};
     double volume = 0.0;
-    double light = 0.0;
-    double heavy = 0.0;
-    CLX_CHECK(is_cell || p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
+    double min_density = 0.0;
+    double max_density = 0.0;
+    CLX_CHECK(is_cell || p->height / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
               "a height of %s is %g slices of %s (layer), a row of the profile each; at most %g: "
               "take a lower domain or a greater layer",
-              clx_unit_text(p->tall, "m"), p->tall / c->layer, clx_unit_text(c->layer, "m"),
+              clx_unit_text(p->height, "m"), p->height / c->layer, clx_unit_text(c->layer, "m"),
               MOST_SLICES);
     if (p->input.start == NULL) {
         CLX_TRY(clx_pack_check_densities(p));
     }
-    clx_pack_densities(p, &light, &heavy);
+    clx_pack_densities(p, &min_density, &max_density);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic, box or cell, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell || p->input.n_wall > 0, CLAST_E_CONFIG,
               "a packing needs a floor, or a wall instead of it");
     clast_bed_volumes(&bed, 1, edge, &volume);
     CLX_CHECK(
-        0.5 * heavy * volume >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
+        0.5 * max_density * volume >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
         "%s cannot fit: at a porosity of 0.5 the volume below z = %s, where grains are made "
         "(fill_low of height), takes %s; take a taller or wider domain, or a greater fill_low",
         clx_unit_text(c->mass, "kg"), clx_unit_text(edge[1], "m"),
-        clx_unit_text(0.5 * heavy * volume, "kg"));
-    CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
-              "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", light,
+        clx_unit_text(0.5 * max_density * volume, "kg"));
+    CLX_CHECK(min_density > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
+              "grains of %g kg/m^3 do not sink in a fluid of %g kg/m^3", min_density,
               c->dem.fluid_density);
 done:
     return status;
@@ -254,13 +254,13 @@ static double sinking_time(const clast_pack *p, double low)
                                    .gravity = d->gravity};
         const double g = d->gravity * (1.0 - d->fluid_density / m->density);
         clast_settling settling;
-        double time = g > 0.0 ? sqrt(2.0 * p->tall / g) : p->tall / p->config.initial_speed;
+        double time = g > 0.0 ? sqrt(2.0 * p->height / g) : p->height / p->config.initial_speed;
         if (p->dem->grain[i].position[2] + p->dem->grain[i].radius < low) {
             continue;
         }
         if (g > 0.0 && d->fluid_viscosity > 0.0 &&
             clast_terminal_velocity(size, m->density, &drag, &fluid, &settling) == CLAST_OK) {
-            time += p->tall / settling.velocity;
+            time += p->height / settling.velocity;
         }
         longest = fmax(longest, time);
     }
@@ -277,7 +277,7 @@ static clast_status check_waiting(clast_pack *p, double low)
     const double waited =
         (double)(clast_dem_n_step(p->dem) - p->fill_step) * p->config.dem.time_step;
     const double gravity = p->config.dem.gravity;
-    if (waited == 0.0 || (gravity > 0.0 && waited <= PATIENCE * sqrt(2.0 * p->tall / gravity))) {
+    if (waited == 0.0 || (gravity > 0.0 && waited <= PATIENCE * sqrt(2.0 * p->height / gravity))) {
         return CLAST_OK;
     }
     CLX_TRY(clx_dem_gather_grains(p->dem));
@@ -287,11 +287,12 @@ static clast_status check_waiting(clast_pack *p, double low)
               "initial_speed %s): no free space appears for the others",
               p->n_fill, clx_unit_text(low, "m"), gravity,
               clx_unit_text(p->config.initial_speed, "m/s"));
-    CLX_CHECK(waited <= PATIENCE * sinking, CLAST_E_CONVERGE,
-              "grains of fill %d still lie above %s after %s, %g times what sinking through the "
-              "height takes: the bed has grown into the region where grains are made; take a taller "
-              "or wider domain",
-              p->n_fill, clx_unit_text(low, "m"), clx_unit_text(waited, "s"), PATIENCE);
+    CLX_CHECK(
+        waited <= PATIENCE * sinking, CLAST_E_CONVERGE,
+        "grains of fill %d still lie above %s after %s, %g times what sinking through the "
+        "height takes: the bed has grown into the region where grains are made; take a taller "
+        "or wider domain",
+        p->n_fill, clx_unit_text(low, "m"), clx_unit_text(waited, "s"), PATIENCE);
 done:
     return status;
 }
@@ -564,10 +565,10 @@ int64_t clast_pack_expected_steps(const clast_pack *pack)
     if (pack->n_fill == 0 || pack->mass <= 0.0) {
         return c->max_steps;
     }
-    double light = 0.0;
-    double heavy = 0.0;
-    clx_pack_densities(pack, &light, &heavy);
-    const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / light));
+    double min_density = 0.0;
+    double max_density = 0.0;
+    clx_pack_densities(pack, &min_density, &max_density);
+    const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / min_density));
     const double drop = (c->fill_high - c->fill_low) * c->dem.height;
     const double u = c->initial_speed;
     const double fall = (sqrt(u * u + 2.0 * g * drop) - u) / g;

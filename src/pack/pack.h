@@ -45,11 +45,11 @@ struct clast_pack {
     double (*unit_size)[2]; ///< [n_shape] size and volume at scale 1
     double *weight;         ///< [n_shape] running sums, last 1
     double spacing;
-    clast_bvh *inside; ///< of the container, or NULL
-    bool is_held;      ///< the container is closed
-    double base, tall; ///< lowest height, and H above it
-    double middle[2];  ///< of the domain
-    double widest;     ///< greatest diameter of a grain's sphere over its size
+    clast_bvh *inside;   ///< of the container, or NULL
+    bool is_held;        ///< the container is closed
+    double base, height; ///< lowest height, and H above it
+    double middle[2];    ///< of the domain
+    double widest;       ///< greatest diameter of a grain's sphere over its size
     // what a checkpoint keeps beside the dem
     clast_pack_phase phase;
     int64_t n_made;

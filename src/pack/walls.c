@@ -110,7 +110,7 @@ clast_status clx_pack_walls_check(const clast_pack *p)
         CLX_TRY(clx_wall_stage_read(c, k, &p->input, &s));
         for (int32_t d = 0; d < s.n; ++d) {
             const double speed = s.drive[d].kind == CLX_WALL_SPEED     ? fabs(s.drive[d].aim)
-                                 : s.drive[d].kind == CLX_WALL_PRESSED ? c->load_rate * p->tall
+                                 : s.drive[d].kind == CLX_WALL_PRESSED ? c->load_rate * p->height
                                                                        : 0.0;
             CLX_CHECK(
                 speed <= limit, CLAST_E_CONFIG,
@@ -275,7 +275,7 @@ static double force_on(const clast_pack *p, const clast_pack_wall *wall, int32_t
 /// What a look finds: whether pressures are reached, one has come to `until`, the farthest way.
 typedef struct {
     bool is_reached, has_come;
-    double way;
+    double displacement;
     double pressure; ///< of the last wall that has a direction
 } look;
 
@@ -296,7 +296,7 @@ static clast_status press(clast_pack *p, const clast_pack_wall *wall, int32_t nu
                           double *speed)
 {
     clast_status status = CLAST_OK;
-    const double most = p->config.load_rate * p->tall;
+    const double most = p->config.load_rate * p->height;
     double springs = 0.0;
     CLX_TRY(clx_wall_stiffness(p->dem, number, wall->press, &springs));
     const double stiff = springs * WALL_TIME * p->config.dem.time_step;
@@ -323,7 +323,7 @@ static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k,
     const double area = area_of(p, wall);
     const double force = force_on(p, wall, number, &now);
     const bool has_direction = v3_norm2(wall->press) > 0.0;
-    out->way = fmax(out->way, v3_distance(now.offset, p->wall[number].begun));
+    out->displacement = fmax(out->displacement, v3_distance(now.offset, p->wall[number].begun));
     out->pressure = has_direction ? force / area : out->pressure;
     if (d->kind == CLX_WALL_PRESSED) {
         const double aim = d->is_force ? d->aim : d->aim * area;
@@ -396,7 +396,7 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
     } else if (s->end == CLX_UNTIL_STRESS) {
         *over = time > 0.0 && (s->until > 0.0 ? l->has_come : l->is_reached);
     } else if (s->end == CLX_UNTIL_WAY) {
-        *over = l->way >= s->until * (1.0 - 1e-12);
+        *over = l->displacement >= s->until * (1.0 - 1e-12);
     } else if (s->end == CLX_UNTIL_MASS) {
         *over = p->mass - p->mass_left <= s->until;
     }
@@ -404,7 +404,7 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
               "stage %d, '%s', has not come to its end in %s (max_load_time): pressure of its wall "
               "%s, farthest way of a wall %s, %s of grains inside",
               p->load.stage + 1, p->config.stages.item[p->load.stage], clx_unit_text(time, "s"),
-              clx_unit_text(l->pressure + 0.0, "Pa"), clx_unit_text(l->way, "m"),
+              clx_unit_text(l->pressure + 0.0, "Pa"), clx_unit_text(l->displacement, "m"),
               clx_unit_text(p->mass - p->mass_left, "kg"));
 done:
     return status;

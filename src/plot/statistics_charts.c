@@ -7,7 +7,6 @@
 #include "math/sort.h"
 #include "math/whole.h"
 #include "shape/whole.h"
-#include <clast/field.h>
 #include <clast/form.h>
 #include <clast/statistics.h>
 #include <math.h>
@@ -28,42 +27,23 @@ static void bounds(const double *x, int64_t n, double *low, double *high)
     }
 }
 
-/// The label with its unit in brackets: "diameter_mm" -> "diameter (mm)", "sieve size" -> "sieve
-/// size (model units)".
-static void bracket_unit(const char *label, char text[LABEL_SIZE])
-{
-    const char *line = strrchr(label, '_');
-    double metre = 0.0;
-    if (strchr(label, '(') != NULL) {
-        (void)snprintf(text, LABEL_SIZE, "%s", label);
-    } else if (line != NULL && clast_unit_factor(line + 1, "m", &metre) == CLAST_OK) {
-        (void)snprintf(text, LABEL_SIZE, "%.*s (%s)", (int)(line - label), label, line + 1);
-    } else {
-        (void)snprintf(text, LABEL_SIZE, "%s (model units)", label);
-    }
-}
-
-/// What lengths in metres are multiplied with, and their axis label then, for an axis "... (m)" up
-/// to `most`; 1 and the same label, with a unit, for all else.
-static double length_axis(const char *name, double most, char text[LABEL_SIZE])
+/// The unit that an axis up to `most` says: of metres a smaller one, with what takes them to it.
+static const char *axis_unit(const char *unit, double most, double *factor)
 {
     static const struct {
         double metre;
         const char *name;
     } units[] = {{1.0, "m"}, {1e-3, "mm"}, {1e-6, "\302\265m"}, {1e-9, "nm"}};
-    char label[LABEL_SIZE];
-    bracket_unit(name, label);
-    const size_t n = strlen(label);
     size_t k = 0;
-    (void)snprintf(text, LABEL_SIZE, "%s", label);
-    if (n < 4 || strcmp(label + n - 4, " (m)") != 0) {
-        return 1.0;
+    *factor = 1.0;
+    if (strcmp(unit, "m") != 0) {
+        return unit[0] != '\0' ? unit : "model units";
     }
     while (k + 1 < sizeof units / sizeof *units && most < units[k].metre) {
         ++k;
     }
-    (void)snprintf(text, LABEL_SIZE, "%.*s (%s)", (int)(n - 4), label, units[k].name);
-    return 1.0 / units[k].metre;
+    *factor = 1.0 / units[k].metre;
+    return units[k].name;
 }
 
 clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
@@ -84,7 +64,9 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
     if (set->size != NULL) {
         bounds(set->size, set->n, &low, &high);
         CLX_TRY(clx_alloc(&size, set->n, sizeof *size));
-        const double factor = length_axis(set->size_label, high, label);
+        double factor = 1.0;
+        const char *unit = axis_unit(set->size_unit, high, &factor);
+        (void)snprintf(label, sizeof label, "%s (%s)", set->size_name, unit);
         for (int64_t i = 0; i < set->n; ++i) {
             size[i] = factor * set->size[i];
         }
@@ -142,18 +124,17 @@ static void normal_curve(const clast_histogram *h, double x[N_CURVE], double y[N
     }
 }
 
-static clast_status draw_histogram(const clast_histogram *h, const char *label, const char *title,
-                                   const char *path)
+static clast_status draw_histogram(const clast_histogram *h, const char *label, const char *unit,
+                                   const char *title, const char *path)
 {
     char law[LABEL_SIZE];
-    char axis[2 * LABEL_SIZE] = "probability density";
+    char x_axis[2 * LABEL_SIZE];
+    char y_axis[LABEL_SIZE];
     double x[N_CURVE];
     double y[N_CURVE];
-    const char *unit = strrchr(label, '(');
-    if (unit != NULL && label[strlen(label) - 1] == ')') {
-        (void)snprintf(axis, sizeof axis, "probability density (%s%s",
-                       strcmp(unit, "(-)") == 0 ? "" : "1/", unit + 1);
-    }
+    (void)snprintf(x_axis, sizeof x_axis, "%s (%s)", label, unit);
+    (void)snprintf(y_axis, sizeof y_axis, "probability density (%s%s)",
+                   strcmp(unit, "-") == 0 ? "" : "1/", unit);
     const bool has_law = h->deviation_ml > 0.0 && h->n_bin > 1;
     (void)clx_number_print(law, sizeof law, "N(\316\274 = %.4g, \317\203 = %.4g)", h->mean,
                            h->deviation_ml);
@@ -169,8 +150,8 @@ static clast_status draw_histogram(const clast_histogram *h, const char *label, 
          .colour = 5},
         {.kind = CLAST_SERIES_LINE, .label = law, .x = x, .y = y, .n = N_CURVE, .colour = 1}};
     const clast_chart chart = {.title = title,
-                               .x = {.label = label},
-                               .y = {.label = axis},
+                               .x = {.label = x_axis},
+                               .y = {.label = y_axis},
                                .series = series,
                                .n_series = has_law ? 2 : 1};
     return clast_chart_write(&chart, path);
@@ -205,17 +186,18 @@ done:
     return status;
 }
 
-clast_status clast_chart_histogram(const double *x, int64_t n, const char *label, const char *path)
+clast_status clast_chart_histogram(const double *x, int64_t n, const char *label, const char *unit,
+                                   const char *path)
 {
-    CLX_ARGUMENTS(label, path);
+    CLX_ARGUMENTS(label, unit, path);
     CLX_ARRAY(x, n);
     clast_status status = CLAST_OK;
     clast_histogram h = {0};
     char title[LABEL_SIZE];
-    char shown[LABEL_SIZE];
+    double factor = 1.0;
     CLX_TRY(judge(x, n, title, sizeof title));
     CLX_TRY(clast_histogram_of(x, n, &h));
-    const double factor = length_axis(label, fabs(h.edge[h.n_bin]), shown);
+    const char *shown = axis_unit(unit, fabs(h.edge[h.n_bin]), &factor);
     for (int32_t k = 0; k <= h.n_bin; ++k) {
         h.edge[k] *= factor;
     }
@@ -224,7 +206,7 @@ clast_status clast_chart_histogram(const double *x, int64_t n, const char *label
     }
     h.mean *= factor;
     h.deviation_ml *= factor;
-    CLX_TRY(draw_histogram(&h, shown, title, path));
+    CLX_TRY(draw_histogram(&h, label, shown, title, path));
 done:
     clast_histogram_free(&h);
     return status;

@@ -77,10 +77,10 @@ static void add_contact(bed_chains *b, int64_t k)
     double force[3];
     double along = 0.0;
     for (int i = 2; i >= 0; --i) { // z first: it moves a sheared bed's images along x
-        const double way =
+        const double separation =
             c->point[i][k] - b->assembly->position[first][i] - (i == 0 ? along : 0.0);
-        const double image = b->period[i] > 0.0 ? floor(way / b->period[i] + 0.5) : 0.0;
-        arm[i] = way - b->period[i] * image;
+        const double image = b->period[i] > 0.0 ? floor(separation / b->period[i] + 0.5) : 0.0;
+        arm[i] = separation - b->period[i] * image;
         along = i == 2 ? image * b->shift : along;
         force[i] = c->force[i][k];
     }

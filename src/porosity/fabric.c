@@ -95,9 +95,9 @@ static bool sum_known(const clast_table *contacts, const char *const name[3], do
         return false;
     }
     for (int64_t c = 0; c < contacts->n_row; ++c) {
-        double way[3] = {x[c], y[c], z[c]};
-        if (b[c] >= 0.0 && v3_unit(way, way)) {
-            add_outer(tensor, 1.0, way);
+        double direction[3] = {x[c], y[c], z[c]};
+        if (b[c] >= 0.0 && v3_unit(direction, direction)) {
+            add_outer(tensor, 1.0, direction);
             ++n;
         }
     }

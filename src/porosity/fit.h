@@ -7,6 +7,10 @@ typedef struct clast_fit_data clast_fit_data;
 typedef struct clast_porosity_fit clast_porosity_fit;
 typedef struct clast_porosity_fit_config clast_porosity_fit_config;
 
+/// In the results of a study the index of exit_code, behind the last column that was varied; 0: the
+/// table is no study's.
+int32_t clx_fit_end_of_varied(const clast_table *beds);
+
 /// Beds with candidates, borrowed: all of a fit, or a part of them.
 typedef struct clx_fit_sample {
     int64_t n; ///< beds

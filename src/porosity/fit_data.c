@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "porosity/fit.h"
 #include "porosity/form_inputs.h"
 #include "porosity/unit_columns.h"
 #include <math.h>
@@ -267,6 +268,9 @@ clast_status clast_fit_data_mixture(const clast_table *beds, const clast_table *
         (void)clast_mixture_feature_name(f, sizeof name, name);
         CLX_TRY(clast_table_add_number(&d.beds, name, "-", &unused));
     }
+    if (strcmp(m.set.unread_count, config->group) != 0) {
+        (void)snprintf(d.unread_count, sizeof d.unread_count, "%s", m.set.unread_count);
+    }
     for (int64_t row = 0; row < beds->n_row; ++row) {
         CLX_TRY(mixture_row(&m, row, &d, &n));
     }
@@ -327,6 +331,12 @@ done:
     return status;
 }
 
+int32_t clx_fit_end_of_varied(const clast_table *beds)
+{
+    const int32_t code = clast_table_find(beds, "exit_code");
+    return clast_table_find(beds, "run") == 0 && code > 0 ? code : 0;
+}
+
 /// Candidates: those of `columns`; else those of `use` with all but the target and the column that
 /// names the bed, in a study's table with what was varied: its runs' other results, from exit_code
 /// on, are measured with the porosity, not known before, and the seed of random numbers says
@@ -335,9 +345,7 @@ static bool is_candidate(const clast_table *beds, int32_t c,
                          const clast_porosity_fit_config *config)
 {
     const clast_column *column = &beds->column[c];
-    const int32_t run = clast_table_find(beds, "run");
-    const int32_t code = clast_table_find(beds, "exit_code");
-    const bool is_study = run == 0 && code > run;
+    const int32_t end = clx_fit_end_of_varied(beds);
     if (column->number == NULL || strcmp(column->name, config->target) == 0) {
         return false;
     }
@@ -347,8 +355,8 @@ static bool is_candidate(const clast_table *beds, int32_t c,
     if (is_listed(config->use, column->name)) {
         return true;
     }
-    return is_study ? c > run && c < code && strcmp(column->name, "seed") != 0
-                    : strcmp(column->name, config->group) != 0;
+    return end > 0 ? c > 0 && c < end && strcmp(column->name, "seed") != 0
+                   : strcmp(column->name, config->group) != 0;
 }
 
 /// Whether a row without a value in this column is left out: with features named, theirs alone.

@@ -37,7 +37,7 @@ static clast_status read_input(const clast_porosity_model *model, const clast_fo
               model->name, name);
     CLX_CHECK(!(isnan(*value) && is_spread), CLAST_E_FORMAT,
               "model %s: '%s' has no value for these grains: that factor does not vary or is not "
-              "defined",
+              "defined; the single-form model needs no spread",
               model->name, name);
     CLX_CHECK(!isnan(*value), CLAST_E_FORMAT, "model %s: '%s' cannot be had from %s", model->name,
               name,
@@ -64,7 +64,13 @@ static clast_status model_values(const clast_porosity_model *model, const clast_
               "model %s takes columns of a table, not forms", model->name);
     CLX_TRY(clx_alloc(&found, (int64_t)model->n_term + model->n_range, sizeof *found));
     for (int32_t k = 0; k < model->n_term; ++k) {
-        CLX_TRY(read_input(model, inputs, model->term[k].feature, &found[k]));
+        const clast_model_term *term = &model->term[k];
+        if (term->coefficient == 0.0 && model->covariance == NULL && inputs->has_deviation &&
+            isnan(feature_value(model, inputs, term->feature))) {
+            found[k] = 0.0; // the equation as printed does not have it
+        } else {
+            CLX_TRY(read_input(model, inputs, term->feature, &found[k]));
+        }
     }
     for (int32_t k = 0; k < model->n_range; ++k) {
         CLX_TRY(read_input(model, inputs, model->range[k].feature, &found[model->n_term + k]));

@@ -2,18 +2,13 @@
 #include "porosity/unit_columns.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/number.h"
 #include "base/status.h"
 #include <clast/field.h>
 #include <math.h>
 #include <string.h>
 #include <strings.h>
-
-/// SI units of the dimensions that clast_unit_parse knows.
-static const char *const dimension[] = {
-    "-",     "m",   "m^2",   "m^3",    "1/m", "rad",  "rad/s", "kg",    "s",
-    "1/s",   "m/s", "m/s^2", "kg/m^3", "Pa",  "Pa s", "K",     "m^2/s", "m^2/s^3",
-    "m^3/s", "J",   "J/m^2", "J/m^3",  "N",   "N/m",  "1/m^3", "B"};
 
 static bool is_missing(const char *cell)
 {
@@ -37,12 +32,8 @@ static const char *unit_of(const clast_column *column, int64_t n_row)
     while (i < n_row && (is_missing(column->text[i]) || !has_unit(column->text[i]))) {
         ++i;
     }
-    for (size_t k = 0; i < n_row && k < sizeof dimension / sizeof dimension[0]; ++k) {
-        if (clast_unit_parse_asked(column->text[i], dimension[k], &unused) == CLAST_OK) {
-            return dimension[k];
-        }
-    }
-    return NULL;
+    const char *unit = NULL;
+    return i < n_row && clx_unit_is_number(column->text[i], &unused, &unit) ? unit : NULL;
 }
 
 /// Numbers of all cells, or false: one of them is none of this unit.

@@ -13,8 +13,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096 };
-
 /// The table that a chart is drawn from, or NULL when the run does not have it.
 static const clast_table *source_of(const clx_run *run, clast_aggregate_chart chart)
 {
@@ -176,7 +174,7 @@ static bool is_picture(const clx_run *run, const char *name)
 static clast_status put_picture(clx_file *file, const clx_run *run, const char *name, int64_t *left)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     char *bytes = NULL;
     int64_t n = 0;
     CLX_TRY(clx_run_path(run, name, path, sizeof path));

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/path.h"
 #include "io/points.h"
 #include "report/run.h"
 #include <clast/shape.h>
@@ -12,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 4096, NAME_SIZE = 64, MOST_FRAMES = 240, BYTE_BUDGET = 12000000 };
+enum { NAME_SIZE = 64, MOST_FRAMES = 240, BYTE_BUDGET = 12000000 };
 
 /// Bytes a grain takes on the page; with its own number, shape and scale, which the end does not
 /// tell.
@@ -69,8 +70,8 @@ static clast_status list_entries(const clx_run *run, entry **list, int64_t *n)
     static const char time_mark[] = "timestep=\"";
     static const char file_mark[] = "file=\"";
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
-    char file[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
+    char file[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t capacity = 0;
     int64_t n_entry = 0;
@@ -253,7 +254,7 @@ static clast_status read_frame(const clx_run *run, const entry *e, const clast_a
                                const named *list, clx_frame *frame, bool *has_poses)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     clast_table table = {0};
     clast_table names = {0};
     int32_t *shape = NULL;

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "report/page.h"
 #include <clast/assembly.h>
+#include <clast/report.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -243,6 +244,11 @@ clx_quantity clx_quantity_of(const char *key, const char *place)
     }
     q.unit = unit != NULL ? unit : "";
     return q;
+}
+
+const char *clast_report_unit(const char *key)
+{
+    return key != NULL ? clx_quantity_of(key, NULL).unit : "";
 }
 
 void clx_quantity_put_label(clx_file *file, const char *key, const char *place)

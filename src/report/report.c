@@ -38,7 +38,7 @@ const clast_field clast_report_fields[] = {
 };
 #undef FIELD
 
-enum { PATH_SIZE = 4096, TITLE_SIZE = 512 };
+enum { TITLE_SIZE = 512 };
 
 static bool has_view(const clx_run *run, const clast_report_config *config)
 {
@@ -106,7 +106,7 @@ static const char *word_of(const clx_run *run, const char *key)
 static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     clast_state state = {0};
     const bool is_part = strcmp(word_of(run, "command"), "evolve") == 0;
     CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
@@ -180,7 +180,7 @@ static void note_code(outcomes *o, double code)
 static bool is_taken(const clx_run *run, int64_t row)
 {
     char name[48];
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     (void)snprintf(name, sizeof name, "runs/%06" PRId64, row + 1);
     return clx_run_path(run, name, path, sizeof path) == CLAST_OK && clx_lock_is_held(path);
 }
@@ -416,7 +416,7 @@ clast_status clast_report_write_run(const char *folder, const char *place)
     CLX_ARGUMENTS(folder);
     clast_status status = CLAST_OK;
     clast_report_config config = {0};
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     const int n = snprintf(path, sizeof path, "%s/report.html", folder);
     if (n < 0 || n >= (int)sizeof path) {
         return clx_fail(CLAST_E_DISK, "the path of folder %.40s... is too long", folder);

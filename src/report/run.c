@@ -11,7 +11,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { PATH_SIZE = 4096, MAX_TABLE = 24 };
+enum { MAX_TABLE = 24 };
 static const int64_t JSON_LIMIT = (int64_t)64 << 20;
 
 void clx_run_free(clx_run *run)
@@ -94,7 +94,7 @@ static void keep_seed(const char *text, json_t *object)
 static clast_status read_object(const clx_run *run, const char *file, json_t **object)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     json_error_t error;
@@ -122,7 +122,7 @@ done:
 static clast_status read_tables(clx_run *run)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     for (int32_t i = 0; i < run->files.n && run->n_table < MAX_TABLE; ++i) {
         const char *file = run->files.name[i];
         if (!clx_path_is(file, "csv")) {

@@ -4,13 +4,14 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "report/run.h"
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { PATH_SIZE = 4096, TEXT_SIZE = 512, MANIFEST_LIMIT = 64 << 20 };
+enum { TEXT_SIZE = 512, MANIFEST_LIMIT = 64 << 20 };
 
 /// Digits, letters and signs as in "0.1.0-rc1": what is shown of files from strangers.
 static bool is_version(const char *text)
@@ -25,14 +26,14 @@ static bool is_version(const char *text)
 static clast_status count_version(const clx_run *run, int64_t number, json_t *versions)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     json_t *manifest = NULL;
     struct stat found;
     const int length = snprintf(path, sizeof path, "%s/runs/%06lld/out/manifest.json", run->path,
                                 (long long)number);
-    if (length < 0 || length >= PATH_SIZE || stat(path, &found) != 0) {
+    if (length < 0 || length >= CLX_PATH_LIMIT || stat(path, &found) != 0) {
         return CLAST_OK;
     }
     CLX_TRY(clx_file_read_all(path, MANIFEST_LIMIT, &text, &n));

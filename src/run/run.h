@@ -49,6 +49,9 @@ bool clx_run_owns(const clx_run_state *state, const char *name);
 CLX_SHARED clast_status clx_run_folder_resume(const char *folder, const char *command,
                                               const clast_monitor *monitor, clast_run_folder **run);
 
+/// Whether a file that is there is part of a run or a study (clast_run_folder_check_output).
+bool clx_run_folder_owns(const char *path);
+
 /// The files are whole: manifest.json says so and lists them. What is written after that (a page
 /// that reads the run) is no output of it; the end still has to follow.
 CLX_SHARED clast_status clx_run_folder_seal(clast_run_folder *run);

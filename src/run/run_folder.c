@@ -550,7 +550,7 @@ static bool study_owns(const char *name)
     return false;
 }
 
-bool clast_run_folder_owns(const char *path)
+bool clx_run_folder_owns(const char *path)
 {
     enum { ABOVE = 3 }; // repeat-0001/frames/frame-000001.vtu
     bool is_owned = false;

@@ -140,7 +140,7 @@ static clast_status errors_now(const clx_fill *fill, const clx_fill_sums *sums,
         CLX_TRY(clx_ball_set_spheres(&fill->balls, &spheres));
         CLX_TRY(clx_spheres_union_mass(&spheres, &mass));
     }
-    clx_fill_errors(&fill->mass, &mass, now);
+    clx_fill_errors(&fill->mass, &mass, sums->outside, now);
 done:
     clast_spheres_free(&spheres);
     return status;
@@ -156,8 +156,12 @@ static const clx_fill_strategy *strategy_of(const clast_fill_config *c)
 
 static clast_status place(clx_fill *fill, const double ball[4], clx_fill_sums *sums)
 {
+    const clast_fill_config *c = fill->config;
+    if (c->filled > 0.0 && (c->protrusion > 0.0 || c->strategy == CLAST_FILL_PUBLISHED)) {
+        sums->outside += clx_fill_outside(fill, c->overlap ? &fill->balls : NULL, ball, ball[3]);
+    }
     clx_fill_sums_add(sums, ball, ball[3]);
-    clx_monitor_report(fill->monitor, "fill", fill->balls.n + 1, fill->config->spheres);
+    clx_monitor_report(fill->monitor, "fill", fill->balls.n + 1, c->spheres);
     return clx_ball_set_add(&fill->balls, ball, ball[3]);
 }
 

@@ -43,19 +43,28 @@ clast_status clx_fill_poll(const clx_fill *fill);
 clast_status clx_fill_open(const clast_mesh *mesh, bool allow_open, clx_fill *fill);
 void clx_fill_free(clx_fill *fill);
 
-/// Sums over spheres that do not overlap, about an origin: volume, first and second moments.
+/// Sums over spheres that do not overlap, about an origin: volume, first and second moments; and
+/// what lies outside the solid.
 typedef struct clx_fill_sums {
     double origin[3];
     double volume;
     double first[3];
     double second[3][3]; ///< integral of x x^T
+    double outside;      ///< volume, by clx_fill_outside; of all spheres, overlap or not
 } clx_fill_sums;
 
 void clx_fill_sums_add(clx_fill_sums *sums, const double centre[3], double radius);
 clast_mass clx_fill_sums_mass(const clx_fill_sums *sums);
 
-/// The four errors of a body `made` that should be `wanted`, into the report.
-void clx_fill_errors(const clast_mass *wanted, const clast_mass *made, clast_fill_report *report);
+/// Volume of a sphere outside the solid and in none of the spheres `before` it (NULL: apart from
+/// all); 0 where it does not protrude.
+double clx_fill_outside(const clx_fill *fill, const clx_ball_set *before, const double centre[3],
+                        double radius);
+
+/// The shares and errors of a body `made` that should be `wanted`, of which a volume is outside,
+/// into the report.
+void clx_fill_errors(const clast_mass *wanted, const clast_mass *made, double outside,
+                     clast_fill_report *report);
 
 /// All measures of a sphere set that the report holds.
 clast_status clx_fill_measure(const clx_fill *fill, const clast_spheres *spheres,

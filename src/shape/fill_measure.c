@@ -17,6 +17,8 @@
 static const double OVERLAP_LIMIT = 1e-9;
 static const double PROTRUSION_LIMIT = 1e-6;
 enum { SURFACE_POINTS = 4096 };
+/// Points that tell how much of a shell is outside: so many in a volume as large as the solid's.
+enum { SOLID_POINTS = 200000, LEAST_POINTS = 64, MOST_POINTS = 2000000 };
 
 void clx_fill_sums_add(clx_fill_sums *sums, const double centre[3], double radius)
 {
@@ -51,7 +53,8 @@ clast_mass clx_fill_sums_mass(const clx_fill_sums *sums)
     return mass;
 }
 
-void clx_fill_errors(const clast_mass *wanted, const clast_mass *made, clast_fill_report *report)
+void clx_fill_errors(const clast_mass *wanted, const clast_mass *made, double outside,
+                     clast_fill_report *report)
 {
     double difference = 0.0;
     double size = 0.0;
@@ -65,8 +68,9 @@ void clx_fill_errors(const clast_mass *wanted, const clast_mass *made, clast_fil
     }
     report->solid_volume = wanted->volume;
     report->sphere_volume = made->volume;
-    report->filled_fraction = made->volume / wanted->volume;
-    report->volume_error = fabs(report->filled_fraction - 1.0);
+    report->filled_fraction = fmax(0.0, made->volume - outside) / wanted->volume;
+    report->outside_fraction = outside / wanted->volume;
+    report->volume_error = fabs(made->volume / wanted->volume - 1.0);
     report->centroid_error =
         v3_distance(made->centroid, wanted->centroid) / cbrt(6.0 * wanted->volume / CLAST_PI);
     report->inertia_error = sqrt(difference / size);
@@ -112,27 +116,87 @@ done:
     return status;
 }
 
-/// Share of its radius by which a sphere leaves the surface, at least 0.
-static double protrusion_of(const clx_fill *fill, const double centre[3], double radius)
+/// Distance of a sphere's centre to the surface, at most the radius; negative outside.
+static double depth_of(const clx_fill *fill, const double centre[3], double radius)
 {
     const bool inside = clx_fill_field_inside(&fill->field, centre);
     // inside, only a surface nearer than the radius matters: a short search
     const double max_distance = inside ? radius : (double)INFINITY;
     const double d = clx_fill_field_closest(&fill->field, centre, max_distance, NULL);
-    if (inside) {
-        return d < radius ? (radius - d) / radius : 0.0;
-    }
-    return (radius + d) / radius;
+    return inside ? fmin(d, radius) : -d;
 }
 
-static void measure_protrusion(const clx_fill *fill, const clast_spheres *s,
-                               clast_fill_report *report)
+/// The next one of points spread evenly in the unit ball: the R3 sequence [Roberts2018] in its
+/// cube.
+static double ball_point(int64_t *i, double point[3])
 {
-    for (int32_t i = 0; i < s->n; ++i) {
-        const double protrusion = protrusion_of(fill, s->centre[i], s->radius[i]);
-        report->max_protrusion = fmax(report->max_protrusion, protrusion);
-        report->n_protruding += protrusion > PROTRUSION_LIMIT;
+    static const double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    double r2 = 0.0;
+    do {
+        for (int k = 0; k < 3; ++k) {
+            const double x = 0.5 + step[k] * (double)*i;
+            point[k] = 2.0 * (x - floor(x)) - 1.0;
+        }
+        r2 = v3_norm2(point);
+        ++*i;
+    } while (r2 > 1.0 || r2 == 0.0);
+    return sqrt(r2);
+}
+
+static bool holds(const clx_ball_set *set, const double point[3])
+{
+    int32_t nearest = -1;
+    return set != NULL && clx_ball_set_distance(set, 0, point, 0.0, &nearest) < 0.0;
+}
+
+// The core, which reaches from the centre to the nearest surface, is on one side of it. Points in
+// the shell around it find the share outside. A point in several spheres counts in their first.
+double clx_fill_outside(const clx_fill *fill, const clx_ball_set *before, const double centre[3],
+                        double radius)
+{
+    const double depth = depth_of(fill, centre, radius);
+    if (radius - depth <= PROTRUSION_LIMIT * radius) {
+        return 0.0;
     }
+    const double volume = 4.0 / 3.0 * CLAST_PI * radius * radius * radius;
+    const double edge = depth < 0.0 && before != NULL ? 0.0 : fmin(fabs(depth) / radius, 1.0);
+    const double core = edge * edge * edge;
+    const double share = (1.0 - core) * volume / fill->mass.volume;
+    const int64_t n = LEAST_POINTS + (int64_t)fmin(SOLID_POINTS * share, MOST_POINTS);
+    int64_t at = 0;
+    int64_t n_out = 0;
+    for (int64_t i = 0; i < n; ++i) {
+        double point[3];
+        const double r = ball_point(&at, point);
+        const double stretch = cbrt(core + (1.0 - core) * r * r * r) / r; // ball to shell, evenly
+        v3_axpy(point, centre, radius * stretch, point);
+        n_out += !clx_fill_field_inside(&fill->field, point) && !holds(before, point);
+    }
+    return volume * ((depth < 0.0 ? core : 0.0) + (1.0 - core) * (double)n_out / (double)n);
+}
+
+/// How far spheres protrude, and their volume outside.
+static clast_status measure_protrusion(const clx_fill *fill, const clast_spheres *s,
+                                       clast_fill_report *report, double *outside)
+{
+    clast_status status = CLAST_OK;
+    clx_ball_set before = {.scale = fill->field.scale};
+    const bool apart = report->max_overlap <= OVERLAP_LIMIT;
+    v3_copy(before.middle, fill->field.middle);
+    *outside = 0.0;
+    for (int32_t i = 0; i < s->n; ++i) {
+        const double radius = s->radius[i];
+        const double protrusion = (radius - depth_of(fill, s->centre[i], radius)) / radius;
+        report->max_protrusion = fmax(report->max_protrusion, protrusion);
+        if (protrusion > PROTRUSION_LIMIT) {
+            ++report->n_protruding;
+            *outside += clx_fill_outside(fill, apart ? NULL : &before, s->centre[i], radius);
+        }
+        CLX_TRY(clx_ball_set_add(&before, s->centre[i], radius));
+    }
+done:
+    clx_ball_set_free(&before);
+    return status;
 }
 
 void clx_fill_spread_free(clx_fill_spread *spread)
@@ -282,6 +346,7 @@ clast_status clx_fill_measure(const clx_fill *fill, const clast_spheres *spheres
 {
     clast_status status = CLAST_OK;
     clast_mass mass;
+    double outside = 0.0;
     clast_fill_report made = {.n_sphere = spheres->n,
                               .n_placed = spheres->n,
                               .n_open_edge = fill->solid.n_open_edge,
@@ -289,8 +354,8 @@ clast_status clx_fill_measure(const clx_fill *fill, const clast_spheres *spheres
     CLX_TRY(check_spheres(spheres));
     CLX_TRY(greatest_overlap(spheres, &made.max_overlap));
     CLX_TRY(mass_of(fill, spheres, made.max_overlap <= OVERLAP_LIMIT, &mass));
-    clx_fill_errors(&fill->mass, &mass, &made);
-    measure_protrusion(fill, spheres, &made);
+    CLX_TRY(measure_protrusion(fill, spheres, &made, &outside));
+    clx_fill_errors(&fill->mass, &mass, outside, &made);
     CLX_TRY(measure_deviation(fill, spheres, &made));
     CLX_TRY(measure_radii(spheres, &made));
     *report = made;
@@ -326,6 +391,7 @@ clast_status clast_fill_history(const clast_mesh *mesh, const clast_spheres *sph
     clast_status status = CLAST_OK;
     clx_fill fill = {0};
     clx_fill_sums sums = {0};
+    clx_ball_set before = {0};
     clast_table made = {0};
     double overlap = 0.0;
     CLX_TRY(check_spheres(spheres));
@@ -337,15 +403,20 @@ clast_status clast_fill_history(const clast_mesh *mesh, const clast_spheres *sph
         CLX_TRY(clast_table_add_number(&made, names[k], k == 1 ? "model" : "-", &column));
     }
     v3_copy(sums.origin, fill.mass.centroid);
+    v3_copy(before.middle, fill.field.middle);
+    before.scale = fill.field.scale;
     for (int32_t i = 0; i < spheres->n; ++i) {
         const clast_spheres part = {i + 1, spheres->centre, spheres->radius};
         clast_fill_report now;
         clx_fill_sums_add(&sums, spheres->centre[i], spheres->radius[i]);
+        sums.outside += clx_fill_outside(&fill, overlap > OVERLAP_LIMIT ? &before : NULL,
+                                         spheres->centre[i], spheres->radius[i]);
+        CLX_TRY(clx_ball_set_add(&before, spheres->centre[i], spheres->radius[i]));
         clast_mass mass = clx_fill_sums_mass(&sums);
         if (overlap > OVERLAP_LIMIT) {
             CLX_TRY(clx_spheres_union_mass(&part, &mass));
         }
-        clx_fill_errors(&fill.mass, &mass, &now);
+        clx_fill_errors(&fill.mass, &mass, sums.outside, &now);
         const double row[6] = {i + 1.0,          spheres->radius[i], now.filled_fraction,
                                now.volume_error, now.centroid_error, now.inertia_error};
         for (int k = 0; k < 6; ++k) {
@@ -356,6 +427,7 @@ clast_status clast_fill_history(const clast_mesh *mesh, const clast_spheres *sph
     made = (clast_table){0};
 done:
     clast_table_free(&made);
+    clx_ball_set_free(&before);
     clx_fill_free(&fill);
     return status;
 }

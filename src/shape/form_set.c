@@ -5,8 +5,8 @@
 #include "base/column_unit.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "shape/size_column.h"
 #include "shape/whole.h"
-#include <clast/field.h>
 #include <clast/form.h>
 #include <clast/table.h>
 #include <ctype.h>
@@ -45,8 +45,8 @@ const char *clast_row_fault_text(clast_row_fault fault)
     return (unsigned)fault < CLAST_N_ROW_FAULT ? text[fault] : "unknown";
 }
 
-/// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
-static void plain_name(const clast_column *column, char plain[NAME_SIZE])
+/// How much of a column's name stands before its unit: "Minor Axis Length (um)", "L_mm".
+static int plain_length(const clast_column *column)
 {
     char told[CLX_COLUMN_UNIT];
     size_t n = strcspn(column->name, "([");
@@ -58,8 +58,14 @@ static void plain_name(const clast_column *column, char plain[NAME_SIZE])
         strncmp(column->name + n - unit, told, unit) == 0) {
         n -= unit + 1;
     }
-    n = n < NAME_SIZE - 1 ? n : NAME_SIZE - 1;
-    for (size_t i = 0; i < n; ++i) {
+    return (int)(n < NAME_SIZE - 1 ? n : NAME_SIZE - 1);
+}
+
+/// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
+static void plain_name(const clast_column *column, char plain[NAME_SIZE])
+{
+    const int n = plain_length(column);
+    for (int i = 0; i < n; ++i) {
         const char c = column->name[i];
         plain[i] = c == ' ' || c == '-' ? '_' : (char)tolower((unsigned char)c);
     }
@@ -307,9 +313,8 @@ void clast_form_set_free(clast_form_set *set)
     *set = (clast_form_set){0};
 }
 
-/// "sieve size (mm)" of lengths and of columns that say so, "diameter (mm)" of others in phi, else
-/// the column's own name.
-static void label_size(const clast_table *table, const roles *r, clast_form_set *s)
+/// "sieve size" of lengths and of columns that say so, else the column's own name; in its unit.
+static void name_size(const clast_table *table, const roles *r, clast_form_set *s)
 {
     char plain[NAME_SIZE] = "";
     const int role = r->by_length ? SHORT : SIZE;
@@ -317,17 +322,49 @@ static void label_size(const clast_table *table, const roles *r, clast_form_set 
     if (c < 0) {
         return;
     }
-    const bool has_unit = r->unit[role].metre > 0.0;
-    const char *unit = r->mixes_units ? "m" : r->unit[role].unit;
-    plain_name(&table->column[c], plain);
-    if (r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0) {
-        (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",
-                       has_unit ? " (" : "", unit, has_unit ? ")" : "");
-    } else if (r->unit[role].is_phi) { // its own name says phi, its numbers are in mm
-        (void)snprintf(s->size_label, sizeof s->size_label, "%.50s (mm)", plain);
-    } else {
-        (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[c].name);
+    const clast_column *column = &table->column[c];
+    plain_name(column, plain);
+    s->is_sieve_size = r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0;
+    (void)snprintf(s->size_name, sizeof s->size_name, "%.*s",
+                   s->is_sieve_size ? NAME_SIZE : plain_length(column),
+                   s->is_sieve_size ? "sieve size" : column->name);
+    if (r->unit[role].metre > 0.0) {
+        (void)snprintf(s->size_unit, sizeof s->size_unit, "%.15s",
+                       r->mixes_units ? "m" : r->unit[role].unit);
     }
+}
+
+/// Numbers of grains or masses, some of which are not 1: they are not looked at.
+static void find_count(const clast_table *table, const roles *r, clast_form_set *s)
+{
+    for (int32_t c = 0; c < table->n_column && s->unread_count[0] == '\0'; ++c) {
+        const clast_column *column = &table->column[c];
+        int64_t row = 0;
+        for (int k = 0; k < N_ROLE; ++k) {
+            row = r->at[k] == c ? table->n_row : row;
+        }
+        if (column->number == NULL || clx_size_column_of(column->name) == CLX_SIZE_COLUMN_OTHER) {
+            continue;
+        }
+        while (row < table->n_row && column->number[row] == 1.0) {
+            ++row;
+        }
+        if (row < table->n_row) {
+            (void)snprintf(s->unread_count, sizeof s->unread_count, "%s", column->name);
+        }
+    }
+}
+
+/// Whether the first row has no form for a decimal comma.
+static bool has_comma(const clast_table *table, const roles *r)
+{
+    const int32_t *const at = &r->at[r->by_length ? LONG : FLATNESS];
+    bool has = false;
+    for (int k = 0; k < (r->by_length ? 3 : 2) && table->n_row > 0; ++k) {
+        const clast_column *column = &table->column[at[k]];
+        has = has || (column->text != NULL && clx_number_has_comma(column->text[0]));
+    }
+    return has;
 }
 
 /// The size of a row; NAN where it is missing, infinite or not positive: its form is known all the
@@ -340,21 +377,6 @@ static double size_of(const clast_table *table, const roles *r, int64_t row, dou
     return fault == CLAST_N_ROW_FAULT ? size : (double)NAN;
 }
 
-/// Column of the sizes, with their unit where that is known: "size_mm".
-static void size_name(const clast_form_set *set, char name[NAME_SIZE])
-{
-    const char *open = strrchr(set->size_label, '(');
-    const char *line = strrchr(set->size_label, '_');
-    const char *start = open != NULL ? open : line;
-    char unit[16] = "";
-    double factor = 0.0;
-    if (start != NULL) {
-        (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(start + 1, ")"), start + 1);
-    }
-    const bool is_length = unit[0] != '\0' && clast_unit_factor(unit, "m", &factor) == CLAST_OK;
-    (void)snprintf(name, NAME_SIZE, "size%s%s", is_length ? "_" : "", is_length ? unit : "");
-}
-
 clast_status clast_form_set_of(const clast_table *table, const char *columns, clast_form_set *set)
 {
     CLX_ARGUMENTS(table, set);
@@ -364,7 +386,8 @@ clast_status clast_form_set_of(const clast_table *table, const char *columns, cl
     roles r;
     CLX_TRY(find_roles(table, columns, &r));
     CLX_TRY(alloc_set(table->n_row, r.by_length || r.at[SIZE] >= 0, &s));
-    label_size(table, &r, &s);
+    name_size(table, &r, &s);
+    find_count(table, &r, &s);
     for (int64_t row = 0; row < table->n_row; ++row) {
         double sieve = NAN;
         const clast_row_fault fault =
@@ -379,9 +402,10 @@ clast_status clast_form_set_of(const clast_table *table, const char *columns, cl
         }
         s.row[s.n++] = row;
     }
-    CLX_CHECK(s.n > 0, CLAST_E_FORMAT, "table %s: none of its %lld rows has a form%s%s",
+    CLX_CHECK(s.n > 0, CLAST_E_FORMAT, "table %s: none of its %lld rows has a form%s%s%s",
               table->name, (long long)table->n_row, table->n_row > 0 ? "; row 1 is " : "",
-              table->n_row > 0 ? clast_row_fault_text(s.left_out[0].fault) : "");
+              table->n_row > 0 ? clast_row_fault_text(s.left_out[0].fault) : "",
+              has_comma(table, &r) ? "; a decimal comma? write 0.5, not 0,5" : "");
     *set = s;
     s = (clast_form_set){0};
 done:
@@ -438,6 +462,19 @@ void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text
     put_rows(set, text, size, used);
 }
 
+const char *clast_form_set_count_words(const clast_form_set *set, size_t size, char *text)
+{
+    if (set == NULL || text == NULL || size == 0) {
+        return "";
+    }
+    text[0] = '\0';
+    if (set->unread_count[0] != '\0') {
+        (void)snprintf(text, size, "column '%s' is not looked at: each row is one grain",
+                       set->unread_count);
+    }
+    return text;
+}
+
 clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table)
 {
     CLX_ARGUMENTS(set, table);
@@ -456,8 +493,9 @@ clast_status clast_form_set_factors(const clast_form_set *set, clast_table *tabl
     }
     if (set->size != NULL) {
         char name[NAME_SIZE];
-        size_name(set, name);
-        CLX_TRY(clast_table_add_number(&t, name, name[4] == '_' ? name + 5 : "-", &column));
+        const bool has_unit = set->size_unit[0] != '\0';
+        (void)snprintf(name, sizeof name, "size%s%s", has_unit ? "_" : "", set->size_unit);
+        CLX_TRY(clast_table_add_number(&t, name, has_unit ? set->size_unit : "-", &column));
         memcpy(column, set->size, (size_t)set->n * sizeof *column);
     }
     *table = t;

@@ -57,6 +57,16 @@ static clast_status sorted_grains(const clast_grading_sample *sample, grain **ou
     return status;
 }
 
+/// Greatest difference of a law's running share from those of the grains, just before and at a
+/// size; laws and grains jump there.
+static double apart(double (*share)(const clast_grading *, double), const clast_grading *grading,
+                    double size, double before, double up_to)
+{
+    return grading == NULL ? (double)NAN
+                           : fmax(fabs(share(grading, nextafter(size, 0.0)) - before),
+                                  fabs(share(grading, size) - up_to));
+}
+
 /// Greatest differences of the running shares, just before and at each size, and sizes at shares.
 static void follow(const clast_curve *curve, const clast_grading *grading, int64_t n,
                    const grain *sorted, double total, clast_grading_match *match)
@@ -67,20 +77,20 @@ static void follow(const clast_curve *curve, const clast_grading *grading, int64
     for (int64_t i = 0; i < n;) {
         const double size = sorted[i].size;
         const double before = mass / total;
+        const double number = (double)i / (double)n;
         int64_t next = i;
         for (; next < n && sorted[next].size == size; ++next) {
             mass += sorted[next].volume;
         }
+        const double up_to = mass / total;
         const double passing = clast_curve_passing(curve, size); // continuous
-        match->distance_mass =
-            fmax(match->distance_mass, fmax(fabs(passing - before), fabs(passing - mass / total)));
-        if (grading != NULL) {
-            const double below = clast_grading_share(grading, nextafter(size, 0.0));
-            const double up_to = clast_grading_share(grading, size);
-            match->distance_number =
-                fmax(match->distance_number, fmax(fabs(below - (double)i / (double)n),
-                                                  fabs(up_to - (double)next / (double)n)));
-        }
+        match->distance_curve =
+            fmax(match->distance_curve, fmax(fabs(passing - before), fabs(passing - up_to)));
+        match->distance_mass = fmax(match->distance_mass,
+                                    apart(clast_grading_mass_share, grading, size, before, up_to));
+        match->distance_number =
+            fmax(match->distance_number,
+                 apart(clast_grading_share, grading, size, number, (double)next / (double)n));
         for (int k = 0; k < 3; ++k) {
             if (*quantile[k] == 0.0 && (mass >= share[k] * total || next == n)) {
                 *quantile[k] = size;
@@ -177,7 +187,8 @@ clast_status clast_grading_compare(const clast_grading *grading, const clast_cur
     CLX_TRY(check_grains(sample));
     CLX_TRY(sorted_grains(sample, &sorted, &total));
     CLX_TRY(class_table(curve, grading, n, sorted, total, &made));
-    *match = (clast_grading_match){.n = n, .distance_number = grading != NULL ? 0.0 : (double)NAN};
+    *match = (clast_grading_match){.n = n, .distance_mass = (double)NAN};
+    match->distance_number = match->distance_mass; // fmax() leaves them so without a grading
     follow(curve, grading, n, sorted, total, match);
     wanted_sizes(curve, match);
     *table = made;

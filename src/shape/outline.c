@@ -265,7 +265,8 @@ static double depth(const clx_outline *outline, const double c[2])
 
 /// The direction that leads away from all points nearer than `limit`, as far as there is one: the
 /// middle of the arc that the directions away from them span. False when they span a half turn.
-static bool way_out(const clx_outline *outline, const double c[2], double limit, double way[2])
+static bool direction_out(const clx_outline *outline, const double c[2], double limit,
+                          double direction[2])
 {
     double angle[N_POINT];
     int n = 0;
@@ -288,8 +289,8 @@ static bool way_out(const clx_outline *outline, const double c[2], double limit,
         }
     }
     const double middle = angle[after] + 0.5 * (2.0 * CLAST_PI - gap);
-    way[0] = cos(middle);
-    way[1] = sin(middle);
+    direction[0] = cos(middle);
+    direction[1] = sin(middle);
     return gap > CLAST_PI;
 }
 
@@ -298,10 +299,10 @@ static double ascend(const clx_outline *outline, double c[2])
 {
     double best = depth(outline, c);
     for (double step = 0.25 * best; step > 1e-7 * best;) {
-        double way[2];
+        double direction[2];
         bool better = false;
-        if (way_out(outline, c, best + step, way)) {
-            const double next[2] = {c[0] + step * way[0], c[1] + step * way[1]};
+        if (direction_out(outline, c, best + step, direction)) {
+            const double next[2] = {c[0] + step * direction[0], c[1] + step * direction[1]};
             const double there = depth(outline, next);
             better = there > best;
             if (better) {

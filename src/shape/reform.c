@@ -12,6 +12,9 @@
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 
+/// Below it, facets' parts of a moment lose digits.
+static const double LEAST_MOMENT = 1e-280;
+
 /// Second moments by the volume, C/V, from the inertia about the centroid.
 static void second_moments(const clast_mass *mass, double c[3][3])
 {
@@ -137,6 +140,10 @@ clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3], clas
     CLX_CHECK(isfinite(lis[0]) && lis[0] >= lis[1] && lis[1] >= lis[2] && lis[2] > 0.0,
               CLAST_E_CONFIG, "form: the lengths %g, %g, %g are not L >= I >= S > 0", lis[0],
               lis[1], lis[2]);
+    const double moment = lis[0] * lis[1] * lis[2] * lis[2] * lis[2]; // volume times S^2
+    CLX_CHECK(moment > LEAST_MOMENT && lis[0] < 1e60, CLAST_E_CONFIG,
+              "form: of lengths %g, %g, %g the moments are beyond a double; is the unit right?",
+              lis[0], lis[1], lis[2]);
     CLX_TRY(clast_reform_principal(mesh, &made, was));
     stretch(&made, (double[3]){lis[0] / was[0], lis[1] / was[1], lis[2] / was[2]});
     CLX_TRY(polish(&made, lis));

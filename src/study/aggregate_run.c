@@ -10,7 +10,7 @@
 #include "base/queue.h"
 #include "io/config_files.h"
 #include "io/h5.h"
-#include "io/size_columns.h"
+#include "io/sizes.h"
 #include "run/checkpoint.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"

@@ -1,6 +1,7 @@
 // Statistics of a set of grains, written as tables and charts.
 #include <clast/statistics.h>
 
+#include "base/path.h"
 #include "base/status.h"
 #include "math/whole.h"
 #include "shape/whole.h"
@@ -9,13 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096 };
-
 static clast_status path_of(const char *folder, const char *name, const char *extension,
-                            char path[PATH_SIZE])
+                            char path[CLX_PATH_LIMIT])
 {
-    const int n = snprintf(path, PATH_SIZE, "%s/%s.%s", folder, name, extension);
-    return n < PATH_SIZE
+    const int n = snprintf(path, CLX_PATH_LIMIT, "%s/%s.%s", folder, name, extension);
+    return n < CLX_PATH_LIMIT
                ? CLAST_OK
                : clx_fail(CLAST_E_DISK, "the path of folder %.40s... is too long", folder);
 }
@@ -25,7 +24,7 @@ static clast_status write_table(clast_status made, clast_table *table, const cha
                                 const char *name)
 {
     clast_status status = made;
-    char path[PATH_SIZE];
+    char path[CLX_PATH_LIMIT];
     CLX_TRY(status);
     CLX_TRY(path_of(folder, name, "csv", path));
     CLX_TRY(clast_table_write_csv(table, path));
@@ -64,7 +63,7 @@ static clast_status histogram_table(const clast_histogram *h, const char *name, 
         static const char *const by[] = {"_", "_", NULL, "_1/", "_1/"}; // low high count density..
         char full[64];
         double *number = NULL;
-        const bool has_unit = unit[0] != '\0' && c < 5 && by[c] != NULL;
+        const bool has_unit = strcmp(unit, "-") != 0 && unit[0] != '\0' && c < 5 && by[c] != NULL;
         (void)snprintf(full, sizeof full, "%s%s%s", plain.column[c].name, has_unit ? by[c] : "",
                        has_unit ? unit : "");
         CLX_TRY(clast_table_add_number(
@@ -79,22 +78,25 @@ done:
     return status;
 }
 
-/// Histogram of one column, named "size_m" where it has a unit, as table and chart.
-static clast_status write_histogram(const double *x, int64_t n, const char *column,
-                                    const char *label, const char *folder, const char *extension)
+/// What a histogram is of: "size", "diameter", "mm".
+typedef struct {
+    const char *name, *label, *unit;
+} measure;
+
+/// Histogram of one column as table and chart.
+static clast_status write_histogram(const double *x, int64_t n, const measure *of,
+                                    const char *folder, const char *extension)
 {
     clast_status status = CLAST_OK;
     clast_histogram h = {0};
     clast_table t = {0};
     char name[64];
-    char path[PATH_SIZE];
-    const size_t n_plain = strcspn(column, "_");
-    const char *unit = column[n_plain] == '_' ? column + n_plain + 1 : "";
-    (void)snprintf(name, sizeof name, "histogram_%.*s", (int)n_plain, column);
+    char path[CLX_PATH_LIMIT];
+    (void)snprintf(name, sizeof name, "histogram_%s", of->name);
     CLX_TRY(clast_histogram_of(x, n, &h));
-    CLX_TRY(write_table(histogram_table(&h, name, unit, &t), &t, folder, name));
+    CLX_TRY(write_table(histogram_table(&h, name, of->unit, &t), &t, folder, name));
     CLX_TRY(path_of(folder, name, extension, path));
-    CLX_TRY(clast_chart_histogram(x, n, label, path));
+    CLX_TRY(clast_chart_histogram(x, n, of->label, of->unit, path));
 done:
     clast_histogram_free(&h);
     return status;
@@ -108,18 +110,18 @@ clast_status clast_grain_statistics_write(const clast_grain_statistics *statisti
     CLX_WHOLE(statistics, &statistics->statistics);
     clast_status status = CLAST_OK;
     const clast_form_set *set = &statistics->set;
-    char path[PATH_SIZE];
+    const measure flatness = {"flatness", "flatness S/I", "-"};
+    const measure elongation = {"elongation", "elongation I/L", "-"};
+    const measure size = {"size", set->size_name, set->size_unit};
+    char path[CLX_PATH_LIMIT];
     CLX_TRY(write_tables(statistics, folder));
     CLX_TRY(path_of(folder, "zingg", extension, path));
     CLX_TRY(clast_chart_zingg(set, path));
-    CLX_TRY(
-        write_histogram(set->flatness, set->n, "flatness", "flatness S/I (-)", folder, extension));
-    CLX_TRY(write_histogram(set->elongation, set->n, "elongation", "elongation I/L (-)", folder,
-                            extension));
+    CLX_TRY(write_histogram(set->flatness, set->n, &flatness, folder, extension));
+    CLX_TRY(write_histogram(set->elongation, set->n, &elongation, folder, extension));
     const int32_t last = statistics->statistics.n - 1;
     if (set->size != NULL && last >= 0 && statistics->statistics.summary[last].n > 0) {
-        CLX_TRY(write_histogram(set->size, set->n, statistics->statistics.name[last],
-                                set->size_label, folder, extension));
+        CLX_TRY(write_histogram(set->size, set->n, &size, folder, extension));
     }
     CLX_TRY(path_of(folder, "correlation", extension, path));
     CLX_TRY(clast_chart_correlation(&statistics->statistics, path));

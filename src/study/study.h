@@ -1,13 +1,12 @@
 #pragma once
 // Files of a study's folder.
+#include "base/path.h"
 #include <clast/study.h>
 #include <jansson.h>
 
-enum { CLX_STUDY_PATH = 4096 };
-
-/// FOLDER/runs/NNNNNN of a row of the plan, with `suffix` ("" or ".part").
+/// FOLDER/runs/NNNNNN of a row of the plan, with `suffix`: "", ".part" or what lies in it.
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
-                                  char path[CLX_STUDY_PATH]);
+                                  char path[CLX_PATH_LIMIT]);
 
 /// Sets a seed of -1: to that of the configuration, as its command reads it, or to 1.
 clast_status clx_study_find_seed(clast_study_config *config);
@@ -45,10 +44,6 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
 
 /// The file that an argument names, also as "list:FILE"; NULL for none.
 const char *clx_study_file_of(const char *argument);
-
-/// Refuses ranks that read other options, or another configuration, table or argument's file, than
-/// rank 0. Called by all ranks.
-clast_status clx_study_check_ranks(const clast_study_config *config, const clast_comm *comm);
 
 /// Refuses to go on (CLAST_E_USAGE) when an input file of a run that is done, by its manifest, has
 /// changed since. Files that are gone pass.

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include <clast/table.h>
 #include <jansson.h>
 #include <math.h>
@@ -149,12 +150,12 @@ static void put_kept(gatherer *g, json_t *root)
 static clast_status read_result(gatherer *g, const char *run, double exit_code)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH + 16];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     json_t *root = NULL;
     json_error_t error;
-    (void)snprintf(path, sizeof path, "%s/result.json", run);
+    CLX_TRY(clx_path_join(path, run, "result.json"));
     CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
     if (n == 0 && exit_code != 0.0) {
         goto done;
@@ -176,12 +177,12 @@ done:
 static clast_status read_run(gatherer *g, const char *folder, bool whole)
 {
     clast_status status = CLAST_OK;
-    char run[CLX_STUDY_PATH];
-    char path[CLX_STUDY_PATH + 16];
+    char run[CLX_PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     CLX_TRY(clx_study_run_folder(folder, g->row, whole ? "" : ".part", run));
-    (void)snprintf(path, sizeof path, "%s/exit_code", run);
+    CLX_TRY(clx_path_join(path, run, "exit_code"));
     if (access(path, F_OK) != 0) {
         goto done; // never begun, or under way
     }
@@ -231,11 +232,11 @@ static const char *find_meant(json_t *root, const char *name)
 clast_status clx_study_check_kept(const clast_study_config *config, const char *run_folder)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH + 16];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     json_t *root = NULL;
-    (void)snprintf(path, sizeof path, "%s/result.json", run_folder);
+    CLX_TRY(clx_path_join(path, run_folder, "result.json"));
     CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
     root = json_loadb(text, (size_t)n, 0, NULL);
     for (int32_t i = 0; i < config->keep.n && json_is_object(root); ++i) {
@@ -276,13 +277,9 @@ done:
 
 static clast_status write_in(const char *folder, const char *name, const clast_table *table)
 {
-    clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH];
-    CLX_CHECK(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path, CLAST_E_DISK,
-              "path too long: %s", folder);
-    CLX_TRY(clast_table_write_csv(table, path));
-done:
-    return status;
+    char path[CLX_PATH_LIMIT];
+    CLX_GUARD(clx_path_join(path, folder, name));
+    return clast_table_write_csv(table, path);
 }
 
 clast_status clx_study_collect(const clast_study_config *config, const char *folder,

@@ -19,20 +19,17 @@ enum { STUDY_LIMIT = 1 << 28 };
 static const double keep_patience = 300.0;
 
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
-                                  char path[CLX_STUDY_PATH])
+                                  char path[CLX_PATH_LIMIT])
 {
     CLAST_ASSERT(row >= 0);
-    clast_status status = CLAST_OK;
-    const int n =
-        snprintf(path, CLX_STUDY_PATH, "%s/runs/%06lld%s", folder, (long long)row + 1, suffix);
-    CLX_CHECK(n > 0 && n < CLX_STUDY_PATH, CLAST_E_DISK, "path too long: %s", folder);
-done:
-    return status;
+    char name[64];
+    (void)snprintf(name, sizeof name, "runs/%06lld%s", (long long)row + 1, suffix);
+    return clx_path_join(path, folder, name);
 }
 
 bool clx_study_is_done(const char *folder, int64_t row)
 {
-    char path[CLX_STUDY_PATH];
+    char path[CLX_PATH_LIMIT];
     struct stat found;
     return clx_study_run_folder(folder, row, "", path) == CLAST_OK && stat(path, &found) == 0;
 }
@@ -40,10 +37,9 @@ bool clx_study_is_done(const char *folder, int64_t row)
 clast_status clx_study_write_exit(const char *run_folder, int exit_code)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH];
+    char path[CLX_PATH_LIMIT];
     char text[32];
-    const int n = snprintf(path, sizeof path, "%s/exit_code", run_folder);
-    CLX_CHECK(n > 0 && n < CLX_STUDY_PATH, CLAST_E_DISK, "path too long: %s", run_folder);
+    CLX_TRY(clx_path_join(path, run_folder, "exit_code"));
     (void)snprintf(text, sizeof text, "%d\n", exit_code);
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));
 done:
@@ -115,11 +111,10 @@ done:
 static clast_status keep_text(const char *folder, const char *name, const char *text, size_t n)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH];
+    char path[CLX_PATH_LIMIT];
     char *old = NULL;
     int64_t n_old = 0;
-    CLX_CHECK(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path, CLAST_E_DISK,
-              "path too long: %s", folder);
+    CLX_TRY(clx_path_join(path, folder, name));
     if (access(path, F_OK) != 0) {
         return clx_file_write_all(path, text, n);
     }
@@ -150,12 +145,12 @@ static clast_status keep_plan(const clast_study_config *config, const char *fold
                               const clast_table *plan)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_STUDY_PATH];
+    char path[CLX_PATH_LIMIT];
+    char name[64];
     char *text = NULL;
     int64_t n = 0;
-    CLX_CHECK(snprintf(path, sizeof path, "%s/plan-%ld.csv", folder, (long)getpid()) <
-                  (int)sizeof path,
-              CLAST_E_DISK, "path too long: %s", folder);
+    (void)snprintf(name, sizeof name, "plan-%ld.csv", (long)getpid());
+    CLX_GUARD(clx_path_join(path, folder, name));
     CLX_TRY(clast_table_write_csv(plan, path));
     CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &text, &n));
     status = keep_text(folder, "plan.csv", text, (size_t)n);

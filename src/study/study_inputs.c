@@ -4,11 +4,10 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include <clast/machine.h>
+#include "base/path.h"
 #include <clast/run_folder.h>
 #include <clast/table.h>
 #include <jansson.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -53,14 +52,14 @@ done:
 static clast_status check_run(const char *folder, int64_t row, json_t *known)
 {
     clast_status status = CLAST_OK;
-    char run[CLX_STUDY_PATH];
-    char path[CLX_STUDY_PATH + 24];
+    char run[CLX_PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     int64_t n = 0;
     json_t *manifest = NULL;
     struct stat found;
     CLX_TRY(clx_study_run_folder(folder, row, "", run));
-    (void)snprintf(path, sizeof path, "%s/out/manifest.json", run);
+    CLX_TRY(clx_path_join(path, run, "out/manifest.json"));
     if (stat(path, &found) != 0) {
         goto done;
     }
@@ -88,24 +87,5 @@ clast_status clx_study_check_inputs(const char *folder, const clast_table *plan)
     }
 done:
     json_decref(known);
-    return status;
-}
-
-clast_status clx_study_check_ranks(const clast_study_config *config, const clast_comm *comm)
-{
-    clast_status status = CLAST_OK;
-    const char **file = NULL;
-    int32_t n = 0;
-    CLX_TRY(clast_comm_agree(comm, clx_alloc(&file, config->argument.n + INT64_C(2), sizeof *file),
-                             NULL));
-    file[n++] = config->config;
-    file[n++] = config->table;
-    for (int32_t i = 0; i < config->argument.n; ++i) { // "": a word, or a file that is not there
-        const char *path = clx_study_file_of(config->argument.item[i]);
-        file[n++] = path != NULL ? path : "";
-    }
-    CLX_TRY(clast_run_inputs_agree(comm, clast_study_fields, config, n, file));
-done:
-    clx_free((void *)file);
     return status;
 }

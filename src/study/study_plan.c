@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/field.h"
 #include "base/number.h"
-#include "io/points.h"
+#include "io/csv_read.h"
 #include <clast/table.h>
 #include <ctype.h>
 #include <math.h>
@@ -242,7 +242,8 @@ static const char *value_key(const char *text, char number[KEY_LIMIT])
     if (is_long_integer(text)) {
         return text + strspn(text, "0");
     }
-    if (clx_unit_is_number(text, &value)) { // 15 digits: 0.3mm and 3e-4 may differ in the last
+    if (clx_unit_is_number(text, &value, NULL)) {
+        // 15 digits: 0.3mm and 3e-4 may differ in the last
         (void)clx_number_print(number, KEY_LIMIT, "%.15g", value + 0.0);
         return number;
     }
@@ -414,5 +415,76 @@ clast_status clast_study_plan(const clast_study_config *config, clast_table *pla
 done:
     clast_table_free(&made);
     axes_free(&all);
+    return status;
+}
+
+/// The field of a "key=value".
+static const clast_field *find_fixed(const clast_field *fields, const char *pair)
+{
+    char name[KEY_LIMIT];
+    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(pair, "="), pair);
+    return clast_fields_find(fields, name);
+}
+
+/// Refuses a key of n bytes that the command does not have.
+static clast_status check_key(const char *command, const clast_field *fields, const char *key,
+                              size_t n)
+{
+    clast_status status = CLAST_OK;
+    char name[KEY_LIMIT];
+    (void)snprintf(name, sizeof name, "%.*s", (int)n, key);
+    const char *near = clast_fields_nearest(fields, name);
+    CLX_CHECK(clast_fields_find(fields, name) != NULL, CLAST_E_CONFIG,
+              "clast %s has no key '%s'%s%s%s", command, name,
+              near != NULL ? " (did you mean '" : "", near != NULL ? near : "",
+              near != NULL ? "'?)" : "");
+done:
+    return status;
+}
+
+/// Refuses a key of one value that is fixed twice: the runs would take the last without a word.
+static clast_status check_fixed_once(const clast_field *fields, const clast_text_list *set)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < set->n; ++i) {
+        const clast_field *field = find_fixed(fields, set->item[i]);
+        const bool is_list =
+            field->type == CLAST_FIELD_TEXT_LIST || field->type == CLAST_FIELD_F64_LIST;
+        for (int32_t k = 0; k < i && !is_list; ++k) {
+            CLX_CHECK(find_fixed(fields, set->item[k]) != field, CLAST_E_CONFIG,
+                      "fix: '%s' and '%s': %s takes one value", set->item[k], set->item[i],
+                      field->name);
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clast_study_check(const clast_study_config *config, const clast_field *fields,
+                               int64_t *n_run)
+{
+    CLX_ARGUMENTS(config);
+    clast_status status = CLAST_OK;
+    clast_table plan = {0};
+    CLX_TRY(clast_study_plan(config, &plan));
+    for (int32_t c = 0; c < plan.n_column; ++c) {
+        const clast_column *key = &plan.column[c]; // of texts: run and seed are numbers
+        if (key->text != NULL) {
+            CLX_TRY(check_key(config->run, fields, key->name, strlen(key->name)));
+        }
+    }
+    for (int32_t i = 0; i < config->set.n; ++i) {
+        const char *pair = config->set.item[i];
+        CLX_CHECK(strchr(pair, '=') != NULL, CLAST_E_CONFIG, "fix takes key=value, not '%s'", pair);
+        CLX_TRY(check_key(config->run, fields, pair, strcspn(pair, "=")));
+    }
+    CLX_TRY(check_fixed_once(fields, &config->set));
+    CLX_CHECK(config->seeds == 1 || clast_fields_find(fields, "seed") != NULL, CLAST_E_CONFIG,
+              "clast %s draws nothing at random: seeds must be 1", config->run);
+    if (n_run != NULL) {
+        *n_run = plan.n_row;
+    }
+done:
+    clast_table_free(&plan);
     return status;
 }

@@ -147,8 +147,8 @@ static const json_t *find_input(const json_t *inputs, const json_t *like)
 /// Whether a run has an answer, or is under way: a process holds its lock.
 static bool is_begun(const char *folder, int64_t row)
 {
-    char part[CLX_STUDY_PATH];
-    char whole[CLX_STUDY_PATH];
+    char part[CLX_PATH_LIMIT];
+    char whole[CLX_PATH_LIMIT];
     struct stat found;
     clx_lock lock = {0};
     bool is_busy = false;

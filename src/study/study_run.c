@@ -86,7 +86,7 @@ static int64_t item_of(const scheduler *s, int64_t row)
 static clast_status take_row(scheduler *s, int64_t row, bool *is_mine)
 {
     clast_status status = CLAST_OK;
-    char folder[CLX_STUDY_PATH];
+    char folder[CLX_PATH_LIMIT];
     char runs[CLX_PATH_LIMIT];
     taken_row taken = {.row = row};
     bool is_busy = false;
@@ -173,7 +173,7 @@ static clast_status start(scheduler *s, int64_t row)
 {
     CLAST_ASSERT(row >= 0 && row < s->plan->n_row);
     clast_status status = CLAST_OK;
-    char folder[CLX_STUDY_PATH];
+    char folder[CLX_PATH_LIMIT];
     clast_text_list words = {0};
     bool is_mine = false;
     CLX_TRY(take_row(s, row, &is_mine));
@@ -207,8 +207,8 @@ static int64_t row_of(const scheduler *s, int64_t item)
 static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stopping)
 {
     clast_status status = CLAST_OK;
-    char part[CLX_STUDY_PATH];
-    char whole[CLX_STUDY_PATH];
+    char part[CLX_PATH_LIMIT];
+    char whole[CLX_PATH_LIMIT];
     int64_t code = CUT_OFF;
     if (stopping && !clx_run_is_answer(exit_code)) {
         goto done;
@@ -363,6 +363,27 @@ static clast_status collect(const scheduler *s, clast_status worked)
     return worked == CLAST_OK ? collected : clx_fail(worked, "%s", text);
 }
 
+/// Refuses ranks that read other options, or another configuration, table or argument's file, than
+/// rank 0. Called by all ranks.
+static clast_status check_ranks(const clast_study_config *config, const clast_comm *comm)
+{
+    clast_status status = CLAST_OK;
+    const char **file = NULL;
+    int32_t n = 0;
+    CLX_TRY(clast_comm_agree(comm, clx_alloc(&file, config->argument.n + INT64_C(2), sizeof *file),
+                             NULL));
+    file[n++] = config->config;
+    file[n++] = config->table;
+    for (int32_t i = 0; i < config->argument.n; ++i) { // "": a word, or a file that is not there
+        const char *path = clx_study_file_of(config->argument.item[i]);
+        file[n++] = path != NULL ? path : "";
+    }
+    CLX_TRY(clast_run_inputs_agree(comm, clast_study_fields, config, n, file));
+done:
+    clx_free((void *)file);
+    return status;
+}
+
 clast_status clast_study_run(const clast_study_config *config, const char *folder,
                              const clast_study_worker *worker, const clast_comm *comm,
                              const clast_monitor *monitor, clast_study_report *report)
@@ -381,7 +402,7 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
                    .plan = &plan,
                    .n_shard = 1};
     const clast_comm *all = clx_comm_or_one(comm);
-    CLX_TRY(clx_study_check_ranks(config, all));
+    CLX_TRY(check_ranks(config, all));
     CLX_TRY(clast_comm_agree(all, clx_study_find_seed(&seeded), NULL));
     CLX_TRY(clast_comm_agree(all, prepare(&s, all, &plan), NULL));
     status = clast_comm_agree(all, work(&s, clast_parallel_threads()), NULL);

@@ -3,6 +3,7 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include "base/path.h"
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
@@ -79,15 +80,14 @@ clast_status clx_study_words(const clx_study_words_of *of, int64_t row, const ch
     clast_status status = CLAST_OK;
     clast_text_list made = {0};
     sink to = {&made, CLAST_OK};
-    char out[CLX_STUDY_PATH];
+    char out[CLX_PATH_LIMIT];
     const clast_study_config *config = of->config;
     const clast_study_worker *worker = of->worker;
     const clast_table *plan = of->plan;
     const int32_t most = 24 + config->argument.n + 2 * config->set.n + 2 * plan->n_column +
                          (int32_t)strlen(config->run);
     CLX_TRY(clx_alloc(&made.item, most, sizeof *made.item));
-    CLX_CHECK(snprintf(out, sizeof out, "%s/out", folder) < (int)sizeof out, CLAST_E_DISK,
-              "path too long: %s", folder);
+    CLX_TRY(clx_path_join(out, folder, "out"));
     add_command(&to, config->run);
     if (resume) {
         append_text(&to, "--resume");

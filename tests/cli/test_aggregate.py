@@ -596,8 +596,8 @@ class BadInput(Case):
     def test_bad_sizes_name_their_line(self):
         for text, says in (("d_um\n20\n0\n", "sizes.csv:3"), ("d_um\n-4\n", "sizes.csv:2"),
                            ("d_um\n1\n2\nnan\n", "sizes.csv:4"), ("d_um\n1\nbig\n", "'big' is not a number"),
-                           ("d_um,count\n10,-1\n", "sizes.csv:2"), ("d_um\n1,2\n", "columns"),
-                           ("d_um\ninf\n", "'inf' is not a number"), ("d_um\n1e999\n", "not finite"), ("", "no sizes")):
+                           ("d_um,count\n10,-1\n", "sizes.csv:2"), ("d_um\n1,2\n", "sizes.csv:2: 2 cells"),
+                           ("d_um\ninf\n", "'inf' is not finite"), ("d_um\n1e999\n", "not finite"), ("", "no row"), ("d_um\n", "no sizes")):
             self.assert_fails(3, *self.sizes(text), says=(says,))
         self.assert_fails(2, *self.sizes("20\n10\n"), says=("size_unit",))
         self.assert_fails(2, *self.sizes("d_um,count\n20,1.5\n"), says=("whole",))

@@ -171,6 +171,12 @@ class BadClouds(Case):
         for options in ((*steps, "--monomers-column", "monomers"), ("decompose",)):
             self.assertEqual(clast(options[0], left, "--domain", CUBE, *options[1:]).err, "")
         self.assertEqual(clast(steps[0], ones, "--domain", CUBE, *steps[1:]).err, "")
+        bodies = ("evolve", "--domain", CUBE, "--curve", "1um", "--kernel", "constant", "--constant", "0", "--duration", "1ms", "--rows", 1,
+                  "--no-structure", "--points")  # said nothing
+        parcels = self.write("parcels.csv", [p + [1000] for p in rows], "x,y,z,n_real")
+        line = "clast evolve: warning: points: column 'n_real' is not looked at: each row is one particle (--weight: of all alike)\n"
+        self.assertEqual(clast(*bodies, parcels).err, line)
+        self.assertEqual(clast(*bodies, ones).err, "")
 
     def test_files_of_other_codes_say_so(self):
         """particles.geo was "not a text: byte 8 is 0", a positions file "has FoamFile (texts)"."""

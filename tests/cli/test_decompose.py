@@ -455,7 +455,18 @@ class Pairs(Case):
             r = clast(*command, "--json", "--pairs", "--pairs-radius", text)
             self.assertEqual((r.code, r.err), (0, ""))
             self.assertAlmostEqual(r.json["pairs"]["radius"], 0.05)
-        self.assert_fails(2, *command, "--beta-dt", "1mm3", says=["beta_dt", "unknown unit 'mm3'; give a bare number in m^d"])
+        # no unit was taken, though m^d is asked for
+        made = [clast(*command, "--beta-dt", value, "--json").json["beta_dt"] for value in ("1mm3", "1 mm^3", "1e-9m^3", "1e-9")]
+        self.assertEqual(made, [1e-9] * 4)
+        self.assert_fails(2, *command, "--beta-dt", "1e-9m^2", says=["beta_dt: is in m^2, in 3 dimensions it is in m^3"])
+        self.assert_fails(2, *command, "--beta-dt", "1g", says=["beta_dt: unknown unit 'g'; known here: m, cm"])
+        flat = ("decompose", DATA / "points_s2_n500.csv", "--domain", "box:0,0,1,1", "--beta-dt")
+        self.assertEqual(clast(*flat, "1 mm^2", "--json").json["beta_dt"], 1e-6)
+        self.assert_fails(2, *flat, "1e-9m^3", says=["beta_dt: is in m^3, in 2 dimensions it is in m^2"])
+        said = self.folder / "beta.yaml"
+        said.write_text("beta_dt: 1e-9m^3\n")
+        self.assert_fails(2, *flat[:-1], said, says=["in 2 dimensions"])
+        self.assertEqual(clast(*flat[:-1], said, "--beta-dt", "1e-9", "--json").code, 0)  # a bare number is of any dimension
         self.assert_fails(2, *command, "--pairs", "--pairs-radius", "5kg", says=["pairs_radius", "known here: m, cm, mm"])
         square = DATA / "points_u2_n50.csv"
         for text in ("10mm", "0.01"):

@@ -132,6 +132,16 @@ class Export(Case):
         told = clast("export", spheres, "-o", self.folder / "s.3mf", "--json")
         if told.code == 0:
             self.assertAlmostEqual(told.json["facet_ratio"], 0.99139, delta=1e-5)
+        clumps = self.folder / "c.txt"
+        clumps.write_text("#format x_y_z_r_clumpId\n0 0 0 1 5\n1.2 0 0 1 5\n5 0 0 1 -1\n8 0 0 0.5 9\n8.5 0 0 0.5 9\n")
+        out = clast("export", clumps, "-o", self.folder / "c.vtu")
+        self.assertIn("facets of spheres and ellipsoids hold 0.86 % less volume", out.out)  # of the sphere alone
+        self.assertIn("clumps are whole balls, one in another where they overlap: their facets hold 11 % more volume", out.out)
+        told = clast("export", clumps, "-o", self.folder / "c.stl", "--json").json
+        # two unions, of balls 1.2 and 1 radii apart: 1 - (4 + d)(2 - d)^2 / 32 of two balls
+        unions = [2 * ball * (1 - (4 + d) * (2 - d) ** 2 / 32) for ball, d in ((1, 1.2), (0.125, 1))]
+        self.assertAlmostEqual(told["clump_ratio"], 2 * 1.125 * 0.99139 / sum(unions), delta=1e-4)
+        self.assertIsNone(clast("export", spheres, "-o", self.folder / "s.stl", "--json").json["clump_ratio"])
         mass = {row["id"]: float(row["mass_kg"]) for row in self.grains()}
         path, report = self.export("a.dump")
         self.assertGreater(report["ellipsoid_ratio"], 1.0)
@@ -186,6 +196,72 @@ class Export(Case):
                 bad.write_bytes(damage)
                 self.assert_fails(3, "export", bad, "-o", self.folder / "a.csv", says=[str(bad)])
         self.assertFalse((self.folder / "a.csv").exists())
+
+    def test_unwrapped_positions_of_a_dump_are_named(self):
+        """They were "more than five columns without names of spheres"."""
+        dump = self.folder / "unwrapped.dump"
+        dump.write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n0 4\n0 4\n0 4\nITEM: ATOMS id type xu yu zu radius\n"
+                        "1 1 1 1 1 .5\n2 1 2 2 2 .5\n")
+        self.assert_fails(3, "export", dump, "-o", self.folder / "o.csv", says=("of a dump x, y, z or xs, ys, zs are read", "--columns id,type,x,y,z,r"))
+        self.assertEqual(clast("export", dump, "--columns", "id,type,x,y,z,r", "-o", self.folder / "o.csv").code, 0)
+
+    def test_ids_of_another_programs_file_are_kept(self):
+        """LAMMPS writes dumps unsorted: rows 7, 3, 5 came out as 1, 2, 3, so that a join by id met other grains."""
+        head = ("ITEM: UNITS\nsi\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp ff\n-1 1\n-1 1\n0 2\n"
+                "ITEM: ATOMS id type x y z radius density\n")
+        (self.folder / "in.dump").write_text(head + "7 4 0 0 0.5 0.1 2650\n3 2 0.5 0 0.5 0.1 2600\n5 4 0 0.5 0.5 0.2 2500\n")
+        (self.folder / "in.csv").write_text("id,x_m,y_m,z_m,r_m,density\n7,0,0,0.5,0.1,2650\n3,0.5,0,0.5,0.1,2600\n5,0,0.5,0.5,0.2,2500\n")
+        for source in ("in.dump", "in.csv"):
+            for name, first in (("o.dump", 9), ("o.data", None), ("o.voro", 0), ("o.csv", 1)):
+                done = clast("export", source, "-o", name, cwd=self.folder)
+                self.assertEqual(done.code, 0, done.err)
+                self.assertNotIn("ids", done.out)
+                text = (self.folder / name).read_text()
+                lines = text.splitlines()[first:] if first is not None else text.split("Atoms # sphere\n\n")[1].splitlines()
+                if name == "o.dump":
+                    lines = text.split("ITEM: ATOMS")[1].splitlines()[1:]
+                self.assertEqual([line.replace(",", " ").split()[0] for line in lines], ["7", "3", "5"], (source, name))
+                if name != "o.csv":  # which says no radius
+                    again = "again" + name[1:]
+                    self.assertEqual(clast("export", name, "-o", again, *(["--columns", "id,x,y,z,r"] if name == "o.voro" else []),
+                                           cwd=self.folder).code, 0)
+                    self.assertEqual((self.folder / again).read_text().replace("lengths in model", "lengths in m"), text)
+            report = clast("export", source, "-o", "o.dump", "--json", cwd=self.folder).json
+            self.assertEqual((report["ids_kept"], report["id_offset"]), (True, 0))
+
+    def test_new_ids_are_told_and_wrong_ones_refused(self):
+        def export(text, name, *options, source="in.csv"):
+            (self.folder / source).write_text(text)
+            return clast("export", source, "-o", name, *options, cwd=self.folder)
+        bare = "x,y,z,d\n0,0,0,1\n2,0,0,1\n"
+        self.assertIn("ids are new: counted from 1 in the order of in.csv\n", export(bare, "o.dump").out)
+        self.assertIn("ids are new: counted from 0 in the order of in.csv\n", export(bare, "o.csv").out)
+        self.assertNotIn("ids", export(bare, "o.xyzd").out)  # holds none
+        self.assertNotIn("ids", clast("export", STATE, "-o", self.folder / "o.csv").out)
+        from_0 = "id,x,y,z,d\n1,0,0,0,1\n0,2,0,0,1\n"
+        self.assertIn("ids are those of in.csv plus 1: LAMMPS and voro++ count from 1\n", export(from_0, "o.voro").out)
+        self.assertEqual((self.folder / "o.voro").read_text(), "2 0 0 0 0.5\n1 2 0 0 0.5\n")
+        for id_ in ("2.5", "-1", "1e17"):  # a column of something else
+            self.assertIn("ids are new", export(f"id,x,y,z,d\n{id_},0,0,0,1\n2,2,0,0,1\n", "o.csv").out)
+        dump = "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n-1 1\n-1 1\n0 2\nITEM: ATOMS id x y z radius\n"
+        for source, text, line in (("in.csv", "id,x,y,z,d\n7,0,0,0,1\n7,2,0,0,1\n", "two rows have the id 7"),
+                                   ("in.dump", dump + "7 0 0 0 1\n7 2 0 0 1\n", "two rows have the id 7"),
+                                   ("in.dump", dump + "7 0 0 0 1\n2.5 2 0 0 1\n", "row 2 has the id 2.5")):
+            done = export(text, "no.csv", source=source)
+            self.assertEqual((done.code, line in done.err), (3, True), done.err)
+        columns = "-,x,y,z,d"  # which leaves the ids out
+        self.assertEqual(export("id,x,y,z,d\n7,0,0,0,1\n7,2,0,0,1\n", "o.csv", "--columns", columns).code, 0)
+
+    def test_the_lattice_of_an_xyz_is_the_box(self):
+        rows = "A 0 0 0 0.1\nB 0.5 0.5 0.5 0.2\n"
+        for comment, box in (('Lattice="1 0 0 0 2 0 0 0 3" Properties=species:S:1:pos:R:3:radius:R:1', "pp pp pp\n0 1\n0 2\n0 3\n"),
+                             ('Lattice="1 0 0 0 1 0 0 0 1" pbc="T F T" Origin="-1 0 0"', "pp ff pp\n-1 0\n0 1\n0 1\n"),
+                             ("lattice='1 0 0 0 1 0 0.25 0 1'", "xy xz yz pp pp pp\n0 1.25 0\n0 1 0.25\n0 1 0\n"),
+                             ('Lattice="1 1 0 0 1 0 0 0 1"', "ff ff ff\n-0.1 0.7\n-0.1 0.7\n-0.1 0.7\n"),  # a turned box is none of LAMMPS's
+                             ("a comment", "ff ff ff\n-0.1 0.7\n-0.1 0.7\n-0.1 0.7\n")):
+            (self.folder / "in.xyz").write_text(f"2\n{comment}\n{rows}")
+            self.assertEqual(clast("export", "in.xyz", "-o", "o.dump", cwd=self.folder).code, 0)
+            self.assertIn(f"BOX BOUNDS {box}", (self.folder / "o.dump").read_text(), comment)
 
     def test_lammps_gets_step_and_period_of_a_run(self):
         """TIMESTEP was 0, and the box of a periodic run that of its grains: another packing for who reads it as p p p."""

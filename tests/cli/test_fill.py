@@ -91,6 +91,41 @@ class Fill(Case):
         self.assertEqual(len(rows), 9)
         self.assertAlmostEqual(float(rows[0]["filled_fraction"]), math.pi / 6, 12)
 
+    def test_filled_is_the_share_of_the_solid(self):
+        """`published` puts a ball through the corners first, 2.72 times the cube: filled was 2.72, and --filled 0.9 met by what lies beside."""
+        published = ("fill", self.cube, "--strategy", "published", "--spheres", 1)
+        got = clast(*published, "--json").json
+        ball = math.pi * math.sqrt(3) / 2
+        self.assertAlmostEqual(got["sphere_volume"], ball, 12)
+        self.assertAlmostEqual(got["filled_fraction"], 1, delta=2e-3)
+        self.assertAlmostEqual(got["filled_fraction"] + got["outside_fraction"], ball, 12)
+        self.assertAlmostEqual(got["volume_error"], ball - 1, 12)
+        self.assertIn("1.72 of the volume, beside the solid", clast(*published).out)
+        self.assertEqual(clast("fill", self.cube, "--spheres", 3, "--json").json["outside_fraction"], 0)
+
+    def test_a_stop_at_filled_waits_for_the_solid(self):
+        """A grain of 300 faces: 399 spheres were said to fill 0.9, and hold 0.73 of it."""
+        grain = self.folder / "grain.ply"
+        self.assertEqual(clast("mesh", "synthesize", "--measure", "amplitude", "--rough", 0.1, "-o", grain).code, 0)
+        options = ("fill", grain, "--strategy", "published", "--filled", 0.7, "--history", self.folder / "h.csv", "--json")
+        got = clast(*options, "--spheres", 3000).json
+        self.assertGreater(got["outside_fraction"], 0.1)
+        self.assertGreaterEqual(got["filled_fraction"], 0.7)
+        rows = list(csv.DictReader((self.folder / "h.csv").read_text().splitlines()))
+        self.assertAlmostEqual(float(rows[-1]["filled_fraction"]), got["filled_fraction"], 12)
+        self.assertLess(float(rows[-2]["filled_fraction"]), 0.7)
+        self.assert_fails(5, *options, "--spheres", got["n_sphere"] - 1, says=["wanted 0.7"])
+
+    def test_the_unit_of_the_surface_is_handed_on(self):
+        """Spheres of a surface in mm were in model units: clast shape of them gave 1e9 times the volume."""
+        surface, out = self.folder / "mm.ply", self.folder / "s.csv"
+        self.assertEqual(clast("mesh", "convert", self.cube, "--unit", "mm", "-o", surface).code, 0)
+        result = clast("fill", surface, "--spheres", 1, "-o", out)
+        self.assertIn("lengths in mm", result.out)
+        self.assertEqual(out.read_text().splitlines()[0], "x_mm,y_mm,z_mm,radius_mm")
+        self.assertEqual(clast("fill", surface, "--spheres", 1, "-q", "--json").json["unit"], "mm")
+        self.assertAlmostEqual(clast("shape", out, "--json").json["grains"][0]["volume"] / (math.pi / 6 * 1e-9), 1, 12)
+
     def test_words_without_json(self):
         result = clast("fill", self.cube, "--spheres", 1)
         self.assertIn("1 sphere, as many as asked for", result.out)

@@ -286,6 +286,19 @@ class Fit(Case):
         self.assertEqual(fit.json["terms"][1]["term"], "inverse_mean_equancy")
         self.assertAlmostEqual(fit.json["terms"][1]["coefficient"], 0.03, 9)
         self.assert_fails(3, "fit", beds_path, "--target", "porosity_bulk", "--grains", study, says=("--group run",))
+        for rows, says in (("1,0,0.3\n1.5,0,0.4\n", "row 2: column 'run' has no number of a run"),  # it was run 2
+                           ("25,1,0.3\n", f"no run of {study} ended well")):  # "table study: none of its 0 rows has a form"
+            beds_path.write_text("run,exit_code,porosity_bulk\n" + rows)
+            self.assert_fails(3, "fit", beds_path, "--target", "porosity_bulk", "--group", "run", "--grains", study, says=(says,))
+
+    def test_numbers_of_grains_are_not_looked_at_and_told(self):
+        """Each row of the grains is one grain, however many it says it is."""
+        forms = [(run, 0.3 + 0.02 * run + 0.01 * k, 0.55 + 0.012 * ((7 * run) % 11) + 0.015 * k) for run in range(1, 25) for k in range(3)]
+        for head, said in (("n", "clast fit: grains: column 'n' is not looked at: each row is one grain\n"), ("mu", "")):
+            grains = self.write(f"bed,flatness,elongation,{head}\n" + "".join(f"{b},{f!r},{e!r},{b}\n" for b, f, e in forms), "grains.csv")
+            rows = self.write("bed,porosity\n" + "".join(f"{run},{0.3 + 0.001 * run + 0.002 * (run % 3)!r}\n" for run in range(1, 25)), "rows.csv")
+            fit = clast("fit", rows, "--grains", grains, "--group", "bed", "--n-term", 1)
+            self.assertEqual((fit.code, fit.err), (0, said))
 
     def test_manifests_name_inputs_and_options(self):
         path, run, bed = self.write(beds(0.01)), self.folder / "run", self.folder / "bed"

@@ -135,6 +135,17 @@ class Help(Case):
             self.assertIn(f"\n{heading}:\n", output(command, "--help-all"))
             self.assertIn(f"\n.I {heading}\n", manual)
 
+    def test_options_of_every_command_are_the_same_everywhere(self):
+        manual = output("man").replace("\\-", "-").split(".SH COMMON OPTIONS")[1]
+        self.assertEqual(set(re.findall(r"^\.B .*?(--[\w-]+)", manual, re.M)) | {"--help-all"}, OF_EVERY_COMMAND)
+        for command in COMMANDS:
+            page = output(*command.split(), "--help-all").split("\nof every command:\n")[1]
+            words = re.search(rf'"{command}"\\? ?\*\) words="([^"]*)"', output("completion"))[1].split()
+            left_out = {"--help-all"} | ({"--output"} - set(words)) | ({"--json"} - set(words))
+            self.assertEqual(set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", page, re.M)), OF_EVERY_COMMAND - left_out, command)
+            for option in OF_EVERY_COMMAND - {"--json", "--quiet", "--help", "--help-all"}:
+                self.assert_fails(2, *command.split(), option, says=[f"{option} needs a value"])
+
     def test_defaults_are_typed_as_people_do(self):
         for command, words in (("aggregate", ["(default 1deg)", "as 270um"]), ("pack", ["(default 104mm)", "(default 1kg)"]),
                                ("render", ["(default -55deg)"])):

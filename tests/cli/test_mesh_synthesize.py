@@ -46,8 +46,25 @@ class MeshSynthesize(Case):
         self.assertFalse("<th><code>" in (out / "report.html").read_text())
         self.assert_fails(2, "mesh", "synthesize", "--force", "-o", self.folder / "one.ply", says=["no output folder"])
 
+    def test_a_unit_is_handed_on(self):
+        out = self.folder / "g.ply"
+        made = ("mesh", "synthesize", "--measure", "amplitude", "--rough", "0.1", "--faces", "60", "-o", out)
+        result = clast(*made, "--size", "7mm", "--unit", "mm")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("1 grain; lengths in mm", result.out)
+        self.assertIn(b"unit mm", out.read_bytes()[:200])
+        with_unit = clast("mesh", "form", out, "-o", self.folder / "f.ply", "--json").json
+        self.assertEqual(with_unit["unit"], "mm")
+        self.assertAlmostEqual(with_unit["before"]["D"], 7, 10)
+        self.assertIn("model units", clast(*made, "--size", "7").out)
+        self.assert_fails(2, *made, "--size", "7mm", says=["size", "no unit"])
+        self.assert_fails(2, *made, "--size", "50%", says=["size"])
+        self.assert_fails(2, *made, "--size", "0", says=["size"])
+        self.assert_fails(2, *made, "--unit", "kg", says=["unit"])
+
     def test_refusals_are_one_line(self):
         out = self.folder / "g.ply"
+        self.assert_fails(2, "mesh", "synthesize", "--count", 2, "-o", self.folder / "z.stl", says=["z.stl", "folder"])
         for options, says in ((("--tolerance", 0.1), "--tolerance does nothing with --measure amplitude"),
                               (("--rough", 0, "--decay", 1), "--decay does nothing with --rough 0")):
             self.assert_fails(2, "mesh", "synthesize", "--measure", "amplitude", *options, "-o", out, says=(says,))
@@ -56,6 +73,7 @@ class MeshSynthesize(Case):
                           says=["smoother than its ellipsoid"])
         self.assert_fails(2, "mesh", "synthesize", "--flatness", "0.05", "-o", out, says=["outside 0.1 to 1"])
         self.assertFalse(out.exists())
+        out = self.folder / "plain"
         out.write_text("")
         self.assert_fails(4, "mesh", "synthesize", "--count", "2", "-o", out, says=["folder"])
 

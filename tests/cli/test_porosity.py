@@ -212,7 +212,7 @@ class Porosity(Case):
         self.assert_fails(3, "porosity", self.lattice(3), "--bed", "cylinder:50", "--layer", "2", says=["slices 2 high"])
         found = clast("porosity", metres, "--bed", "periodic:0,0,0,6mm,0.6cm,6mm", "--json")
         self.assertAlmostEqual(found.json["bulk"], 1 - 3.141592653589793 / 6, 12)
-        self.assert_fails(2, "porosity", self.lattice(3), "--bed", "cylinder:52mm", says=["bed: ", "the run has no unit, so a bare number"])
+        self.assert_fails(2, "porosity", self.lattice(3), "--bed", "cylinder:52mm", says=["bed: ", "the lengths have no unit, so give a bare number"])
 
     def test_side_walls_are_told_and_left_out(self):
         """Ten unit balls across a lattice of eight: the rows at the walls of a box are empty."""
@@ -324,6 +324,12 @@ class Porosity(Case):
             with open(out / "stress_profile.csv", encoding="ascii") as file:
                 for row in csv.DictReader(file):
                     self.assertAlmostEqual(float(row["stress_zz_Pa"]) / load["stress_zz_Pa"], 1, 1, (name, row["z_low_m"]))
+        # means of several runs have the units that reports give the same numbers: the mass in the fields had none
+        means = self.folder / "means"
+        self.assertEqual(clast("porosity", *(self.folder / name for name in runs), "--fields", "2mm", "-o", means).code, 0)
+        units = {row["quantity"]: row["unit"] for row in csv.DictReader((means / "means.csv").read_text().splitlines())}
+        self.assertEqual([units[key] for key in ("field_mass", "top", "solid", "bulk", "stress_xx", "pressure", "stress_ratio", "normal_1")],
+                         ["kg", "m", "m^3", "-", "Pa", "Pa", "-", "-"])
 
     def test_what_a_smaller_bed_than_the_grains_holds(self):
         """Slices count grains whole: a window of a packing had the solid beyond its sides, 0.174 for 0.47, without a word."""

@@ -119,6 +119,34 @@ class Predict(Case):
         self.refusal(3, self.folder / "none.csv")
         self.refusal(3, *RHINE, "--model", self.folder / "none.json")
 
+    def test_numbers_of_grains_are_not_looked_at_and_told(self):
+        """102 grains in 3 rows were 3 grains, without a word."""
+        for name in ("n", "count", "number", "weight", "mass_g", "Mass (kg)", "frequency"):
+            path = self.table(f"flatness,elongation,{name}\n0.5,0.7,100\n0.6,0.8,1\n0.65,0.71,1\n")
+            said = f"grains.csv: column '{name}' is not looked at: each row is one grain\n"
+            for command in ("predict", "shape"):
+                done = clast(command, path)
+                self.assertEqual(done.code, 0, done.err)
+                self.assertTrue(done.err.endswith(said), done.err)
+            self.assertEqual(clast("predict", path, "--each").err, "")
+        for text in ("flatness,elongation,n\n0.5,0.7,1\n0.6,0.8,1\n", "flatness,elongation,n_contact\n0.5,0.7,3\n0.6,0.8,1\n"):
+            self.assertEqual(clast("predict", self.table(text)).err, "")
+
+    def test_decimal_commas_are_told(self):
+        path = self.table("flatness;elongation\n0,5;0,7\n")
+        self.assertIn("row 1 is not a number; a decimal comma? write 0.5, not 0,5", self.refusal(3, path))
+        self.assertNotIn("comma", self.refusal(3, self.table("flatness;elongation\nlow;0.7\n")))
+
+    def test_a_term_of_coefficient_0_needs_no_value(self):
+        """Grains of one elongation have no inverse deviation of it, which the printed equation of U1 has not either."""
+        path = self.table("flatness,elongation\n" + "".join(f"{0.5 + 0.02 * k},0.68\n" for k in range(10)))
+        out = self.answer(path)
+        self.assertEqual((out["model"], out["in_range"]), ("form_mixture_U1", False))
+        self.assertIn("deviation_elongation", [r["feature"] for r in out["out_of_range"]])
+        said = self.refusal(3, path, "--grading", "U7")
+        self.assertIn("'inverse_deviation_elongation' has no value", said)
+        self.assertIn("the single-form model needs no spread", said)
+
     def test_words_name_model_and_error(self):
         done = clast("predict", *RHINE)
         self.assertIn("porosity   0.3558 +- 0.0062", done.out)

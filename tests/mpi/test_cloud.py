@@ -117,6 +117,19 @@ class Cloud(Case):
         self.assertEqual(alone.code, 0, alone.err)
         self.assertEqual(tables, {(self.folder / "alone/events_by_n.csv").read_bytes()})
 
+    def test_weights_that_no_option_names_are_told_once(self):
+        """Ranks said nothing, whoever has the rows of weights that are not 1."""
+        points = rows(cloud(300, 22)).split()
+        for first, last in ((0, 9), (290, 299), (0, 299)):
+            path = self.write("parcels.csv", "n,x,y,z,multiplicity,Weight\n" + "".join(
+                f"{k},{row},{2 if k >= 299 else 1},{5 if first <= k <= last else 1}\n" for k, row in enumerate(points)))
+            alone = clast("decompose", path, *BOX)
+            self.assertIn("' is not looked at: each row is one particle", alone.err)
+            for n in (2, 4):
+                code, _, err = ranks(n, "decompose", path, *BOX)
+                self.assertEqual((code, own_lines(err)), (0, own_lines(alone.err)))
+            self.assertEqual(ranks(2, "decompose", path, *BOX, "--weight-column", "Weight")[2].count("not looked at"), 0)
+
     def test_rows_of_several_times_are_refused_alike(self):
         """Each rank reads a stretch that may hold one time alone: all ranks' times count together."""
         points = cloud(300, 21)

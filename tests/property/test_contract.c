@@ -546,10 +546,14 @@ static void try_fit(const void *config, void *context)
     const clast_fit_data beds = {.beds = *table}; // borrowed
     clast_fit_data data;
     clast_porosity_fit fit;
+    clast_fit_note note;
+    clast_model_kind kind = CLAST_MODEL_SINGLE;
     REFUSED_INTO(data, clast_fit_data_single(table, config, &data));
     REFUSED_INTO(data, clast_fit_data_mixture(table, table, config, &data));
     REFUSED_INTO(data, clast_fit_data_columns(table, config, &data));
     REFUSED_INTO(fit, clast_porosity_fit_data(&beds, "fit", "table", config, &fit));
+    REFUSED(clast_porosity_fit_choose(table, false, config, &kind, &note));
+    assert_false(clast_porosity_fit_note(NULL, table, &beds, 0, config, &note));
 }
 
 static void try_render(const void *config, void *context)

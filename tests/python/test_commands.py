@@ -104,7 +104,7 @@ class Commands(unittest.TestCase):
         said = command("fit", path, "--group", "run", "--grains", study, "--n-term", 1)
         found = clast.fit(path, group="run", grains=study, n_term=1)
         self.same(found, said, ("n_bed", "r2", "cv_mean_error", "n_candidate"))
-        with self.assertRaisesRegex(clast.Error, "no column of numbers 'bed' names the run"):
+        with self.assertRaisesRegex(clast.Error, "no column of numbers 'bed' that names the run"):
             clast.fit(path, grains=study)
         with self.assertRaisesRegex(clast.Error, "^features: 'mixture' and grains belong together"):
             clast.fit(path, features="mixture")
@@ -176,10 +176,12 @@ class Commands(unittest.TestCase):
         self.assertIn("n_done", opened._repr_html_())
         again = clast.study(run="fill", argument=MENGER, vary=["spheres=5|9", "strategy=random|largest"], output=self.folder / "two")
         self.assertEqual((again.n_before, again.n_done), (4, 0))
-        for keys, line in ((dict(run="fil"), "no command that a study can run; did you mean fill"), (dict(vary="sphere=5"), "did you mean spheres"),
-                           (dict(fix="spheres"), "^fix: takes key=value"), (dict(run="mesh check", seeds=2), "draws nothing at random"),
+        table = self.folder / "runs.csv"
+        table.write_text("sphere\n5\n")  # was looked at by no one, and all runs failed
+        for keys, line in ((dict(run="fil"), "no command that a study can run; did you mean fill"), (dict(vary="sphere=5"), "did you mean 'spheres'"),
+                           (dict(fix="spheres"), "^fix takes key=value"), (dict(table=table), "^clast fill has no key 'sphere'"), (dict(run="mesh check", seeds=2), "draws nothing at random"),
                            (dict(run="mesh hull"), "no numbers for a study"), (dict(run="completion"), "no numbers for a study"),
-                           (dict(fix=["filled=0.8", "filled=0.9"]), "^fix: 'filled' is given twice")):
+                           (dict(fix=["filled=0.8", "filled=0.9"]), "^fix: 'filled=0.8' and 'filled=0.9': filled takes one value")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
 
@@ -192,7 +194,7 @@ class Commands(unittest.TestCase):
         del fix["mode"]
         said = clast.aggregate(**fix, replicate=2, cone=0.2, output=self.folder / "said")
         self.assertEqual((one.summary["n_grain"], one.summary["d_agg"]), (said.n_grain, said.d_agg))
-        for vary, line in (({"spheres": np.ma.MaskedArray([3, 4], mask=[0, 1])}, "^spheres: .*masked"), ({"spheres": [b"3"]}, "^spheres: a bytes"), ({"sphere": 3}, "did you mean spheres"),
+        for vary, line in (({"spheres": np.ma.MaskedArray([3, 4], mask=[0, 1])}, "^spheres: .*masked"), ({"spheres": [b"3"]}, "^spheres: a bytes"), ({"sphere": 3}, "did you mean 'spheres'"),
                            ({"spheres": []}, "^spheres: "), ({"spheres": [5, "5.0"]}, r"are the same \('5', '5.0'\)")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(run="fill", argument=MENGER, vary=vary, output=self.folder / "x")
@@ -291,6 +293,12 @@ class Commands(unittest.TestCase):
                             (("--hull", 100), dict(hull=100))):
             said, found = command("mesh", "form", GRAIN, *words, "-o", out), clast.mesh_form(GRAIN, **keys)
             self.same(found, said, ("before", "after", "volume", "volume_hull", "n_triangle"))
+        clast.mesh_convert(GRAIN, self.folder / "mm.ply", unit="mm")
+        said = command("mesh", "form", self.folder / "mm.ply", "--size", "7mm", "-o", out)
+        found = clast.mesh_form(self.folder / "mm.ply", size="7mm", output=self.folder / "py.ply")
+        self.same(found, said, ("before", "after", "volume_before"))
+        self.assertEqual((self.folder / "py.ply").read_bytes(), out.read_bytes())  # the unit, too
+        self.assertRaisesRegex(clast.Error, "size: .*'%'", clast.mesh_form, self.folder / "mm.ply", size="50%")
         said = command("mesh", "synthesize", "--seed", 4, "--flatness", 0.5, "-o", out)["grains"][0]
         found = clast.mesh_synthesize(seed=4, flatness=0.5)
         self.same(found, said, ("flatness", "elongation", "angularity", "volume", "n_triangle"))
@@ -351,7 +359,7 @@ class Commands(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "^the surface: it cuts itself at .* pairs"):
             clast.fill(clast.Mesh(np.concatenate([mesh.vertices, mesh.vertices + 0.1]), np.concatenate([mesh.triangles, mesh.triangles + len(mesh.vertices)])),
                        spheres=3)
-        with self.assertWarnsRegex(UserWarning, "points a bin .under 10.*compare mesh='tree'"):
+        with self.assertWarnsRegex(UserWarning, "points a bin .under 10.*compare mesh tree"):
             clast.decompose(np.random.default_rng(1).random((300, 2)) ** 2, domain="box:0,0,1,1", mesh="boxes")
         with self.assertLogs("clast", "INFO") as caught:
             clast.aggregate(core="sphere", core_size="270um", coat="sphere", size="100um", replicate=2, printable=True, output=self.folder / "run")

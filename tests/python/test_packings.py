@@ -30,6 +30,34 @@ class Packings(unittest.TestCase):
         with self.assertRaisesRegex(clast.Error, "start_diameter"):
             clast.pack(start=start, start_unit="mm", domain="box", width="40mm", height="50mm", max_steps=1)
 
+    def test_a_unit_of_a_diameter_needs_one_of_the_file(self):
+        """Lengths of a file without a unit are numbers of its own: "2mm" was 0.002 of them, a bead of a billionth of its volume."""
+        path = self.write("bare.xyz", "2\nmm\nA 0 0 0\nB 2 0 0\n")
+        for read in (lambda: clast.Assembly.read_spheres(path, diameter="2mm"), lambda: clast.export(path, self.folder / "o.csv", diameter="2mm"),
+                     lambda: clast.porosity(path, diameter="2mm", bed="box:0,0,16,16")):
+            with self.assertRaisesRegex(clast.Error, "^diameter: '2mm': the lengths have no unit"):
+                read()
+        self.assertFalse((self.folder / "o.csv").exists())
+        for diameter in (2, "2"):
+            self.assertAlmostEqual(clast.Assembly.read_spheres(path, diameter=diameter).volume / (2 * ball(2, 1)), 1.0, 12)
+        in_mm = self.write("mm.csv", "x_mm,y_mm,z_mm\n0,0,0\n2,0,0\n")
+        for diameter in (2e-3, "2mm"):
+            self.assertAlmostEqual(clast.Assembly.read_spheres(in_mm, diameter=diameter).volume / (2 * ball(2e-3, 1)), 1.0, 12)
+        with self.assertRaisesRegex(clast.Error, "^diameter: 2 has no unit"):
+            clast.Assembly.read_spheres(in_mm, diameter="2")
+
+    def test_ids_of_a_file_are_kept(self):
+        path = self.write("in.csv", "id,x_mm,y_mm,z_mm,d_mm\n7,5,5,2,4\n3,9,5,2,4\n")
+        grains = clast.Assembly.read_spheres(path)
+        self.assertEqual(list(grains.table()["id"]), [7, 3])
+        grains.write(self.folder / "out.dump")
+        self.assertIn("\n7 1 0.005 ", (self.folder / "out.dump").read_text(encoding="utf-8"))
+        told = clast.export(grains, self.folder / "out.voro")
+        self.assertEqual((told["ids_kept"], told["id_offset"]), (True, 0))
+        self.assertTrue((self.folder / "out.voro").read_text(encoding="utf-8").startswith("7 0.005 "))
+        told = clast.export(self.write("new.csv", "x,y,z,d\n5,5,2,4\n"), self.folder / "new.voro")
+        self.assertEqual((told["ids_kept"], told["id_offset"]), (False, 1))
+
     def test_the_last_snapshot_is_read_and_warned_of(self):
         one = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS id x y z radius\n1 2 2 {} 1\n"
         path = self.write("two.dump", "ITEM: UNITS\ncgs\n" + one.format(0, 8) + one.format(40, 1))

@@ -14,6 +14,8 @@ import warnings
 import numpy as np
 
 import clast
+from clast import _bindings as c
+from clast._core import call
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRAIN = ROOT / "data/standin63/grain00.ply"
@@ -217,6 +219,16 @@ class Warnings(Case):
         with self.assertNoLogs("clast", "INFO"):
             clast.predict(0.65, 0.7, model="single")
 
+    def test_numbers_of_grains_are_not_looked_at(self):
+        table = {"flatness": [0.5, 0.6, 0.65], "elongation": [0.7, 0.8, 0.71], "n": [100, 1, 1]}
+        said = ["column 'n' is not looked at: each row is one grain"]
+        self.assertEqual(self.heard(lambda: clast.predict(table=table)), said)
+        self.assertEqual(self.heard(lambda: clast.grain_statistics(table)), said)
+        self.assertEqual(self.heard(lambda: clast.predict_beds(table, model="single")), [])
+        path = pathlib.Path(FOLDER.name, "counted.csv")
+        path.write_text("flatness,elongation,n\n0.5,0.7,100\n0.6,0.8,1\n")
+        self.assertEqual(self.heard(lambda: clast.shapes(path)), [f"{path}: {said[0]}"])
+
     def test_a_mask_has_no_grey_levels(self):
         mask = np.zeros((12, 12, 12), np.uint8)
         mask[3:9, 3:9, 3:9] = 200
@@ -363,11 +375,11 @@ class Results(Case):
         """decompose gave nan and said nothing, agglomerate some hundred times too many events."""
         x = np.repeat(X[:100], 4, axis=0)
         line = "so many points are duplicates (coincident points), where no density is defined; leave copies out"
-        with self.assertWarnsRegex(UserWarning, f"^no number of events: {line}"):
+        with self.assertWarnsRegex(UserWarning, f"^no number of events: {re.escape(line)}"):
             self.assertTrue(np.isnan(clast.decompose(x, domain=BOX, beta_dt=1e-6).events))
-        with self.assertWarnsRegex(UserWarning, f"^no pair integral: {line}"):
+        with self.assertWarnsRegex(UserWarning, f"^no pair integral: {re.escape(line)}"):
             clast.decompose(x, domain=BOX)
-        with self.assertRaisesRegex(clast.Error, f"^snapshot 1: no number of events: {line}"):
+        with self.assertRaisesRegex(clast.Error, f"^snapshot 1: no number of events: {re.escape(line)}"):
             clast.agglomerate(x, domain=BOX, kernel="constant", constant=1e-6)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -391,8 +403,24 @@ class Results(Case):
                     else:
                         self.assertEqual(len(clast.Cloud.read(path, **keys)), len(X))
                 told = [str(one.message) for one in caught]
-                wanted = [f"{path}: column 'weight' is not looked at: each row is one particle (weight_column='weight')"]
+                wanted = [f"{path}: column 'weight' is not looked at: each row is one particle (weight_column weight)"]
                 self.assertEqual(told, wanted if value == 1000 else [])
+            np.savetxt(path, np.column_stack([X[:20], np.full(20, 9)]), delimiter=",", header="x,y,z,weight", comments="")
+            bodies = dict(domain=BOX, points=path, curve="1um", kernel="constant", constant=0, duration="1ms", rows=1, structure=False)
+            self.assertEqual(self.heard(lambda: clast.evolve(**bodies)),  # said nothing
+                             ["points: column 'weight' is not looked at: each row is one particle (weight: of all alike)"])
+
+    def test_a_rate_has_the_unit_of_its_dimension(self):
+        keys = dict(domain=BOX, estimator="cells")
+        self.assertEqual(clast.decompose(X, beta_dt="1 mm^3", **keys).events, clast.decompose(X, beta_dt=1e-9, **keys).events)
+        with self.assertRaisesRegex(clast.Error, "^beta_dt: is in m.2, in 3 dimensions it is in m.3"):
+            clast.decompose(X, beta_dt="1e-9m^2", **keys)
+
+    def test_keys_of_a_box_are_those_that_it_takes(self):
+        """Which keys are a box's stood in three lists."""
+        known = {*c.TABLES["clast_agglomerate_fields"], *c.TABLES["clast_spectrum_fields"], "seed"}
+        taken = {name for name in known if call("clast_agglomerate_takes")(name.encode(), True)}
+        self.assertEqual(set(inspect.signature(clast.box_model).parameters) - {"sizes", "progress"}, taken)
 
     def test_particles_that_are_left_go_on(self):
         with warnings.catch_warnings():

@@ -98,6 +98,64 @@ static void a_lone_name_holds_its_unit_in_brackets(void **state)
     }
 }
 
+/* Lists had a grammar of their own: lines that end in CR, decimal commas, UTF-16 and long words
+   were refused for what they are not. */
+static void lists_are_read_as_tables_are(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double count; // of 1 mm and 2 mm together
+    } list[] = {{"size_mm;count\r1;3\r2;4\r", 7.0},
+                {"\xef\xbb\xbf\"size_mm\",\"count\"\r\n\"1\",3\r\n2,\"4\"", 7.0},
+                {"size_mm,count # sieved, dry\n1,3 # first\n\n# then\n2,4# last\n", 7.0},
+                {"size_mm # in mm, sieved\n1 # fine\n2\n", 2.0},
+                {"size_mm\tcount\t\n1\t3\n2\t4\t\n", 7.0},
+                {"size_mm, count\n1 3\n2 4\n", 7.0},
+                {"Equivalent diameter (mm)\n1\n2\n", 2.0},
+                {"name,size_mm,\"what\nthis is\"\na,1,2\nb,2,3\n", 2.0}};
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        clast_sizes sizes = {0};
+        CHECK_OK(clast_sizes_parse("list", list[k].text, "", "", &sizes));
+        assert_int_equal(sizes.n, 2);
+        CHECK_REL(sizes.low[0] + sizes.high[1], 3e-3, 1e-15);
+        CHECK_ABS(sizes.count[0] + sizes.count[1], list[k].count, 0.0);
+        clast_sizes_free(&sizes);
+    }
+    clast_sizes sizes = {0}; // a row that begins with a size is no header
+    CHECK_OK(clast_sizes_parse("list", "1,3,a\n2,4,b\n", "", "mm", &sizes));
+    assert_true(sizes.n == 2 && sizes.count[0] == 3.0);
+    clast_sizes_free(&sizes);
+}
+
+static void wrong_lists_are_refused_with_their_line(void **state)
+{
+    (void)state;
+    static const char *const list[][2] = {
+        {"size_mm;count\n0,5;3\n", "l:2: '0,5' is not a number"},
+        {"size_mm,count\n0,5,3,0\n",
+         "l:2: 4 cells where the first row has 2; 1 such rows in all; dec"},
+        {"# a\n\nsize_mm count\n1 2 # x\nabc 3\n", "l:5: 'abc' is not a number"},
+        {"size_mm,count\n1,3\n\nNA,4\n", "l:4: 'NA' is not a number"},
+        {"size_mm\n1e400\n", "l:2: the size '1e400' is not finite"},
+        {"size_mm\n1\n-0.50\n", "l:3: the size -0.50 is not above 0"},
+        {"size_mm,count\n1,few\n", "l:2: the count 'few' is not a number from 0 up"},
+        {"size_mm,density\n1,2\n2,0\n", "l:3: the density '0' is not a number above 0"},
+        {"low_mm,high_um\n2.50,1.1\n", "l:2: the size low, 2.50 mm, is above high, 1.1 um"},
+        {"a,\"size_mm\",a\n1,2,3\n", "columns 1 and 3 are both called 'a'"},
+        {"size_mm,count\n", "no sizes in it"},
+        {"\n# a\n", "no row"},
+        {"\xff\xfes", "UTF-16"}};
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        clast_sizes sizes = {0};
+        CHECK_STATUS(clast_sizes_parse("l", list[k][0], "", "", &sizes), CLAST_E_FORMAT);
+        if (strstr(clast_error_detail(), list[k][1]) == NULL) {
+            fail_msg("'%s' does not say '%s'", clast_error_detail(), list[k][1]);
+        }
+        assert_null(sizes.low);
+    }
+}
+
 /* "density [g/cm3]" and "density mean (kg/m3)" were unknown units. */
 static void densities_have_the_unit_of_their_name(void **state)
 {
@@ -377,6 +435,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lone_name_holds_its_unit_in_brackets),
+        cmocka_unit_test(lists_are_read_as_tables_are),
+        cmocka_unit_test(wrong_lists_are_refused_with_their_line),
         cmocka_unit_test(densities_have_the_unit_of_their_name),
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),

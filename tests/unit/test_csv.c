@@ -47,6 +47,10 @@ static const example examples[] = {
     {"n,t\n1,\" x \"\n", 2, 1, "t", 0, 0.0, " x "},     /* quotes keep blanks */
     {"t\nlong word\n", 1, 1, "t", 0, 0.0, "long word"}, /* one column with blanks */
     {"maximum length\n5\n", 1, 1, "maximum length", 0, 5.0, NULL},
+    {"Size (mm) u [m s-1] n\n5 6 7\n", 3, 1, "u [m s-1]", 0, 6.0, NULL}, /* units of names */
+    {"x, y (mm); z\n5 6 7\n", 3, 1, "y (mm)", 0, 6.0, NULL},
+    {"n t\n5 (a\n", 2, 1, "t", 0, 0.0, "(a"},       /* of names alone */
+    {"grain #,n\n5,#6\n", 2, 1, "n", 0, 0.0, "#6"}, /* no comment behind cells */
     {"a,b\n1e3,-2.5E-3\n", 2, 1, "b", 0, -2.5e-3, NULL},
     {"a,b\ninf,2\n", 2, 1, "a", 0, INFINITY, NULL},
     {"a,a,\n1,2,3\n", 3, 1, "a_column_1", 0, 1.0, NULL}, /* repeated and empty names */

@@ -445,7 +445,8 @@ static void a_stop_is_what_happened(void **state)
         same[i] = 0.3;
     }
     cloud = (clast_cloud){.n = 100, .dimension = 2, .x = same};
-    assert_string_equal(stop_of(&cloud, &c), "at the limit: cells of 20 halvings are still non-uniform");
+    assert_string_equal(stop_of(&cloud, &c),
+                        "at the limit: cells of 20 halvings are still non-uniform");
     clast_fields_free(clast_decompose_fields, &c);
 }
 

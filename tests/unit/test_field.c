@@ -117,6 +117,35 @@ static void seeds_have_a_range(void **state)
     clast_fields_free(fields, &c);
 }
 
+/* A number of m^d says by its unit which d it is of. */
+static void a_number_keeps_the_dimension_of_its_unit(void **state)
+{
+    (void)state;
+    static const clast_field field[] = {{"rate", 0, CLAST_FIELD_F64, 0.0, 0.0, 1e300, "m^d", "r",
+                                         CLAST_KEEPS_DIMENSION, NULL, false},
+                                        {0}};
+    static const struct {
+        const char *text;
+        double value;
+        int32_t d;
+    } given[] = {{"2", 2.0, 0},     {"2 m^d", 2.0, 0},     {"1e3 mm", 1.0, 1},
+                 {"4cm2", 4e-4, 2}, {"1e-9 m^3", 1e-9, 3}, {"3", 3.0, 0}};
+    struct {
+        double value;
+        int32_t d, beyond;
+    } c = {1.0, 7, 7};
+    CHECK_OK(clast_fields_default(field, &c));
+    assert_true(c.value == 0.0 && c.d == 0 && c.beyond == 7);
+    for (size_t k = 0; k < sizeof given / sizeof given[0]; ++k) {
+        CHECK_OK(clast_field_set(field, &c, given[k].text, false));
+        CHECK_REL(c.value, given[k].value, 1e-15);
+        assert_true(c.d == given[k].d && c.beyond == 7);
+    }
+    CHECK_STATUS(clast_field_set(field, &c, "1 kg", false), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "known here: m, cm"));
+    assert_true(c.value == 3.0 && c.d == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +153,7 @@ int main(void)
         cmocka_unit_test(keys_before_a_fault_are_set),
         cmocka_unit_test(whole_numbers_are_read_alike),
         cmocka_unit_test(seeds_have_a_range),
+        cmocka_unit_test(a_number_keeps_the_dimension_of_its_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

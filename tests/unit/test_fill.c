@@ -277,6 +277,37 @@ static void measures_of_overlapping_spheres_count_the_union(void **state)
     clast_mesh_free(&box);
 }
 
+/* Of a ball about a face's middle one half is in the box, of two about one point no more; of one
+ * about a corner an eighth; one outside is all outside. filled was their volume by the box's. */
+static void filled_counts_what_is_in_the_solid(void **state)
+{
+    (void)state;
+    double centre[4][3] = {{2.0, 1.0, 1.0}, {2.0, 1.0, 1.0}, {0.0, 0.0, 2.0}, {9.0, 0.0, 0.0}};
+    double radius[4] = {0.8, 0.4, 0.5, 1.0};
+    const double unit = 4.0 / 3.0 * CLAST_PI;
+    const double in = unit * (0.5 * 0.512 + 0.125 * 0.125) / 8.0;
+    const double all = unit * (0.512 + 0.125 + 1.0) / 8.0;
+    clast_spheres s = {4, centre, radius};
+    clast_mesh box = {0};
+    clast_table table = {0};
+    clast_fill_report r;
+    CHECK_OK(clast_mesh_box(2.0, 2.0, 2.0, &box));
+    CHECK_OK(clast_fill_measure(&box, &s, &r));
+    CHECK_REL(r.sphere_volume / r.solid_volume, all, 1e-12);
+    CHECK_ABS(r.filled_fraction, in, 1e-3);
+    CHECK_ABS(r.filled_fraction + r.outside_fraction, all, 1e-12);
+    CHECK_ABS(r.volume_error, fabs(all - 1.0), 1e-12);
+    CHECK_OK(clast_fill_history(&box, &s, &table));
+    CHECK_ABS(clast_table_numbers(&table, "filled_fraction")[3], r.filled_fraction, 1e-12);
+    clast_table_free(&table);
+    s.n = 1; /* apart from all: its core is known to be in the box or out of it */
+    centre[0][0] = 2.2;
+    CHECK_OK(clast_fill_measure(&box, &s, &r));
+    const double cap = CLAST_PI * 0.36 * (2.4 - 0.6) / 3.0; /* 0.6 high */
+    CHECK_ABS(r.filled_fraction, cap / 8.0, 5e-4);
+    clast_mesh_free(&box);
+}
+
 static void history_ends_in_the_report(void **state)
 {
     (void)state;
@@ -617,6 +648,7 @@ int main(void)
         cmocka_unit_test(ball_is_one_sphere),
         cmocka_unit_test(measures_of_one_sphere_are_closed_forms),
         cmocka_unit_test(measures_of_overlapping_spheres_count_the_union),
+        cmocka_unit_test(filled_counts_what_is_in_the_solid),
         cmocka_unit_test(history_ends_in_the_report),
         cmocka_unit_test(bounds_stop_the_filling_when_met),
         cmocka_unit_test(impossible_bounds_do_not_converge),

@@ -129,7 +129,7 @@ static void charts_come_one_by_one(void **state)
     CHECK_OK(clast_chart_pca(&g.statistics, path));
     check_same_files(path, whole);
     (void)snprintf(whole, sizeof whole, "%s/histogram_flatness.svg", out);
-    CHECK_OK(clast_chart_histogram(g.set.flatness, g.set.n, "flatness S/I (-)", path));
+    CHECK_OK(clast_chart_histogram(g.set.flatness, g.set.n, "flatness S/I", "-", path));
     check_same_files(path, whole);
     clast_grain_statistics_free(&g);
     clast_table_free(&t);
@@ -187,6 +187,110 @@ static void fitted_models_are_drawn(void **state)
     clast_fields_free(clast_porosity_fit_fields, &c);
 }
 
+/* Lines of a fit before it is made go on with those of the fit. */
+static void notes_of_a_fit_come_one_by_one(void **state)
+{
+    (void)state;
+    static const char *const says[] = {
+        "1 of 20 rows left out (first: row 20, porosity missing)",
+        "1 column of words is no candidate: site",
+        "1 of 2 features: no candidate is left of 1 (0 like a chosen one, 0 constant or not finite "
+        "in some row)",
+        "column 'bed' names the bed and is no candidate",
+        "feature 'a' counts the rows; if it says nothing of a bed, name the candidates: --features "
+        "columns --columns a,b"};
+    static char text[2048] = "a,site,bed,porosity\n";
+    clast_porosity_fit_config c;
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    clast_fit_note note;
+    for (int i = 0; i < 20; ++i) {
+        const size_t n = strlen(text);
+        (void)snprintf(text + n, sizeof text - n, "%d,x%d,%d,%.*g\n", i, i, i + 1, i < 19 ? 6 : 1,
+                       i < 19 ? 0.3 + 0.01 * sin(3.0 * i) : (double)NAN);
+    }
+    CHECK_OK(clast_fields_default(clast_porosity_fit_fields, &c));
+    c.n_permutation = 0;
+    CHECK_OK(clast_table_parse_csv("beds", text, strlen(text), NULL, &t, NULL));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
+    for (int32_t k = 0; k < 6; ++k) {
+        assert_int_equal(clast_porosity_fit_note(NULL, &t, &d, k, &c, &note), k < 2);
+        assert_int_equal(clast_porosity_fit_note(&f, &t, &d, k, &c, &note), k < 5);
+        assert_string_equal(note.text, says[k < 5 ? k : 4]);
+        assert_int_equal(note.is_of_table, k != 2);
+    }
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+static const clast_table *study_beds;
+
+static clast_status read_study(void *path)
+{
+    clast_table grains = {0};
+    const clast_status status = clast_study_grains(path, study_beds, "run", &grains);
+    clast_table_free(&grains);
+    return status;
+}
+
+/* A run that failed is left out. Run 1.5 was run 2, and one whose number was missing run nan. */
+static void grains_of_a_study_are_those_of_its_runs(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *beds, *says; /* NULL: fine */
+    } row[] = {
+        {"run,exit_code\n2,0\n7,1\n1,0\n,1\n", NULL},
+        {"bed,exit_code\n1,0\n", "table results has no column of numbers 'run' that names the run"},
+        {"run,exit_code\n1,0\n1.5,0\n",
+         "table results, row 2: column 'run' has no number of a run"},
+        {"run\n1\nnan\n", "row 2: column 'run' has no number of a run"},
+        {"run,exit_code\n1,3\n2,3\n", "ended well"},
+        {"run\n3\n", "out/grains.csv: no column is called elongation"},
+    };
+    static const char *const file[] = {"flatness,elongation\n0.5,0.6\n0.7,0.8\n",
+                                       "size,elongation,flatness\n9,0.4,0.3\n", "flatness\n0.3\n"};
+    char path[1024];
+    const char *const study = folder("study");
+    (void)snprintf(path, sizeof path, "%s/runs", study);
+    (void)mkdir(path, 0777);
+    for (int k = 0; k < 3; ++k) {
+        (void)snprintf(path, sizeof path, "%s/runs/%06d", study, k + 1);
+        (void)mkdir(path, 0777);
+        (void)snprintf(path, sizeof path, "%s/runs/%06d/out", study, k + 1);
+        (void)mkdir(path, 0777);
+        (void)snprintf(path, sizeof path, "%s/runs/%06d/out/grains.csv", study, k + 1);
+        CHECK_OK(clx_file_write_all(path, file[k], strlen(file[k])));
+    }
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        clast_table beds = {0};
+        clast_table grains = {0};
+        CHECK_OK(
+            clast_table_parse_csv("results", row[k].beds, strlen(row[k].beds), NULL, &beds, NULL));
+        CHECK_STATUS(clast_study_grains(study, &beds, "run", &grains),
+                     row[k].says == NULL ? CLAST_OK : CLAST_E_FORMAT);
+        if (row[k].says != NULL) {
+            assert_non_null(strstr(clast_error_detail(), row[k].says));
+            assert_null(grains.column);
+        } else {
+            assert_int_equal(grains.n_row, 3);
+            CHECK_ABS(clast_table_numbers(&grains, "run")[0], 2.0, 0.0);
+            CHECK_ABS(clast_table_numbers(&grains, "elongation")[0], 0.4, 0.0);
+            CHECK_ABS(clast_table_numbers(&grains, "run")[2], 1.0, 0.0);
+            CHECK_ABS(clast_table_numbers(&grains, "flatness")[2], 0.7, 0.0);
+            study_beds = &beds;
+            (void)snprintf(path, sizeof path, "%s", study);
+            support_refuse_each_allocation(read_study, path);
+        }
+        clast_table_free(&grains);
+        clast_table_free(&beds);
+    }
+}
+
 /* A heat map of names: each name and each value is in the SVG once as text would be; the file
  * differs from that of the opposite signs. */
 static void signs_of_a_correlation_show(void **state)
@@ -220,6 +324,8 @@ int main(void)
         cmocka_unit_test(charts_come_one_by_one),
         cmocka_unit_test(degenerate_sets_are_drawn),
         cmocka_unit_test(fitted_models_are_drawn),
+        cmocka_unit_test(notes_of_a_fit_come_one_by_one),
+        cmocka_unit_test(grains_of_a_study_are_those_of_its_runs),
         cmocka_unit_test(signs_of_a_correlation_show),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

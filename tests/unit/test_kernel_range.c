@@ -310,7 +310,7 @@ static void keys_are_used_where_they_change_something(void **state)
             clast_agglomerate_config c = {.collide.kernel = 1U << k};
             const clast_field *field = clast_fields_find(clast_agglomerate_fields, key[i]);
             assert_non_null(field);
-            const bool is_used = clast_collide_idle(&c.collide, key[i]) == NULL;
+            const bool is_used = clast_collide_idle(&c.collide, key[i], false) == NULL;
             if (shows(&c, field) != is_used) {
                 fail_msg("%s: %s is %sused", clast_kernel_table()[k].name, key[i],
                          is_used ? "un" : "");
@@ -318,12 +318,50 @@ static void keys_are_used_where_they_change_something(void **state)
         }
     }
     clast_collide_config c = {.sticking.law = CLAST_STICKING_LIQUID};
-    assert_null(clast_collide_idle(&c, "film_viscosity"));
-    assert_string_equal(clast_collide_idle(&c, "asperity"), "sticking");
-    assert_null(clast_collide_idle(&c, "alpha"));
-    assert_string_equal(clast_collide_idle(&c, "fractal_dimension"), "radius_law");
+    assert_null(clast_collide_idle(&c, "film_viscosity", false));
+    assert_string_equal(clast_collide_idle(&c, "asperity", false), "sticking");
+    assert_null(clast_collide_idle(&c, "alpha", false));
+    assert_string_equal(clast_collide_idle(&c, "fractal_dimension", false), "radius_law");
+    c.kernel = 1U << CLAST_KERNEL_CONSTANT; /* which a box that settles needs more than */
+    assert_string_equal(clast_collide_idle(&c, "viscosity", false), "kernel");
+    assert_null(clast_collide_idle(&c, "viscosity", true));
+    assert_string_equal(clast_collide_idle(&c, "efficiency", true), "kernel");
     c.radius_law = CLAST_RADIUS_FRACTAL_GYRATION;
-    assert_null(clast_collide_idle(&c, "fractal_dimension"));
+    assert_null(clast_collide_idle(&c, "fractal_dimension", false));
+}
+
+/* Each key is looked at somewhere; what is to be said of nothing is nothing. */
+static void keys_and_notes_have_their_side(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key;
+        bool box, cloud;
+    } of[] = {{"solver", true, false},   {"initial_file", true, false}, {"kernel", true, true},
+              {"seed", true, true},      {"rebuild", false, true},      {"mesh", false, true},
+              {"x_column", false, true}, {"box-model", true, true}};
+    for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
+        assert_int_equal(clast_agglomerate_takes(of[k].key, true), of[k].box);
+        assert_int_equal(clast_agglomerate_takes(of[k].key, false), of[k].cloud);
+    }
+    assert_false(clast_agglomerate_takes(NULL, true) || clast_agglomerate_takes(NULL, false));
+    char text[768];
+    const clast_spectrum none = {.is_drawn = true, .volume_fraction = (double)NAN};
+    const clast_agglomeration cloud = {
+        .n_snapshot = 3, .n_unresolved = 2, .n_repeated = 1, .volume_fraction = 0.2};
+    for (int32_t k = -1; k <= CLAST_N_SPECTRUM_NOTE; ++k) {
+        assert_string_equal(clast_spectrum_note(&none, k, sizeof text, text), "");
+        assert_string_equal(clast_spectrum_note(NULL, k, sizeof text, text), "");
+    }
+    assert_string_equal(clast_agglomeration_note(&cloud, 0, sizeof text, text), "");
+    assert_string_equal(clast_agglomeration_note(&cloud, 1, 38, text),
+                        "the particles fill 20 % of the volume");
+    assert_string_equal(clast_agglomeration_note(&cloud, 1, 5, text), "the ");
+    assert_string_equal(clast_agglomeration_note(&cloud, 2, 19, text), "in 2 of 3 snapshot");
+    assert_string_equal(clast_agglomeration_note(&cloud, 3, 40, text),
+                        "1 particle of a snapshot is a duplicate");
+    assert_string_equal(clast_agglomeration_note(&cloud, 4, sizeof text, text), "");
+    assert_string_equal(clast_kernel_dense_words((double)NAN, sizeof text, text), "");
 }
 
 int main(void)
@@ -335,6 +373,7 @@ int main(void)
         cmocka_unit_test(boxes_are_held_against_the_same_table),
         cmocka_unit_test(a_run_tells_when_it_left_the_range),
         cmocka_unit_test(keys_are_used_where_they_change_something),
+        cmocka_unit_test(keys_and_notes_have_their_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

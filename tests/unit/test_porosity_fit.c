@@ -580,6 +580,43 @@ static void candidates_of_a_study_are_what_was_varied(void **state)
     clast_fields_free(clast_porosity_fit_fields, &c);
 }
 
+/* The command and Python held each of these rules for itself. */
+static void features_are_chosen_by_the_columns(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *header, *columns;
+        bool has_grains;
+        clast_model_kind kind;
+        const char *says;
+    } row[] = {
+        {"flatness,elongation,porosity", "", false, CLAST_MODEL_SINGLE, ""},
+        {"flatness,elongation,porosity", "", true, CLAST_MODEL_MIXTURE, ""},
+        {"mu,sand,porosity", "", false, CLAST_MODEL_COLUMNS, ""},
+        {"mean FL,mean EL,porosity", "mean FL,mean EL", false, CLAST_MODEL_SINGLE, ""},
+        {"mu,sand,porosity", "mu", false, CLAST_MODEL_COLUMNS, ""},
+        {"mu,sand,porosity", "mu,sand", false, CLAST_MODEL_COLUMNS,
+         "columns mu,sand are candidates; --features form takes them as a form"},
+        {"mu,sand,porosity", "mu,sand", true, CLAST_MODEL_MIXTURE, ""},
+    };
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        char text[128];
+        const int n = snprintf(text, sizeof text, "%s\n0.5,0.6,0.3\n", row[k].header);
+        clast_porosity_fit_config c = usual();
+        clast_table t = {0};
+        clast_fit_note note;
+        clast_model_kind kind = CLAST_MODEL_COLUMNS;
+        CHECK_OK(clast_field_set(clast_fields_find(clast_porosity_fit_fields, "columns"), &c,
+                                 row[k].columns, false));
+        CHECK_OK(clast_table_parse_csv("beds", text, (size_t)n, NULL, &t, NULL));
+        CHECK_OK(clast_porosity_fit_choose(&t, row[k].has_grains, &c, &kind, &note));
+        assert_int_equal(kind, row[k].kind);
+        assert_string_equal(note.text, row[k].says);
+        clast_table_free(&t);
+        clast_fields_free(clast_porosity_fit_fields, &c);
+    }
+}
+
 /* With features named, a gap in another column cost the row (periodic beds have no wall_ratio). */
 static void only_features_in_use_cost_a_row(void **state)
 {
@@ -733,6 +770,7 @@ int main(void)
         cmocka_unit_test(columns_of_rounding_are_constant),
         cmocka_unit_test(an_index_of_rounding_is_constant),
         cmocka_unit_test(candidates_of_a_study_are_what_was_varied),
+        cmocka_unit_test(features_are_chosen_by_the_columns),
         cmocka_unit_test(only_features_in_use_cost_a_row),
         cmocka_unit_test(the_published_validation_selects_once),
         cmocka_unit_test(columns_with_units_predict),

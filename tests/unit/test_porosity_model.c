@@ -83,6 +83,7 @@ static void table_and_moments_agree_for_independent_forms(void **state)
         (void)snprintf(text + n, sizeof text - n, "%.17g,%.17g\n", fl[i / 3], el[i % 3]);
     }
     read_text(text, &t);
+    assert_true(clast_form_set_named(&t) && !clast_form_set_named(NULL));
     CHECK_OK(clast_form_set_of(&t, NULL, &s));
     CHECK_OK(clast_form_inputs_of(&s, NULL, 0, &table));
     const double mean[2] = {0.65, 0.7};
@@ -173,24 +174,38 @@ static void tables_without_forms_are_refused(void **state)
     }
 }
 
-/* The label and the column of sizes in phi said phi, or no unit. */
-static void sizes_in_phi_are_in_millimetres(void **state)
+/* The label and the column of sizes in phi said phi, or no unit; the unit was sought in the label,
+   and not found in square brackets or before others. */
+static void sizes_have_the_unit_of_their_column(void **state)
 {
     (void)state;
-    static const char *const names[][2] = {{"D_phi", "sieve size (mm)"},
-                                           {"size_phi", "size (mm)"},
-                                           {"Diameter (phi)", "diameter (mm)"}};
-    for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
+    static const struct {
+        const char *column, *name, *unit, *factors;
+        double size;
+        bool is_sieve;
+    } list[] = {{"D_phi", "sieve size", "mm", "size_mm", 0.5, true},
+                {"size_phi", "size", "mm", "size_mm", 0.5, false},
+                {"Diameter (phi)", "Diameter", "mm", "size_mm", 0.5, false},
+                {"diameter_m", "diameter", "m", "size_m", 1.0, false},
+                {"Equivalent diameter [um]", "Equivalent diameter", "um", "size_um", 1.0, false},
+                {"size (mm) (mean)", "size", "mm", "size_mm", 1.0, false},
+                {"sieve_size", "sieve size", "", "size", 1.0, true},
+                {"Size", "Size", "", "size", 1.0, false}};
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
         char text[64];
         clast_table t = {0};
         clast_table factors = {0};
         clast_form_set s = {0};
-        (void)snprintf(text, sizeof text, "FL,EL,%s\n0.5,0.8,1\n", names[k][0]);
+        (void)snprintf(text, sizeof text, "FL,EL,%s\n0.5,0.8,1\n", list[k].column);
         read_text(text, &t);
         CHECK_OK(clast_form_set_of(&t, NULL, &s));
-        assert_string_equal(s.size_label, names[k][1]);
+        assert_string_equal(s.size_name, list[k].name);
+        assert_string_equal(s.size_unit, list[k].unit);
+        assert_true(s.is_sieve_size == list[k].is_sieve);
         CHECK_OK(clast_form_set_factors(&s, &factors));
-        CHECK_ABS(clast_table_numbers(&factors, "size_mm")[0], 0.5, 0.0);
+        const double *size = clast_table_numbers(&factors, list[k].factors);
+        assert_non_null(size);
+        CHECK_ABS(size[0], list[k].size, 0.0);
         clast_table_free(&factors);
         clast_form_set_free(&s);
         clast_table_free(&t);
@@ -212,7 +227,8 @@ static void a_unit_of_any_length_is_none(void **state)
         value[0] = 3.0 - k;
     }
     CHECK_OK(clast_form_set_of(&t, NULL, &s));
-    assert_string_equal(s.size_label, "sieve size");
+    assert_string_equal(s.size_name, "sieve size");
+    assert_string_equal(s.size_unit, "");
     clast_form_set_free(&s);
     clast_table_free(&t);
 }
@@ -631,7 +647,7 @@ int main(void)
         cmocka_unit_test(features_have_104_names),
         cmocka_unit_test(tables_of_every_kind_are_understood),
         cmocka_unit_test(tables_without_forms_are_refused),
-        cmocka_unit_test(sizes_in_phi_are_in_millimetres),
+        cmocka_unit_test(sizes_have_the_unit_of_their_column),
         cmocka_unit_test(a_unit_of_any_length_is_none),
         cmocka_unit_test(complaint_counts_by_reason),
         cmocka_unit_test(equal_grains_have_no_mixture),

@@ -1,9 +1,11 @@
 /* Unit: labels of keys and columns, and numbers in the units that people read. */
 #include "support.h"
 
+#include "base/field.h"
 #include "base/status.h"
 #include "report/quantity.h"
 #include <clast/field.h>
+#include <clast/report.h>
 #include <math.h>
 #include <string.h>
 
@@ -56,6 +58,9 @@ static void names_are_found_with_their_units(void **state)
         assert_string_equal(q.label, cases[k].label);
         assert_string_equal(q.unit, cases[k].unit);
     }
+    assert_string_equal(clast_report_unit("field_mass"), "kg");
+    assert_string_equal(clast_report_unit("bulk"), "");
+    assert_string_equal(clast_report_unit(NULL), "");
 }
 
 static void a_number_reads_in_the_unit_of_its_size(void **state)
@@ -186,6 +191,16 @@ static void what_is_printed_can_be_read(void **state)
     }
     CHECK_OK(clast_unit_parse("60/min", "1/s", &value)); /* of rates only /s was read so */
     CHECK_REL(value, 1.0, 1e-15);
+    const char *of = NULL; /* a number's dimension is its unit's */
+    assert_true(clx_unit_is_number("3 phi", &value, &of));
+    assert_string_equal(of, "m");
+    CHECK_REL(value, 1.25e-4, 1e-15);
+    assert_true(clx_unit_is_number("60/min", &value, &of));
+    assert_string_equal(of, "1/s");
+    assert_true(clx_unit_is_number("0.5", &value, &of));
+    assert_string_equal(of, "-");
+    assert_false(clx_unit_is_number("5 oz", &value, NULL) ||
+                 clx_unit_is_number("mm", &value, NULL));
     CHECK_STATUS(clast_unit_parse("1 oz", "kg", &value), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "known here: kg, g, mg, ug, ng, pg, fg, t"));
 }

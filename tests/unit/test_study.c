@@ -263,6 +263,45 @@ static void malformed_designs_are_refused(void **state)
     }
 }
 
+/* A caller of the library got runs that all failed. */
+static void keys_of_another_command_are_refused(void **state)
+{
+    (void)state;
+    static const clast_field fields[] = {{.name = "core_size", .type = CLAST_FIELD_F64},
+                                         {.name = "size", .type = CLAST_FIELD_TEXT_LIST},
+                                         {0}};
+    static const struct {
+        const char *key, *text, *says; // NULL: fine
+    } row[] = {{"vary", "core-size = 1um | 2um", NULL},
+               {"vary", "cor_size = 1um",
+                "clast aggregate has no key 'cor_size' (did you mean 'core_size'?)"},
+               {"table", "core_size=1\n1\n", "clast aggregate has no key 'core_size=1'"},
+               {"fix", "core_size", "fix takes key=value, not 'core_size'"},
+               {"fix", "friction=1", "clast aggregate has no key 'friction'"},
+               {"fix", "size=1um", NULL},
+               {"seeds", "2", "clast aggregate draws nothing at random: seeds must be 1"}};
+    int64_t n_run = 0;
+    for (size_t k = 0; k < sizeof row / sizeof *row; ++k) {
+        clast_study_config config = fresh();
+        const bool is_table = strcmp(row[k].key, "table") == 0;
+        set(&config, "run", "aggregate");
+        set(&config, row[k].key, is_table ? write_file("keys.csv", row[k].text) : row[k].text);
+        CHECK_STATUS(clast_study_check(&config, fields, &n_run),
+                     row[k].says == NULL ? CLAST_OK : CLAST_E_CONFIG);
+        assert_true(row[k].says == NULL || strstr(clast_error_detail(), row[k].says) != NULL);
+        assert_int_equal(n_run, k < 5 ? 2 : 1);
+        clast_fields_free(clast_study_fields, &config);
+    }
+    clast_study_config config = fresh();
+    set(&config, "run", "aggregate");
+    set(&config, "fix", "core_size=1um");
+    CHECK_STATUS(clast_study_check(&config, NULL, NULL), CLAST_E_CONFIG);
+    set(&config, "fix", "core-size=2um");
+    CHECK_STATUS(clast_study_check(&config, fields, NULL), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "core_size takes one value"));
+    clast_fields_free(clast_study_fields, &config);
+}
+
 static clast_status make_plan(void *context)
 {
     clast_table plan = {0};
@@ -700,6 +739,7 @@ int main(void)
         cmocka_unit_test(seeds_of_a_table_keep_their_digits),
         cmocka_unit_test(the_same_values_are_refused_however_they_are_written),
         cmocka_unit_test(malformed_designs_are_refused),
+        cmocka_unit_test(keys_of_another_command_are_refused),
         cmocka_unit_test(plan_survives_refused_memory),
         cmocka_unit_test(failed_runs_are_noted_and_tried_again),
         cmocka_unit_test(a_run_without_a_result_has_its_exit_code_alone),

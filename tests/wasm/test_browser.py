@@ -233,7 +233,7 @@ class Split(page.Live):
         self.drop("lattice.csv", f"x,y\n{lattice}\n".encode())
         self.set(domain="box:0,0,12,12", more="--pairs")
         self.split()
-        self.assertIn("more even", self.text("figures"))
+        self.assertIn("regular", self.text("figures"))
         self.assertIn("pair integral by pairs", self.text("said"))
         with page.Folder() as folder:
             (folder / "lattice.csv").write_text(f"x,y\n{lattice}\n")
@@ -385,7 +385,7 @@ class Split(page.Live):
         self.click("[data-make=cluster]")
         self.split()
         self.drop("grain.stl", b"solid x\nendsolid x\n")
-        self.assertEqual(self.text("error"), "grain.stl is a surface; the rooms Grow and Pour take it")
+        self.assertEqual(self.text("error"), "grain.stl is a surface; the tabs Grow and Pour take it")
         self.assertFalse(self.browser.value("document.getElementById('result').hidden"))
         self.browser.value("rooms.split.take([new File(['x,y\\n1,2\\n3,4\\n'], 'one.csv'), new File(['x,y\\n'], 'two.csv')])")
         self.until("state.name === 'one.csv' && document.getElementById('error').textContent === 'one table at a time: two.csv is left out'", 5)

@@ -1,25 +1,17 @@
 #pragma once
-// What a column of a list of sizes counts, by its name, and reading one for a purpose.
+// Reading a list of sizes for a purpose.
 #include "base/status.h"
+#include "shape/size_column.h"
 
 typedef struct clast_grading_list clast_grading_list;
 typedef struct clast_sizes clast_sizes;
 
-typedef enum clx_size_column {
-    CLX_SIZE_COLUMN_OTHER,
-    CLX_SIZE_COLUMN_NUMBER, ///< numbers of grains
-    CLX_SIZE_COLUMN_EITHER, ///< shares, by number or by mass
-    CLX_SIZE_COLUMN_MASS
-} clx_size_column;
-
-/// "n_grains", "Mass (g)", "retained_g", "frequency": what the column's name says.
-clx_size_column clx_size_column_of(const char *name);
-
 /// What a list is read for.
 typedef struct clx_sizes_use {
-    clx_size_column wanted;   ///< NUMBER or MASS; OTHER: whatever there is
-    const char *instead;      ///< how to have the other of the two, for messages
-    const char *unit_instead; ///< where else a unit may be given: " or give size_unit (um, ...)"
+    clx_size_column wanted;    ///< NUMBER or MASS; OTHER: whatever there is
+    const char *instead;       ///< how to have the other of the two, for messages
+    const char *unit_instead;  ///< where else a unit may be given: " or give size_unit (um, ...)"
+    const char *curve_instead; ///< what to do with a sieve curve; "": take it as it is written
 } clx_sizes_use;
 
 /// Which columns of a list were taken; without names they are called by their numbers, from 1.

@@ -1,5 +1,5 @@
 // Names of columns that count grains or hold masses.
-#include "io/size_columns.h"
+#include "shape/size_column.h"
 
 #include <clast/field.h>
 #include <ctype.h>
