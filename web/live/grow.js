@@ -1,4 +1,4 @@
-// The room Grow: `clast aggregate`, watched by the checkpoints that it writes grain by grain.
+// The tab Grow: `clast aggregate`, watched by the checkpoints that it writes grain by grain.
 const MOST_WATCHED = 250; // checkpoints of a run
 const GRAIN_NAMES = { 'grain00.ply': 'pebble A', 'grain12.ply': 'pebble B', 'grain31.ply': 'pebble C', 'grain47.ply': 'pebble D' };
 

@@ -1,4 +1,4 @@
-// The room Pour: `clast pack` in short runs, each gone on with from the state of the one before, which changes no bit of the end.
+// The tab Pour: `clast pack` in short runs, each gone on with from the state of the one before, which changes no bit of the end.
 const SLICE = 0.35; // s of computing between two pictures
 const SLOW_STEPS = 200;
 const SLOW_PAUSE = 125; // ms
@@ -23,7 +23,7 @@ class PourRoom extends Room {
 
   listFiles() {
     const own = [...this.files.keys()];
-    this.setOptions('curve', [['one', 'one size'], ['uniform', 'even between two sizes'], ['lognormal', 'lognormal'],
+    this.setOptions('curve', [['one', 'one size'], ['uniform', 'uniform between two sizes'], ['lognormal', 'lognormal'],
       ...['U1', 'U3', 'U5', 'U7', 'B30', 'B50', 'B70'].map((name) => [name, `published curve ${name}`]), ...own.filter((name) => this.isTable(name)).map((name) => [name, `${name}: sieve curve`])]);
     this.setOptions('shape', [['sphere', 'spheres'], ['ellipsoid', 'ellipsoids'], ...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]}, convex hull (${name})`]),
       ...own.filter((name) => !this.isTable(name)).map((name) => [name, `${name}, convex hull`])]);
@@ -128,7 +128,7 @@ class PourRoom extends Room {
     if (refusal) this.refuse(refusal);
   }
 
-  /// Slice after slice, until the bed is still, the steps are done or it is stopped.
+  /// Slice after slice, until the bed is at rest, the steps are done or it is stopped.
   async pour(first) {
     let words = first;
     this.stopped = false;

@@ -1,4 +1,4 @@
-// The room Split: a table of positions, its cells and events.
+// The tab Split: a table of positions, its cells and events.
 const SIZE = 640; // of the picture, in its own pixels
 const EDGE = 14;
 const FIELDS = ['domain', 'variant', 'mesh', 'beta_dt', 'more'];
@@ -459,7 +459,7 @@ function show() {
   const key = r.events === null ? 'pair_integral' : 'events';
   const unit = r.events === null ? ` ${r.pair_integral_unit}` : '';
   $('figures').replaceChildren(
-    figure(short(r.n), `points in ${r.dimension} dimensions`), figure(r.reject === null ? 'not tested' : r.evenness, 'tests of uniformity'),
+    figure(short(r.n), `points in ${r.dimension} dimensions`), figure(r.reject === null ? 'not tested' : { 'less even': 'clustered', 'more even': 'regular' }[r.evenness] ?? r.evenness, 'tests of uniformity'),
     ...(r.n_cell === null ? [] : [figure(short(r.n_cell), r.n_cell === 1 ? 'cell' : 'cells'), figure(`${short(r[key])}${unit}`, unit ? 'pair integral: events per kernel times time step' : 'events'),
       figure(r.resolved ? `${short(r[`${key}_low`])} to ${short(r[`${key}_high`])}${unit}` : `above ${short(r[`${key}_low`])}${unit}`,
       r.resolved ? '95 % interval' : r.keeps_apart ? 'the points keep apart: lower bound of large cells alone, 97.5 %' : 'the points do not show all of their structure: lower bound alone, 97.5 %')]));
@@ -496,7 +496,7 @@ function textIfUtf8(bytes) {
 
 async function take(file) {
   if (!file) return;
-  if (/\.(stl|obj|off)$/i.test(file.name)) { fail(`${file.name} is a surface; the rooms Grow and Pour take it`); return; }
+  if (/\.(stl|obj|off)$/i.test(file.name)) { fail(`${file.name} is a surface; the tabs Grow and Pour take it`); return; }
   const isText = /\.(csv|tsv|txt|xyz)$/i.test(file.name);
   state.arrival += 1;
   const { arrival } = state;

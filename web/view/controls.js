@@ -12,7 +12,7 @@ import { MAX_WIDTH, MIN_WIDTH, savePicture } from './picture.js';
 const COLOURS = [['size', 'Colour by size'], ['order', 'Colour by order'], ['shape', 'Colour by shape'],
   ['coordination', 'Colour by contacts'], ['speed', 'Colour by speed'], ['force', 'Colour by force']];
 const CUTS = [['none', 'No cut'], ['view', 'Cut in view'], ['x', 'Cut across x'], ['y', 'Cut across y'], ['z', 'Cut across z']];
-const KEYS = 'Arrow keys turn, Shift and arrow keys move, + and - zoom, 0 frames all, C changes colours, X Y Z V cut, F shows contacts, '
+const KEYS = 'Arrow keys rotate, Shift and arrow keys move, + and - zoom, 0 frames all, C changes colours, X Y Z V cut, F shows contacts, '
   + 'P saves a picture, comma and full stop step in time, Escape lets a grain go.';
 const TURN = Math.PI / 24; // rad a key
 const CLICK = 4; // px that a click may move
@@ -173,7 +173,7 @@ export function makeControls(view, others) {
     colour: choice('Colour', COLOURS.filter(([key]) => data[key]), (by) => colour(view, by)),
     grow: range('Growth: grains in order of placement', 1, data.n_shown, 1, data.n_shown, (n) => grow(view, n)),
     cut: choice('Cut', CUTS, (axis) => cut(view, axis)),
-    place: range('Place of the cut', 0, 1, 0.002, 0.5, (place) => { moveCut(view, place); view.draw(); }),
+    place: range('Position of the cut', 0, 1, 0.002, 0.5, (place) => { moveCut(view, place); view.draw(); }),
     chains: button(data.contacts?.force ? 'Force chains' : 'Contacts', 'Show contacts in place of the grains', () => toggleChains(view)),
   };
   parts.growing = button('\u25b6 Grow', 'Play the growth', () => play(view, parts.grow, (n) => grow(view, n)));

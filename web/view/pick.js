@@ -39,7 +39,7 @@ function rowsOf(view, g) {
     if (size > 0) rows.push(['mass', si(density * solid * data.length ** 3 * 1e3, 'g')]);
   }
   rows.push(['centroid x, y, z', lengths(data, [x, y, z].map((v, k) => v + data.centre[k] / data.length))]);
-  rows.push(['turned by', `${degrees(2 * Math.acos(Math.min(1, Math.abs(qw))))} (quaternion ${[qw, qx, qy, qz].map((q) => q.toFixed(4)).join(', ')})`]);
+  rows.push(['rotated by', `${degrees(2 * Math.acos(Math.min(1, Math.abs(qw))))} (quaternion ${[qw, qx, qy, qz].map((q) => q.toFixed(4)).join(', ')})`]);
   if (data.contacts) {
     const when = isEnd(view) ? '' : ', at the end';
     rows.push([`contacts${when}`, String(data.contacts.count[g])]);

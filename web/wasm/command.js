@@ -185,7 +185,7 @@ class Clast {
   /// Grows virtual aggregates (clast aggregate).
   aggregate(options, how) { return this.json(['aggregate', ...wordsOf(options)], how); }
 
-  /// Pours, shakes and calms a bed (clast pack): state_hash is that of the command.
+  /// Pours, shakes and damps a bed (clast pack): state_hash is that of the command.
   pack(options, how) { return this.json(['pack', ...wordsOf(options)], how); }
 
   /// Size and form of the surfaces among the files (clast shape): grains[] in the files' order.
