@@ -612,7 +612,7 @@ static void bed_without_room_for_the_next_grain_ends(void **state)
     b.config.dem.contact_scheme = CLAST_DEM_EXACT;
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     CHECK_STATUS(clast_pack_advance(pack, 200000), CLAST_E_CONVERGE);
-    assert_non_null(strstr(clast_error_detail(), "grown into the place"));
+    assert_non_null(strstr(clast_error_detail(), "grown into the region"));
     clast_pack_destroy(pack);
     end(&b);
 }
