@@ -5,20 +5,22 @@
 #include <string.h>
 
 const cli_option cli_options[] = {
-    {"output", 'o', "PATH", CLI_OPTION_OUTPUT, "where results go", "where results go"},
-    {"threads", 'j', "N", CLI_OPTION_THREADS, "threads",
-     "threads; 0: one per core; results do not depend on it"},
-    {"max-memory", 0, "SIZE", CLI_OPTION_MAX_MEMORY, NULL,
-     "most that it may take: 8GB, 50% of the machine's, 0: no limit (default 80%)"},
-    {"time-limit", 0, "TIME", CLI_OPTION_TIME_LIMIT, NULL,
+    {"output", "PATH", "where results go", "where results go", CLI_OPTION_OUTPUT, 'o'},
+    {"threads", "N", "threads", "threads; 0: one per core; results do not depend on it",
+     CLI_OPTION_THREADS, 'j'},
+    {"max-memory", "SIZE", NULL,
+     "most that it may take: 8GB, 50% of the machine's, 0: no limit (default 80%)",
+     CLI_OPTION_MAX_MEMORY, 0},
+    {"time-limit", "TIME", NULL,
      "stop by itself after so long (90min), as by SIGTERM: with a checkpoint where --resume can go "
-     "on"},
-    {"set", 0, "KEY=VALUE", CLI_OPTION_SET, NULL, "the same as --KEY VALUE"},
-    {"json", 0, NULL, CLI_OPTION_JSON, "one object on stdout", "one JSON object on stdout"},
-    {"quiet", 'q', NULL, CLI_OPTION_QUIET, "quiet", "no progress on stderr"},
-    {"help", 'h', NULL, CLI_OPTION_HELP, NULL,
-     "the first page of a command; --help-all: every option of it"},
-    {"help-all", 0, NULL, CLI_OPTION_HELP_ALL, NULL, NULL},
+     "on",
+     CLI_OPTION_TIME_LIMIT, 0},
+    {"set", "KEY=VALUE", NULL, "the same as --KEY VALUE", CLI_OPTION_SET, 0},
+    {"json", NULL, "one object on stdout", "one JSON object on stdout", CLI_OPTION_JSON, 0},
+    {"quiet", NULL, "quiet", "no progress on stderr", CLI_OPTION_QUIET, 'q'},
+    {"help", NULL, NULL, "the first page of a command; --help-all: every option of it",
+     CLI_OPTION_HELP, 'h'},
+    {"help-all", NULL, NULL, NULL, CLI_OPTION_HELP_ALL, 0},
     {0}};
 
 const cli_option *cli_option_find(const char *name)

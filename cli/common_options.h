@@ -17,11 +17,11 @@ typedef enum cli_option_kind {
 
 typedef struct cli_option {
     const char *name;  ///< "max-memory"; NULL after the last
-    char letter;       ///< of -o; 0: none
     const char *value; ///< what stands behind it, "PATH", or NULL
-    cli_option_kind kind;
     const char *first; ///< on the first page of a command, or NULL
     const char *help;  ///< in --help-all and the manual, or NULL: another's text names it
+    cli_option_kind kind;
+    char letter; ///< of -o; 0: none
 } cli_option;
 
 extern const cli_option cli_options[];

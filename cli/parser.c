@@ -98,12 +98,13 @@ static clast_status common_option(cli_parser *p, const cli_option *option, const
         return usage_error(p, "--%s %s", option->name,
                            value == NULL ? "needs a value" : "has an empty value");
     }
+    const char *text = value != NULL ? value : "";
     switch (option->kind) {
     case CLI_OPTION_OUTPUT:
         p->common.output = value;
         break;
     case CLI_OPTION_THREADS:
-        return set_threads(p, value);
+        return set_threads(p, text);
     case CLI_OPTION_MAX_MEMORY:
         p->common.max_memory = value;
         break;
@@ -111,7 +112,7 @@ static clast_status common_option(cli_parser *p, const cli_option *option, const
         p->common.time_limit = value;
         break;
     case CLI_OPTION_SET:
-        return set_pair(p, value);
+        return set_pair(p, text);
     case CLI_OPTION_JSON:
         p->common.json = true;
         break;
