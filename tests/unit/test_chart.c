@@ -315,12 +315,12 @@ static void heat_maps_have_a_colour_bar(void **state)
 static void histograms_tell_a_unit(void **state)
 {
     (void)state;
-    static const char *const unit[3] = {"", "model units", "-"};
-    static char bytes[3][1 << 17];
-    size_t n[3];
+    static const char *const unit[2] = {"", "model units"};
+    static char bytes[2][1 << 17];
+    size_t n[2];
     double x[N], y[N], low[N], high[N];
     fill(x, y, low, high);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
         char path[512];
         snprintf(path, sizeof path, "%s/unit-%d.svg", support_scratch(), i);
         CHECK_OK(clast_chart_histogram(y, N, "sieve size", unit[i], path));
@@ -328,7 +328,6 @@ static void histograms_tell_a_unit(void **state)
     }
     assert_int_equal(n[0], n[1]);
     assert_memory_equal(bytes[0], bytes[1], n[0]);
-    assert_true(n[0] != n[2]);
 }
 
 static void empty_axis_and_unknown_format_are_refused(void **state)

@@ -15,9 +15,22 @@ function base64Of(bytes) {
   return btoa(text);
 }
 
+/// Bytes of base 85 as tools/make_live.py writes it: five letters for four bytes, a letter more than bytes at the end.
+function bytesOf85(text) {
+  const digit = new Uint8Array(128);
+  [...'0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~'].forEach((c, k) => { digit[c.charCodeAt(0)] = k; });
+  const bytes = new Uint8Array(Math.floor(text.length * 4 / 5));
+  for (let i = 0, at = 0; at < bytes.length; i += 5) {
+    let word = 0;
+    for (let k = i; k < i + 5; ++k) word = word * 85 + (k < text.length ? digit[text.charCodeAt(k)] : 84);
+    for (let shift = 24; shift >= 0 && at < bytes.length; shift -= 8) bytes[at++] = word >>> shift;
+  }
+  return bytes;
+}
+
 /// What an element of the page holds compressed.
 async function bundled(element) {
-  const bytes = bytesOf(element.textContent.trim());
+  const bytes = bytesOf85(element.textContent.trim());
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
 }
 
