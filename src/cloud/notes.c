@@ -145,17 +145,25 @@ static void start_note(const clast_spectrum *r, size_t size, char *text)
     }
 }
 
+/// Notes 0 and 1 of boxes and clouds alike.
+static void kernel_note(const clast_range_report *range, double volume_fraction, int32_t k,
+                        size_t size, char *text)
+{
+    text[0] = '\0';
+    if (k == 0) {
+        range_note(range, size, text);
+    } else if (k == 1) {
+        (void)clast_kernel_dense_words(volume_fraction, size, text);
+    }
+}
+
 const char *clast_spectrum_note(const clast_spectrum *result, int32_t k, size_t size, char *text)
 {
     if (result == NULL || text == NULL || size == 0) {
         return "";
     }
-    text[0] = '\0';
-    if (k == 0) {
-        range_note(&result->range, size, text);
-    } else if (k == 1) {
-        (void)clast_kernel_dense_words(result->volume_fraction, size, text);
-    } else if (k == 2) {
+    kernel_note(&result->range, result->volume_fraction, k, size, text);
+    if (k == 2) {
         start_note(result, size, text);
     }
     return text;
@@ -192,12 +200,8 @@ const char *clast_agglomeration_note(const clast_agglomeration *result, int32_t 
     if (result == NULL || text == NULL || size == 0) {
         return "";
     }
-    text[0] = '\0';
-    if (k == 0) {
-        range_note(&result->range, size, text);
-    } else if (k == 1) {
-        (void)clast_kernel_dense_words(result->volume_fraction, size, text);
-    } else if (k == 2) {
+    kernel_note(&result->range, result->volume_fraction, k, size, text);
+    if (k == 2) {
         unresolved_note(result, size, text);
     } else if (k == 3) {
         repeated_note(result, size, text);
