@@ -3,8 +3,10 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/field.h"
 #include "base/status.h"
+#include "math/sort.h"
 #include "shape/whole.h"
 #include <clast/table.h>
 #include <math.h>
@@ -20,15 +22,7 @@ typedef struct {
     double placed;       ///< as wanted, mean over repeats
 } size_class;
 
-static int by_size(const void *a, const void *b)
-{
-    const size_class *x = a;
-    const size_class *y = b;
-    if (x->low != y->low) {
-        return x->low < y->low ? -1 : 1;
-    }
-    return (x->high > y->high) - (x->high < y->high);
-}
+CLX_RISING_BY_TWO(by_size, size_class, low, high)
 
 /// Share of the law's particles up to this size, before it is cut at size_low and size_high.
 static double law_share(const clast_aggregate_params *c, double size)
@@ -160,9 +154,7 @@ static clast_status make_table(const size_class *list, int64_t n, clast_table *t
     double sum = 0.0;
     double total = 0.0;
     CLX_TRY(clast_table_init(&made, "sizes", n));
-    for (int k = 0; k < N_COLUMN; ++k) {
-        CLX_TRY(clast_table_add_number(&made, column[k][0], column[k][1], NULL));
-    }
+    CLX_TRY(CLX_ADD_COLUMNS(&made, column));
     for (int64_t i = 0; i < n; ++i) {
         total += list[i].placed;
     }

@@ -18,8 +18,7 @@
 static void free_cluster(clx_cluster *cluster)
 {
     clx_touch_scene_destroy(cluster->scene);
-    clx_free(cluster->grain);
-    clx_free(cluster->contact);
+    CLX_FREE(cluster->grain, cluster->contact);
     *cluster = (clx_cluster){0};
 }
 
@@ -45,7 +44,8 @@ static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
     for (int32_t i = 0; i < cluster->n; ++i) {
         const int32_t grain = cluster->grain[i];
         const double s = all->scale[grain];
-        const clx_kit_shape *shape = &a->kit.shape[a->kit_shape[all->shape_id[grain]]];
+        const clx_template_shape *shape =
+            &a->templates.shape[a->template_shape[all->shape_id[grain]]];
         const double volume = shape->shape->volume * s * s * s;
         const double mass = volume * all->density[grain];
         const double own = shape->inertia_trace / shape->shape->volume * s * s;
@@ -187,16 +187,16 @@ done:
 
 /// The cluster as a group about its centre of mass.
 static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluster,
-                             clx_kit_group *group)
+                             clx_template *group)
 {
     CLAST_ASSERT(cluster->n > 0 && cluster->mass >= 0.0);
     const clast_assembly *all = &a->assembly;
-    *group = (clx_kit_group){.n_part = cluster->n};
+    *group = (clx_template){.n_part = cluster->n};
     const clast_status status = clx_alloc(&group->part, cluster->n, sizeof *group->part);
     for (int32_t i = 0; i < cluster->n && status == CLAST_OK; ++i) {
         const int32_t grain = cluster->grain[i];
-        clx_kit_part *part = &group->part[i];
-        part->shape = a->kit_shape[all->shape_id[grain]];
+        clx_template_part *part = &group->part[i];
+        part->shape = a->template_shape[all->shape_id[grain]];
         part->scale = all->scale[grain];
         part->density = all->density[grain];
         v3_sub(part->position, all->position[grain], cluster->centre);
@@ -204,22 +204,23 @@ static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluste
             part->orientation[k] = all->orientation[grain][k];
         }
         group->radius =
-            fmax(group->radius, v3_norm(part->position) +
-                                    part->scale * a->kit.shape[part->shape].shape->bounding_radius);
+            fmax(group->radius,
+                 v3_norm(part->position) +
+                     part->scale * a->templates.shape[part->shape].shape->bounding_radius);
     }
     return status;
 }
 
-static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_landing *landing)
+static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_placement *placement)
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     const int32_t tries = clx_search_tries(a->params);
-    CLX_TRY(clx_walk_or_search(search, tries, landing));
-    CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
+    CLX_TRY(clx_walk_or_search(search, tries, placement));
+    CLX_CHECK(placement->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "merger %d: all of %d %s miss the larger cluster; raise max_tries", a->n_placed + 1,
               tries, clx_search_paths(search));
-    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+    CLX_CHECK(placement->found, CLAST_E_CONVERGE,
               "merger %d: all rays of %d axes miss the larger cluster; let rays start at a grain "
               "(origin: grain)",
               a->n_placed + 1, tries);
@@ -229,26 +230,27 @@ done:
 }
 
 /// Contact points of the thrown cluster turn and move with it.
-static void move_contacts(clast_aggregate *a, const clx_cluster *small, const clx_landing *landing)
+static void move_contacts(clast_aggregate *a, const clx_cluster *small,
+                          const clx_placement *placement)
 {
     for (int32_t i = 0; i < small->n_contact; ++i) {
         double *point = a->assembly.contact_point[small->contact[i]];
         double arm[3];
         v3_sub(arm, point, small->centre);
-        q_rotate(arm, landing->orientation, arm);
-        v3_add(point, landing->centre, arm);
+        q_rotate(arm, placement->orientation, arm);
+        v3_add(point, placement->centre, arm);
     }
 }
 
 static clast_status join_contacts(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
-                                  const clx_landing *landing)
+                                  const clx_placement *placement)
 {
     clast_status status = CLAST_OK;
     const int32_t n = large->n_contact + small->n_contact + 1;
     CLX_TRY(clx_grow(&large->contact, &large->contact_capacity, n, sizeof *large->contact));
-    CLX_TRY(clast_assembly_add_contact(&a->assembly, large->grain[landing->touch.body],
-                                       small->grain[landing->part], landing->touch.point));
-    move_contacts(a, small, landing);
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, large->grain[placement->touch.body],
+                                       small->grain[placement->part], placement->touch.point));
+    move_contacts(a, small, placement);
     for (int32_t i = 0; i < small->n_contact; ++i) {
         large->contact[large->n_contact + i] = small->contact[i];
     }
@@ -260,16 +262,16 @@ done:
 
 /// The thrown grains take their new poses and join the larger cluster.
 static clast_status join(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
-                         const clx_kit_group *group, const clx_landing *landing)
+                         const clx_template *group, const clx_placement *placement)
 {
     CLAST_ASSERT(large != small && large->n > 0 && small->n > 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&large->grain, &large->capacity, large->n + small->n, sizeof *large->grain));
-    CLX_TRY(join_contacts(a, large, small, landing));
+    CLX_TRY(join_contacts(a, large, small, placement));
     for (int32_t i = 0; i < small->n; ++i) {
         const int32_t grain = small->grain[i];
-        clx_kit_part placed;
-        clx_kit_pose(group, i, landing->centre, landing->orientation, 1.0, &placed);
+        clx_template_part placed;
+        clx_template_pose(group, i, placement->centre, placement->orientation, 1.0, &placed);
         v3_copy(a->assembly.position[grain], placed.position);
         for (int k = 0; k < 4; ++k) {
             a->assembly.orientation[grain][k] = placed.orientation[k];
@@ -285,7 +287,7 @@ done:
 }
 
 static clast_status add_row(clast_aggregate *a, const clx_cluster *merged, const clx_search *search,
-                            const clx_landing *landing, double overlap)
+                            const clx_placement *placement, double overlap)
 {
     clast_status status = CLAST_OK;
     double *row = NULL;
@@ -296,9 +298,9 @@ static clast_status add_row(clast_aggregate *a, const clx_cluster *merged, const
     row[CLX_HISTORY_GRAINS] = merged->n;
     row[CLX_HISTORY_SHAPE] = -1.0;
     row[CLX_HISTORY_SIZE] = search->size;
-    row[CLX_HISTORY_DISTANCE] = landing->distance;
+    row[CLX_HISTORY_DISTANCE] = placement->distance;
     row[CLX_HISTORY_RAYS] = (double)search->aim.n_ray * (search->aim.attempt + 1);
-    row[CLX_HISTORY_TOUCHED] = merged->grain[landing->touch.body];
+    row[CLX_HISTORY_TOUCHED] = merged->grain[placement->touch.body];
     row[CLX_HISTORY_OVERLAP] = overlap;
     row[CLX_HISTORY_MASS] = merged->mass;
     row[CLX_HISTORY_SOLID] = merged->volume;
@@ -322,10 +324,10 @@ static double bounding_radius_of(const clast_aggregate *a, const clx_cluster *cl
 }
 
 static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
-                           const clx_kit_group *group, clx_search *search)
+                           const clx_template *group, clx_search *search)
 {
     const clast_aggregate_params *c = a->params;
-    *search = (clx_search){.kit = &a->kit,
+    *search = (clx_search){.templates = &a->templates,
                            .group = group,
                            .scale = 1.0,
                            .size = 2.0 * group->radius,
@@ -347,23 +349,23 @@ static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *s
 {
     CLAST_ASSERT(large != small && large->n >= small->n);
     clast_status status = CLAST_OK;
-    clx_kit_group group = {0};
+    clx_template group = {0};
     clx_search search;
-    clx_landing landing;
+    clx_placement placement;
     CLX_TRY(ensure_scene(a, large));
     CLX_TRY(as_group(a, small, &group));
     prepare_search(a, large, &group, &search);
-    CLX_TRY(throw_cluster(a, &search, &landing));
-    const double overlap = clx_search_overlap(&search, &landing);
+    CLX_TRY(throw_cluster(a, &search, &placement));
+    const double overlap = clx_search_overlap(&search, &placement);
     a->is_torn = true;
-    CLX_TRY(join(a, large, small, &group, &landing));
+    CLX_TRY(join(a, large, small, &group, &placement));
     ++a->n_placed;
     free_cluster(small);
     *small = a->clusters.cluster[--a->clusters.n];
     if (large == &a->clusters.cluster[a->clusters.n]) {
         large = small; // the last cluster took the freed place
     }
-    CLX_TRY(add_row(a, large, &search, &landing, overlap));
+    CLX_TRY(add_row(a, large, &search, &placement, overlap));
     a->is_torn = false;
 done:
     clx_free(group.part);

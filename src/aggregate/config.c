@@ -5,8 +5,6 @@
 #include "base/number.h"
 #include "math/vec3.h"
 #include <float.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // `of` is "params." or nothing: where in the configuration the field is.
@@ -81,20 +79,18 @@ const clast_field clast_aggregate_fields[] = {
            "lognormal: standard deviation of ln size; weibull: exponent"),
     NUMBER(params., size_low, 0, 0, 1e6, "m", "smallest size of a law"),
     NUMBER(params., size_high, 0, 0, 1e6, "m", "greatest size of a law; 0: none"),
-    COUNT(
-        params., n_particle, 0, 0, 1e8,
-        "particles to place, 0: the whole list; from a law or with size_draw: how many are drawn, "
-        "replicate times"),
+    COUNT(params., n_particle, 0, 0, 1e8,
+          "particles to place, 0: the whole list; from a law or with size_draw: how many are "
+          "drawn, replicate times"),
     FLAG(params., size_draw, "draw n_particle sizes from the histogram at random"),
     FLAG(params., size_by_mass,
          "rows of the histogram hold masses (a column mass, mass_g, weight ..), not numbers"),
     COUNT(params., replicate, 1, 1, 1e6,
           "how often the list is used, or n_particle sizes are drawn (N_A of the paper)",
           .common = true),
-    CHOICE(
-        params., size_meaning, 0, "length|volume|mean_diameter",
-        "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters, by the L, I, S "
-        "that clast shape --axes fitted prints"),
+    CHOICE(params., size_meaning, 0, "length|volume|mean_diameter",
+           "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters, by the L, I, "
+           "S that clast shape --axes fitted prints"),
     CHOICE(params., order, 0, "given|shuffled|descending", "order of placement"),
 
     NUMBER(params., cone, CLAST_PI / 180.0, 0, CLAST_PI, "rad", "half-angle of the cone of rays",
@@ -105,8 +101,7 @@ const clast_field clast_aggregate_fields[] = {
     CHOICE(params., origin, 0, "auto|core|mass|grain|sphere",
            "where rays start: core's centre, centre of mass, a random placed grain or sphere"),
     CHOICE(params., target, 0, "core|mass",
-           "the kept trial ends nearest to the core's centre, or to the "
-           "centre of mass"),
+           "the kept trial ends nearest to the core's centre, or to the centre of mass"),
     NUMBER(params., start, 0, 0, 1e6, "-",
            "start, in particle sizes beyond the ray's last hit; 0: from outside of everything"),
     COUNT(params., max_tries, 100, 1, 1e6,
@@ -129,15 +124,15 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(params., march_vertices, 1000, 2, 1e9, "vertices that the march measures a length from"),
 
     TEXTS(params., envelope, "surface_hull",
-          "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, "
-          "alpha, enclosing_sphere, gyration_sphere",
+          "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, alpha, "
+          "enclosing_sphere, gyration_sphere",
           .group = "envelopes and porosity"),
     COUNT(params., envelope_every, 1, 1, 1e9,
           "particles between two rows of porosity; alpha, wrap: seconds each"),
     {FIELD(BOOL, params., solid_union), 1, 0, 1, "-",
-     "measure the volume of the union too, which takes sampling where grains overlap", NULL},
+     "measure the volume of the union too, which takes sampling where grains overlap"},
     {FIELD(BOOL, params., fall_speed), 0, 0, 1, "-",
-     "settling velocity in each row of porosity too, which takes the extent each time", NULL},
+     "settling velocity in each row of porosity too, which takes the extent each time"},
     COUNT(params., envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(params., envelope_length, 0, 0, 1e6, "m",
            "radius of the ball of the wrap and alpha envelopes, which need it"),
@@ -169,9 +164,9 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(, repeats, 1, 1, 1e6, "independent aggregates", .group = "repeats and random numbers"),
     NUMBER(, confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
     {FIELD(U64, params., seed), 1, 0, 1.8446744073709552e19, "-", "seed of every random number",
-     NULL, .common = true},
+     .common = true},
     COUNT(, checkpoint_every, 200, 1, 1e9, "particles between two checkpoints", .group = "output"),
-    {FIELD(BOOL, , picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},
+    {FIELD(BOOL, , picture), 1, 0, 1, "-", "picture.png in the run folder"},
     FLAG(, printable,
          "printable.3mf, printable.stl (mm): one closed surface around all grains and their necks"),
     NUMBER(, neck, 0, 0, 1e6, "m",
@@ -434,16 +429,15 @@ clast_status clx_aggregate_check_printable(const clast_aggregate_config *config)
     if (!config->printable) {
         return CLAST_OK;
     }
-    CLX_CHECK(!is_cluster || config->params.n_final == 1, CLAST_E_CONFIG,
-              "printable: one body, and n_final leaves %d clusters apart; leave out n_final or "
-              "printable",
-              config->params.n_final);
     CLX_CHECK(
-        !(neck > 0.0 && spacing > 0.0 && neck < 2.0 * spacing), CLAST_E_CONFIG,
-        "neck: %s is below two spacings of %s, which do not show it; give a spacing of a third "
-        "of the neck (%s), or a neck of three spacings (%s)",
-        clx_unit_text(neck, "m"), clx_unit_text(spacing, "m"), clx_unit_text(neck / 3.0, "m"),
-        clx_unit_text(3.0 * spacing, "m"));
+        !is_cluster || config->params.n_final == 1, CLAST_E_CONFIG,
+        "printable: one body, and n_final leaves %d clusters apart; leave out n_final or printable",
+        config->params.n_final);
+    CLX_CHECK(!(neck > 0.0 && spacing > 0.0 && neck < 2.0 * spacing), CLAST_E_CONFIG,
+              "neck: %s is below two spacings of %s, which do not show it; give a spacing of a "
+              "third of the neck (%s), or a neck of three spacings (%s)",
+              clx_unit_text(neck, "m"), clx_unit_text(spacing, "m"), clx_unit_text(neck / 3.0, "m"),
+              clx_unit_text(3.0 * spacing, "m"));
 done:
     return status;
 }

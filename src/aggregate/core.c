@@ -4,7 +4,6 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
-#include <math.h>
 #include <string.h>
 
 /// The smallest core that a particle may meet, by length.
@@ -70,7 +69,7 @@ static clast_status core_by_mass(clast_aggregate *a, double scale)
 static clast_status core_by_spheres(clast_aggregate *a)
 {
     const clx_march_shape *core = &a->march.shape[0];
-    const clx_kit_group *group = &a->kit.group[0];
+    const clx_template *group = &a->templates.group[0];
     double centre[3];
     const double scale = a->params->core_size > 0.0
                              ? a->params->core_size * core->ratio / core->length
@@ -84,7 +83,7 @@ static clast_status place_core(clast_aggregate *a)
     clast_status status = CLAST_OK;
     const clast_aggregate_params *c = a->params;
     double *row = NULL;
-    const double own = clx_kit_size(&a->kit.group[0], c->core_meaning);
+    const double own = clx_template_size(&a->templates.group[0], c->core_meaning);
     const double scale = c->core_size > 0.0 ? c->core_size / own : 1.0;
     CLX_CHECK(c->core_size > 0.0 || strcmp(a->input->core->unit, "m") == 0, CLAST_E_CONFIG,
               "core_size: %s",
@@ -106,11 +105,11 @@ static clast_status check_sizes(const clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     const double core_length =
-        a->kit.group[0].length * a->assembly.scale[0] / a->kit.group[0].part[0].scale;
+        a->templates.group[0].length * a->assembly.scale[0] / a->templates.group[0].part[0].scale;
     double mass = a->mass;
     for (int32_t i = 0; i < a->n_particle; ++i) {
         const int32_t shape = clx_aggregate_shape(a, i);
-        const clx_kit_group *group = &a->kit.group[1 + shape];
+        const clx_template *group = &a->templates.group[1 + shape];
         const double scale = clx_aggregate_scale(a, i, shape);
         const double length = scale * group->length;
         CLX_CHECK(core_length >= CORE_SMALLEST * length, CLAST_E_CONFIG,
@@ -168,13 +167,13 @@ clx_measured clx_aggregate_measured_core(const clast_aggregate *a)
 /// Grains that the core and the placed particles have together.
 static int64_t count_grains(const clast_aggregate *a)
 {
-    int64_t n = a->kit.group[0].n_part;
+    int64_t n = a->templates.group[0].n_part;
     for (int64_t r = 1; r < a->history.n_row; ++r) {
         const double shape = a->history.value[r * a->history.n_column + CLX_HISTORY_SHAPE];
-        if (!(shape >= 0.0 && shape < a->kit.n_group - 1)) {
+        if (!(shape >= 0.0 && shape < a->templates.n_group - 1)) {
             return -1;
         }
-        n += a->kit.group[1 + (int32_t)shape].n_part;
+        n += a->templates.group[1 + (int32_t)shape].n_part;
     }
     return n;
 }
@@ -183,7 +182,7 @@ clast_status clx_aggregate_restore_core(clast_aggregate *a, const clast_aggregat
 {
     clast_status status = CLAST_OK;
     const clast_assembly *placed = saved->placed;
-    a->n_core = a->kit.group[0].n_part;
+    a->n_core = a->templates.group[0].n_part;
     a->n_placed = (int32_t)a->history.n_row - 1;
     CLX_CHECK(a->history.n_row >= 1 && a->n_placed <= a->n_step &&
                   count_grains(a) == placed->n_grain,

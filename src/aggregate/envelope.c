@@ -31,8 +31,7 @@ void clx_envelope_tracker_destroy(clx_envelope_tracker *tracker)
         clx_hull_parts_free(&tracker->item[k].parts);
         clx_smooth_hull_free(&tracker->item[k].hull);
     }
-    clx_free(tracker->item);
-    clx_free(tracker);
+    CLX_FREE(tracker->item, tracker);
 }
 
 clast_status clx_envelope_tracker_create(int32_t n_kind, const clast_envelope_kind *kind,

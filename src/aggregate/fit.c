@@ -19,8 +19,7 @@ static const char *const PHASE = "fit: aggregates";
 
 void clx_fit_free(clx_fit *fit)
 {
-    clx_free(fit->packing);
-    clx_free(fit->node);
+    CLX_FREE(fit->packing, fit->node);
     *fit = (clx_fit){0};
 }
 

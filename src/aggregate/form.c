@@ -12,13 +12,14 @@
 
 enum { POINT_LEVEL = 4, RAISE_LIMIT = 100 };
 
-static clast_status collect(const clx_kit *kit, const clx_kit_group *group, clast_mesh *points)
+static clast_status collect(const clx_templates *templates, const clx_template *group,
+                            clast_mesh *points)
 {
     clast_status status = CLAST_OK;
     clast_mesh part = {0};
     for (int32_t i = 0; i < group->n_part; ++i) {
-        const clx_kit_part *p = &group->part[i];
-        CLX_TRY(clast_shape_surface(kit->shape[p->shape].shape, POINT_LEVEL, &part));
+        const clx_template_part *p = &group->part[i];
+        CLX_TRY(clast_shape_surface(templates->shape[p->shape].shape, POINT_LEVEL, &part));
         clast_mesh_transform(&part, p->scale, p->orientation, p->position);
         CLX_TRY(clast_mesh_append(points, &part));
         clast_mesh_free(&part);
@@ -59,17 +60,17 @@ static void support(const clast_shape *shape, const double n[3], double point[3]
     }
 }
 
-static void group_support(const clx_kit *kit, const clx_kit_group *group, const double n[3],
-                          double point[3])
+static void group_support(const clx_templates *templates, const clx_template *group,
+                          const double n[3], double point[3])
 {
     double best = -HUGE_VAL;
     v3_set(point, 0.0, 0.0, 0.0);
     for (int32_t i = 0; i < group->n_part; ++i) {
-        const clx_kit_part *p = &group->part[i];
+        const clx_template_part *p = &group->part[i];
         double m[3][3], local[3], at[3];
         q_matrix(m, p->orientation);
         m3_to_local(local, m, n);
-        support(kit->shape[p->shape].shape, local, at);
+        support(templates->shape[p->shape].shape, local, at);
         m3_to_world(local, m, at);
         v3_axpy(at, p->position, p->scale, local);
         if (v3_dot(at, n) > best) {
@@ -101,14 +102,15 @@ static double farthest_pair(const clast_mesh *points, double axis[3])
     return best > 0.0 ? sqrt(best) : 0.0;
 }
 
-static double raise_length(const clx_kit *kit, const clx_kit_group *group, double axis[3])
+static double raise_length(const clx_templates *templates, const clx_template *group,
+                           double axis[3])
 {
     double length = 0.0;
     for (int i = 0; i < RAISE_LIMIT; ++i) {
         double ahead[3], behind[3], back[3];
         v3_scale(back, -1.0, axis);
-        group_support(kit, group, axis, ahead);
-        group_support(kit, group, back, behind);
+        group_support(templates, group, axis, ahead);
+        group_support(templates, group, back, behind);
         v3_sub(ahead, ahead, behind);
         const double raised = v3_norm(ahead);
         if (!(raised > length * (1.0 + 1e-15))) {
@@ -140,10 +142,10 @@ static double extent(const clast_mesh *points, const double axis[3])
     return high - low;
 }
 
-static bool is_plain(const clx_kit *kit, const clx_kit_group *group, double form[3])
+static bool is_plain(const clx_templates *templates, const clx_template *group, double form[3])
 {
     CLAST_ASSERT(group->n_part > 0);
-    const clast_shape *shape = kit->shape[group->part[0].shape].shape;
+    const clast_shape *shape = templates->shape[group->part[0].shape].shape;
     const bool plain = group->n_part == 1 &&
                        (shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_ELLIPSOID);
     for (int k = 0; k < 3 && plain; ++k) {
@@ -153,19 +155,20 @@ static bool is_plain(const clx_kit *kit, const clx_kit_group *group, double form
     return plain;
 }
 
-clast_status clx_form_dimensions(const clx_kit *kit, const clx_kit_group *group, double form[3])
+clast_status clx_form_dimensions(const clx_templates *templates, const clx_template *group,
+                                 double form[3])
 {
     clast_status status = CLAST_OK;
     clast_mesh points = {0};
     clast_mesh hull = {0};
     double along[3], across[3], third[3];
-    if (is_plain(kit, group, form)) {
+    if (is_plain(templates, group, form)) {
         return CLAST_OK;
     }
-    CLX_TRY(collect(kit, group, &points));
+    CLX_TRY(collect(templates, group, &points));
     CLX_TRY(clast_mesh_hull(&points, &hull));
     (void)farthest_pair(&hull, along);
-    form[0] = raise_length(kit, group, along);
+    form[0] = raise_length(templates, group, along);
     project(&hull, along);
     form[1] = farthest_pair(&hull, across);
     v3_cross(third, along, across);

@@ -26,7 +26,7 @@ done:
 static clast_status enter_march(clast_aggregate *a, int32_t grain)
 {
     const clast_assembly *all = &a->assembly;
-    const int32_t shape = a->kit.shape[a->kit_shape[all->shape_id[grain]]].group;
+    const int32_t shape = a->templates.shape[a->template_shape[all->shape_id[grain]]].group;
     double centroid[3];
     q_rotate(centroid, all->orientation[grain], a->march.shape[shape].centroid);
     v3_axpy(centroid, all->position[grain], all->scale[grain], centroid);
@@ -38,7 +38,7 @@ static clast_status account(clast_aggregate *a, int32_t grain)
     CLAST_ASSERT(grain >= 0 && grain < a->assembly.n_grain);
     clast_status status = CLAST_OK;
     const clast_assembly *all = &a->assembly;
-    const clx_kit_shape *shape = &a->kit.shape[a->kit_shape[all->shape_id[grain]]];
+    const clx_template_shape *shape = &a->templates.shape[a->template_shape[all->shape_id[grain]]];
     const double s = all->scale[grain];
     const double volume = shape->shape->volume * s * s * s;
     const double mass = volume * all->density[grain];
@@ -75,14 +75,14 @@ done:
 clast_status clx_aggregate_lay_group(clast_aggregate *a, int32_t group, const double centre[3],
                                      const double orientation[4], double scale)
 {
-    CLAST_ASSERT(group >= 0 && group < a->kit.n_group && scale > 0.0);
+    CLAST_ASSERT(group >= 0 && group < a->templates.n_group && scale > 0.0);
     CLAST_ASSERT(q_is_unit(orientation, 1e-9));
     clast_status status = CLAST_OK;
-    const clx_kit_group *g = &a->kit.group[group];
+    const clx_template *g = &a->templates.group[group];
     const int32_t first = a->assembly.n_grain;
     for (int32_t i = 0; i < g->n_part; ++i) {
-        clx_kit_part placed;
-        clx_kit_pose(g, i, centre, orientation, scale, &placed);
+        clx_template_part placed;
+        clx_template_pose(g, i, centre, orientation, scale, &placed);
         CLX_TRY(clast_assembly_add_grain(&a->assembly, a->shape_id[placed.shape], placed.position,
                                          placed.orientation, placed.scale, placed.density));
     }

@@ -40,15 +40,15 @@ static uint64_t seed_of(const clast_aggregate_params *params, int32_t repeat)
     return (high << 32) | clx_rng_u32(&rng);
 }
 
-/// The kit's shapes under names of their own: a name that is taken gets a number.
+/// Shapes of the templates under names of their own: a name that is taken gets a number.
 static clast_status add_shapes(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     clast_shape copy = {0};
-    CLX_TRY(clx_alloc(&a->shape_id, a->kit.n_shape, sizeof *a->shape_id));
-    CLX_TRY(clx_alloc(&a->kit_shape, a->kit.n_shape, sizeof *a->kit_shape));
-    for (int32_t i = 0; i < a->kit.n_shape; ++i) {
-        const clast_shape *shape = a->kit.shape[i].shape;
+    CLX_TRY(clx_alloc(&a->shape_id, a->templates.n_shape, sizeof *a->shape_id));
+    CLX_TRY(clx_alloc(&a->template_shape, a->templates.n_shape, sizeof *a->template_shape));
+    for (int32_t i = 0; i < a->templates.n_shape; ++i) {
+        const clast_shape *shape = a->templates.shape[i].shape;
         char name[256];
         (void)snprintf(name, sizeof name, "%s", shape->name);
         int32_t same = 1;
@@ -63,7 +63,7 @@ static clast_status add_shapes(clast_aggregate *a)
         copy.name = NULL;
         CLX_TRY(clx_alloc_text(&copy.name, name));
         CLX_TRY(clast_assembly_add_shape(&a->assembly, &copy, &a->shape_id[i]));
-        a->kit_shape[a->shape_id[i]] = i;
+        a->template_shape[a->shape_id[i]] = i;
         clast_shape_free(&copy);
     }
 done:
@@ -74,7 +74,7 @@ done:
 static clast_status prepare_contact(clast_aggregate *a)
 {
     if (a->params->contact == CLAST_CONTACT_MARCH) {
-        return clx_march_make(a->params, &a->kit, a->seed, &a->march);
+        return clx_march_make(a->params, &a->templates, a->seed, &a->march);
     }
     if (!a->mode->is_one_body) {
         return CLAST_OK;
@@ -86,12 +86,12 @@ static clast_status prepare_contact(clast_aggregate *a)
     return status;
 }
 
-/// Kit, sizes and an empty scene: all that is known before the first grain.
+/// Templates, sizes and an empty scene: all that is known before the first grain.
 static clast_status prepare(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     const clast_aggregate_params *c = a->params;
-    CLX_TRY(clx_kit_make(c, a->input, &a->kit));
+    CLX_TRY(clx_templates_make(c, a->input, &a->templates));
     CLX_TRY(clx_sizes_plan(c, a->input->sizes, a->seed, &a->size, &a->n_particle));
     CLX_TRY(prepare_contact(a));
     CLX_TRY(clx_history_init(&a->history));

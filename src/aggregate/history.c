@@ -26,9 +26,7 @@ static const struct {
 
 void clx_history_free(clx_history *history)
 {
-    clx_free(history->name);
-    clx_free(history->unit);
-    clx_free(history->value);
+    CLX_FREE(history->name, history->unit, history->value);
     *history = (clx_history){0};
 }
 

@@ -33,9 +33,9 @@ typedef struct {
 typedef struct {
     const clx_march *march;
     const clx_aim *aim;
-    double size;                ///< of the particle, as the sizes mean it
-    march_ray *ray;             ///< [n_ray]
-    clx_march_landing *landing; ///< [n_ray * n_orientation]
+    double size;                    ///< of the particle, as the sizes mean it
+    march_ray *ray;                 ///< [n_ray]
+    clx_march_placement *placement; ///< [n_ray * n_orientation]
 } marching;
 
 /// Farthest hit of the line (both directions) through the ray's origin; false if it meets none.
@@ -222,7 +222,7 @@ static double march_along(const clx_march *march, double length, const span_list
 }
 
 static clast_status run_trial(const marching *m, int64_t trial, span_list *list,
-                              clx_march_landing *landing)
+                              clx_march_placement *placement)
 {
     const march_ray *ray = &m->ray[trial / m->march->params->orientations];
     const double scale = clx_march_scale(m->march, ray->length, ray->shape);
@@ -230,11 +230,11 @@ static clast_status run_trial(const marching *m, int64_t trial, span_list *list,
     draw_rotation(m, trial, rotation);
     const clast_status status = find_spans(m, ray, rotation, scale, list);
     if (status == CLAST_OK) {
-        *landing = (clx_march_landing){.trial = trial, .shape = ray->shape, .scale = scale};
-        const double s = march_along(m->march, ray->length, list, &landing->lost);
-        v3_axpy(landing->centroid, ray->origin, ray->outermost + s, ray->direction);
-        landing->distance = v3_norm(landing->centroid);
-        q_from_matrix(landing->orientation, rotation);
+        *placement = (clx_march_placement){.trial = trial, .shape = ray->shape, .scale = scale};
+        const double s = march_along(m->march, ray->length, list, &placement->lost);
+        v3_axpy(placement->centroid, ray->origin, ray->outermost + s, ray->direction);
+        placement->distance = v3_norm(placement->centroid);
+        q_from_matrix(placement->orientation, rotation);
     }
     return status;
 }
@@ -246,41 +246,41 @@ static clast_status run_trials(int64_t begin, int64_t end, int32_t worker, void 
     marching *m = context;
     span_list list = {0};
     for (int64_t trial = begin; trial < end; ++trial) {
-        CLX_TRY(run_trial(m, trial, &list, &m->landing[trial]));
+        CLX_TRY(run_trial(m, trial, &list, &m->placement[trial]));
     }
 done:
     clx_free(list.item);
     return status;
 }
 
-/// Grain whose spheres come nearest to the landed particle's, and the point between them.
-static void find_touched(const clx_march *march, clx_march_landing *landing)
+/// Grain whose spheres come nearest to the placed particle's, and the point between them.
+static void find_touched(const clx_march *march, clx_march_placement *placement)
 {
-    const clx_march_shape *shape = &march->shape[1 + landing->shape];
+    const clx_march_shape *shape = &march->shape[1 + placement->shape];
     double best = HUGE_VAL;
     double m[3][3];
-    q_matrix(m, landing->orientation);
+    q_matrix(m, placement->orientation);
     for (int32_t g = 0; g < march->n_grain; ++g) {
         const clx_march_grain *grain = &march->grain[g];
-        if (v3_distance(grain->centre, landing->centroid) - grain->radius -
-                landing->scale * shape->radius >
+        if (v3_distance(grain->centre, placement->centroid) - grain->radius -
+                placement->scale * shape->radius >
             best) {
             continue;
         }
         for (int32_t i = 0; i < shape->spheres.n; ++i) {
-            const double r = landing->scale * shape->spheres.radius[i];
+            const double r = placement->scale * shape->spheres.radius[i];
             double c[3];
             m3_to_world(c, m, shape->spheres.centre[i]);
-            v3_axpy(c, landing->centroid, landing->scale, c);
+            v3_axpy(c, placement->centroid, placement->scale, c);
             for (int32_t k = 0; k < grain->n; ++k) {
                 const clx_march_sphere *s = &march->sphere[grain->first + k];
                 const double gap = v3_distance(c, s->centre) - r - s->radius;
                 if (gap < best) {
                     double to[3];
                     best = gap;
-                    landing->touched = g;
+                    placement->touched = g;
                     v3_sub(to, s->centre, c);
-                    v3_axpy(landing->point, c, (r + 0.5 * gap) / (r + gap + s->radius), to);
+                    v3_axpy(placement->point, c, (r + 0.5 * gap) / (r + gap + s->radius), to);
                 }
             }
         }
@@ -288,7 +288,7 @@ static void find_touched(const clx_march *march, clx_march_landing *landing)
 }
 
 clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double size,
-                           clx_march_landing *landing)
+                           clx_march_placement *placement)
 {
     CLAST_ASSERT(size > 0.0 && march->n_grain > 0);
     clast_status status = CLAST_OK;
@@ -297,18 +297,17 @@ clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double si
     marching m = {.march = march, .aim = aim, .size = size};
     int64_t best = 0;
     CLX_TRY(clx_alloc(&m.ray, c->rays, sizeof *m.ray));
-    CLX_TRY(clx_alloc(&m.landing, n_trial, sizeof *m.landing));
+    CLX_TRY(clx_alloc(&m.placement, n_trial, sizeof *m.placement));
     for (int32_t i = 0; i < c->rays; ++i) {
         make_ray(&m, i, &m.ray[i]);
     }
     CLX_TRY(clx_parallel_try(n_trial, 4, run_trials, &m));
     for (int64_t i = 1; i < n_trial; ++i) {
-        best = m.landing[i].distance < m.landing[best].distance ? i : best;
+        best = m.placement[i].distance < m.placement[best].distance ? i : best;
     }
-    *landing = m.landing[best];
-    find_touched(march, landing);
+    *placement = m.placement[best];
+    find_touched(march, placement);
 done:
-    clx_free(m.ray);
-    clx_free(m.landing);
+    CLX_FREE(m.ray, m.placement);
     return status;
 }

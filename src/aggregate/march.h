@@ -2,7 +2,7 @@
 // The published march: sphere composites moved in growing steps, as the two engines of SCARLET-1.0
 // do it, faults included, so that results can be compared with print.  [docs/theory/aggregation.md]
 #include "aggregate/aim.h"
-#include "aggregate/kit.h"
+#include "aggregate/template.h"
 #include <clast/shape.h>
 
 /// A composite as the engines see it: about the r^3-weighted centroid of its spheres.
@@ -43,7 +43,7 @@ typedef struct clx_march {
 } clx_march;
 
 /// Where a particle stops.
-typedef struct clx_march_landing {
+typedef struct clx_march_placement {
     double centroid[3]; ///< of its spheres
     double orientation[4];
     double scale;
@@ -53,11 +53,11 @@ typedef struct clx_march_landing {
     bool lost;       ///< a step limit was reached: it stands where it was
     int32_t touched; ///< nearest grain
     double point[3]; ///< between the nearest spheres
-} clx_march_landing;
+} clx_march_placement;
 
-/// Composites and lengths of all groups of the kit; each must be a single shape.
-clast_status clx_march_make(const clast_aggregate_params *params, const clx_kit *kit, uint64_t seed,
-                            clx_march *march);
+/// Composites and lengths of all templates; each must be a single shape.
+clast_status clx_march_make(const clast_aggregate_params *params, const clx_templates *templates,
+                            uint64_t seed, clx_march *march);
 void clx_march_free(clx_march *march);
 
 /// Requested length of a particle, and its scale as this coating shape.
@@ -68,6 +68,6 @@ double clx_march_scale(const clx_march *march, double length, int32_t shape);
 clast_status clx_march_add(clx_march *march, int32_t shape, const double centroid[3],
                            const double orientation[4], double scale);
 
-/// All trials of one particle of this size; always lands somewhere.
+/// All trials of one particle of this size; is always placed somewhere.
 clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double size,
-                           clx_march_landing *landing);
+                           clx_march_placement *placement);

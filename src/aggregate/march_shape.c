@@ -7,7 +7,6 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <math.h>
-#include <string.h>
 
 enum { SURFACE_LEVEL = 4 };
 
@@ -16,9 +15,7 @@ void clx_march_free(clx_march *march)
     for (int32_t i = 0; i < march->n_shape; ++i) {
         clast_spheres_free(&march->shape[i].spheres);
     }
-    clx_free(march->shape);
-    clx_free(march->grain);
-    clx_free(march->sphere);
+    CLX_FREE(march->shape, march->grain, march->sphere);
     *march = (clx_march){0};
 }
 
@@ -92,28 +89,28 @@ done:
     return status;
 }
 
-static clast_status make_shape(const clast_aggregate_params *params, const clx_kit *kit,
+static clast_status make_shape(const clast_aggregate_params *params, const clx_templates *templates,
                                int32_t number, uint64_t seed, clx_march_shape *made)
 {
     clast_status status = CLAST_OK;
-    const clx_kit_group *group = &kit->group[number];
+    const clx_template *group = &templates->group[number];
     clast_mesh surface = {0};
     CLX_CHECK(group->n_part == 1, CLAST_E_CONFIG,
               "contact: the published march moves single shapes, not aggregates; use exact");
-    const clast_shape *shape = kit->shape[group->part[0].shape].shape;
+    const clast_shape *shape = templates->shape[group->part[0].shape].shape;
     CLX_TRY(take_spheres(shape, &made->spheres));
     centre_spheres(made);
     CLX_TRY(clast_shape_surface(shape, SURFACE_LEVEL, &surface));
     CLX_TRY(sample_length(&surface, params->march_vertices, seed, (uint64_t)number, &made->length));
-    made->ratio = group->length /
-                  clx_kit_size(group, number == 0 ? params->core_meaning : params->size_meaning);
+    made->ratio = group->length / clx_template_size(group, number == 0 ? params->core_meaning
+                                                                       : params->size_meaning);
 done:
     clast_mesh_free(&surface);
     return status;
 }
 
-clast_status clx_march_make(const clast_aggregate_params *params, const clx_kit *kit, uint64_t seed,
-                            clx_march *march)
+clast_status clx_march_make(const clast_aggregate_params *params, const clx_templates *templates,
+                            uint64_t seed, clx_march *march)
 {
     clast_status status = CLAST_OK;
     const bool release = params->flavour == CLAST_MARCH_RELEASE;
@@ -128,10 +125,10 @@ clast_status clx_march_make(const clast_aggregate_params *params, const clx_kit 
     if (params->origin != CLAST_ORIGIN_AUTO) {
         made.sphere_origin = params->origin == CLAST_ORIGIN_SPHERE;
     }
-    CLX_TRY(clx_alloc(&made.shape, kit->n_group, sizeof *made.shape));
-    for (int32_t i = 0; i < kit->n_group; ++i) {
+    CLX_TRY(clx_alloc(&made.shape, templates->n_group, sizeof *made.shape));
+    for (int32_t i = 0; i < templates->n_group; ++i) {
         made.n_shape = i + 1;
-        CLX_TRY(make_shape(params, kit, i, seed, &made.shape[i]));
+        CLX_TRY(make_shape(params, templates, i, seed, &made.shape[i]));
     }
     *march = made;
     made = (clx_march){0};

@@ -6,7 +6,6 @@
 
 #include <clast/settling.h>
 #include <math.h>
-#include <string.h>
 
 enum { SURFACE_LEVEL = 4 };
 

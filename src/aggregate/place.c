@@ -1,5 +1,5 @@
-// Growth on a core: each particle is thrown by the method of contact, lands at its best trial, and
-// stays.
+// Growth on a core: each particle is thrown by the method of contact, is placed by its best trial,
+// and stays.
 #include "aggregate/state.h"
 
 #include "aggregate/trial.h"
@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
-#include <math.h>
 #include <stdio.h>
 
 // A search shorter than this is not worth waking other threads for, which takes tens of
@@ -18,11 +17,11 @@ enum { PROBE = 256 };
 
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
-    CLAST_ASSERT(shape >= 0 && shape + 1 < a->kit.n_group);
+    CLAST_ASSERT(shape >= 0 && shape + 1 < a->templates.n_group);
     const clast_aggregate_params *c = a->params;
     *search =
-        (clx_search){.kit = &a->kit,
-                     .group = &a->kit.group[1 + shape],
+        (clx_search){.templates = &a->templates,
+                     .group = &a->templates.group[1 + shape],
                      .scale = clx_aggregate_scale(a, a->n_placed, shape),
                      .size = a->size[a->n_placed],
                      .scene = a->scene,
@@ -55,7 +54,7 @@ static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         if (i == PROOF) {
-            last->overlap = clx_search_overlap(&last->search, &last->landing);
+            last->overlap = clx_search_overlap(&last->search, &last->placement);
             continue;
         }
         last->is_done = true;
@@ -101,19 +100,19 @@ static void bring_beside(clast_aggregate *a, clx_search *search)
     }
 }
 
-/// The landing, with new axes as long as every ray misses.
-static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_landing *landing)
+/// The placement, with new axes as long as every ray misses.
+static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_placement *placement)
 {
     clast_status status = CLAST_OK;
     bring_beside(a, search);
     const double begun = clx_clock();
     const double worked = clx_clock_thread();
     const int32_t tries = clx_search_tries(a->params);
-    CLX_TRY(clx_walk_or_search(search, tries, landing));
-    CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
+    CLX_TRY(clx_walk_or_search(search, tries, placement));
+    CLX_CHECK(placement->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "particle %d of %d: all of %d %s miss the aggregate; raise max_tries",
               a->n_placed + 1, a->n_particle, tries, clx_search_paths(search));
-    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+    CLX_CHECK(placement->found, CLAST_E_CONVERGE,
               "particle %d of %d: all rays of %d axes miss the aggregate; widen the cone or let "
               "rays start at a grain (origin: grain)",
               a->n_placed + 1, a->n_particle, tries);
@@ -128,29 +127,29 @@ static clast_status place_by_touch(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     clx_search search;
-    clx_landing landing;
+    clx_placement placement;
     double *row = NULL;
     const int32_t shape = clx_aggregate_shape(a, a->n_placed);
     const int32_t first = a->assembly.n_grain;
     prepare_search(a, shape, &search);
-    CLX_TRY(throw_particle(a, &search, &landing));
+    CLX_TRY(throw_particle(a, &search, &placement));
     CLX_TRY(settle(a));
     a->is_torn = true;
-    CLX_TRY(
-        clx_aggregate_lay_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
+    CLX_TRY(clx_aggregate_lay_group(a, 1 + shape, placement.centre, placement.orientation,
+                                    search.scale));
     CLX_TRY(clx_aggregate_account_all(a, first));
-    CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touch.body, first + landing.part,
-                                       landing.touch.point));
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, placement.touch.body, first + placement.part,
+                                       placement.touch.point));
     ++a->n_placed;
     CLX_TRY(clx_aggregate_open_row(a, &row));
     row[CLX_HISTORY_SHAPE] = shape;
     row[CLX_HISTORY_SIZE] = search.size;
-    row[CLX_HISTORY_DISTANCE] = landing.distance;
+    row[CLX_HISTORY_DISTANCE] = placement.distance;
     row[CLX_HISTORY_RAYS] = (double)search.aim.n_ray * (search.aim.attempt + 1);
-    row[CLX_HISTORY_TOUCHED] = landing.touch.body;
+    row[CLX_HISTORY_TOUCHED] = placement.touch.body;
     a->arrival = (clx_arrival){.is_due = true,
                                .search = search,
-                               .landing = landing,
+                               .placement = placement,
                                .first = first,
                                .row = a->history.n_row - 1};
     a->is_torn = false;
@@ -164,27 +163,27 @@ static clast_status place_by_march(clast_aggregate *a)
     const double size = a->size[a->n_placed];
     const int32_t first = a->assembly.n_grain;
     const clx_aim aim = clx_aggregate_aim(a);
-    clx_march_landing landing;
+    clx_march_placement placement;
     double centre[3], arm[3];
     double *row = NULL;
     const double begun = clx_clock();
-    CLX_TRY(clx_march_run(&a->march, &aim, size, &landing));
+    CLX_TRY(clx_march_run(&a->march, &aim, size, &placement));
     a->contact_s += clx_clock() - begun;
-    const int32_t group = 1 + landing.shape;
-    q_rotate(arm, landing.orientation, a->march.shape[group].centroid);
-    v3_axpy(centre, landing.centroid, -landing.scale, arm);
+    const int32_t group = 1 + placement.shape;
+    q_rotate(arm, placement.orientation, a->march.shape[group].centroid);
+    v3_axpy(centre, placement.centroid, -placement.scale, arm);
     a->is_torn = true;
-    CLX_TRY(clx_aggregate_add_group(a, group, centre, landing.orientation,
-                                    landing.scale / a->kit.group[group].part[0].scale));
-    CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touched, first, landing.point));
+    CLX_TRY(clx_aggregate_add_group(a, group, centre, placement.orientation,
+                                    placement.scale / a->templates.group[group].part[0].scale));
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, placement.touched, first, placement.point));
     ++a->n_placed;
     CLX_TRY(clx_aggregate_add_row(a, &row));
-    row[CLX_HISTORY_SHAPE] = landing.shape;
+    row[CLX_HISTORY_SHAPE] = placement.shape;
     row[CLX_HISTORY_SIZE] = size;
-    row[CLX_HISTORY_DISTANCE] = landing.distance;
+    row[CLX_HISTORY_DISTANCE] = placement.distance;
     row[CLX_HISTORY_RAYS] = a->params->rays;
-    row[CLX_HISTORY_TOUCHED] = landing.touched;
-    row[CLX_HISTORY_LOST] = landing.lost ? 1.0 : 0.0;
+    row[CLX_HISTORY_TOUCHED] = placement.touched;
+    row[CLX_HISTORY_LOST] = placement.lost ? 1.0 : 0.0;
     a->is_torn = false;
 done:
     return status;

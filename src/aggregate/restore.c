@@ -54,13 +54,13 @@ static bool has_grains(const clast_aggregate *a, int32_t particle, int32_t *grai
 {
     const clast_assembly *all = &a->assembly;
     const int32_t shape = clx_aggregate_shape(a, particle);
-    const clx_kit_group *group = &a->kit.group[1 + shape];
+    const clx_template *group = &a->templates.group[1 + shape];
     const double scale = clx_aggregate_scale(a, particle, shape);
     static const double at[4] = {1.0, 0.0, 0.0, 0.0}; // anywhere: sizes alone are looked at
     bool is = group->n_part <= all->n_grain - *grain;
     for (int32_t k = 0; k < group->n_part && is; ++k, ++*grain) {
-        clx_kit_part part;
-        clx_kit_pose(group, k, at, at, scale, &part);
+        clx_template_part part;
+        clx_template_pose(group, k, at, at, scale, &part);
         is = all->shape_id[*grain] == a->shape_id[part.shape] &&
              is_same(all->scale[*grain], part.scale) && is_same(all->density[*grain], part.density);
     }

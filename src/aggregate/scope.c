@@ -2,10 +2,8 @@
 #include <clast/aggregate_run.h>
 
 #include "base/number.h"
-#include "base/status.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /// Overlaps of less than this share of the solid are none.
 static const double OVERLAP_SEEN = 1e-6;

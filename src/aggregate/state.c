@@ -10,14 +10,11 @@ void clx_aggregate_free(clast_aggregate *a)
 {
     clx_touch_scene_destroy(a->scene);
     clx_march_free(&a->march);
-    clx_kit_free(&a->kit);
+    clx_templates_free(&a->templates);
     clast_assembly_free(&a->assembly);
     clx_history_free(&a->history);
     clx_envelope_tracker_destroy(a->tracker);
-    clx_free(a->shape_id);
-    clx_free(a->kit_shape);
-    clx_free(a->size);
-    clx_free(a->sphere_end);
+    CLX_FREE(a->shape_id, a->template_shape, a->size, a->sphere_end);
 }
 
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle)
@@ -29,15 +26,16 @@ int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle)
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape)
 {
     CLAST_ASSERT(particle >= 0 && particle < a->n_particle && shape >= 0 &&
-                 shape + 1 < a->kit.n_group);
-    return a->size[particle] / clx_kit_size(&a->kit.group[1 + shape], a->params->size_meaning);
+                 shape + 1 < a->templates.n_group);
+    return a->size[particle] /
+           clx_template_size(&a->templates.group[1 + shape], a->params->size_meaning);
 }
 
 clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)
 {
     CLAST_ASSERT(grain >= 0 && grain < a->assembly.n_grain);
     const clast_assembly *all = &a->assembly;
-    clx_touch_body body = a->kit.shape[a->kit_shape[all->shape_id[grain]]].body;
+    clx_touch_body body = a->templates.shape[a->template_shape[all->shape_id[grain]]].body;
     clx_touch_body_place(&body, all->position[grain], all->orientation[grain], all->scale[grain]);
     return body;
 }

@@ -6,19 +6,19 @@
 #include "aggregate/cluster.h"
 #include "aggregate/envelope.h"
 #include "aggregate/history.h"
-#include "aggregate/kit.h"
 #include "aggregate/march.h"
+#include "aggregate/template.h"
 #include "aggregate/trial.h"
 #include "touch/scene.h"
 
-/// What follows a landing and the next search does not need, so that it is done beside that: the
+/// What follows a placement and the next search does not need, so that it is done beside that: the
 /// proof that nothing overlaps, the new grains' share of the envelopes, and what its row says of
 /// them.
 typedef struct clx_arrival {
     bool is_due;  ///< there is one
     bool is_done; ///< but for the row
     clx_search search;
-    clx_landing landing;
+    clx_placement placement;
     int32_t first; ///< new grain
     int64_t row;
     double overlap;
@@ -65,10 +65,10 @@ struct clast_aggregate {
     double axis[3];
     int32_t origin; ///< AUTO already resolved
 
-    clx_kit kit;
-    int32_t *shape_id;  ///< [kit.n_shape] number of a kit's shape in the assembly
-    int32_t *kit_shape; ///< [assembly.n_shape] the reverse
-    double *size;       ///< [n_particle] m, in order of placement
+    clx_templates templates;
+    int32_t *shape_id; ///< [templates.n_shape] number of a shape of the templates in the assembly
+    int32_t *template_shape; ///< [assembly.n_shape] the reverse
+    double *size;            ///< [n_particle] m, in order of placement
     int32_t n_particle;
     int32_t n_step; ///< particles to place, or mergers
     int32_t n_core; ///< grains of the core
@@ -152,7 +152,7 @@ clast_status clx_aggregate_begin_core(clast_aggregate *a);
 clast_status clx_aggregate_restore_core(clast_aggregate *a, const clast_aggregate_saved *saved);
 clx_measured clx_aggregate_measured_core(const clast_aggregate *a);
 
-/// grow.c: kit, sizes, scene, columns; no grain yet.
+/// grow.c: templates, sizes, scene, columns; no grain yet.
 clast_status clx_aggregate_begin(const clast_aggregate_params *params,
                                  const clast_aggregate_input *input, int32_t repeat,
                                  clast_aggregate *a);

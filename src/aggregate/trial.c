@@ -6,7 +6,7 @@
 // beyond the best, so the winner, with ties to the lower trial number, is always the same.
 //
 // Rays are scouted first: the largest sphere about the particle's centre that lies within it goes
-// as far as any orientation can, so its landing bounds all trials of a ray from below. Rays are
+// as far as any orientation can, so its placement bounds all trials of a ray from below. Rays are
 // tried from the most promising on, and a ray that cannot win is skipped. EJ15 tight (30 rays of
 // 10 orientations): 0.26 s instead of 0.62.
 #include "aggregate/trial.h"
@@ -14,6 +14,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "math/rng.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include "touch/tree.h"
 #include <math.h>
@@ -39,7 +40,7 @@ typedef struct {
     ray *rays;             ///< [aim.n_ray] in the order of trying
     int64_t n_orientation; ///< that differ
     atomic_flag lock;      ///< of best
-    clx_landing best;
+    clx_placement best;
     _Atomic double bound; ///< best distance so far, readable without the lock
 } race;
 
@@ -171,13 +172,7 @@ static void make_rays(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-static int by_rank(const void *a, const void *b)
-{
-    const ray *x = a;
-    const ray *y = b;
-    return x->rank != y->rank ? (x->rank > y->rank ? 1 : -1)
-                              : (x->number > y->number) - (x->number < y->number);
-}
+CLX_RISING_BY_TWO(by_rank, ray, rank, number)
 
 /// Margin that covers rounding in distances and places along a ray.
 static double margin_of(const clx_search *s, double best)
@@ -200,16 +195,16 @@ static double losing_place(const clx_search *s, const ray *r, double best)
 }
 
 bool clx_search_fly(const clx_search *s, const double origin[3], const double orientation[4],
-                    const clx_touch_path *path, clx_landing *landing)
+                    const clx_touch_path *path, clx_placement *placement)
 {
     CLAST_ASSERT(q_is_unit(orientation, 1e-9) && s->scale > 0.0 && s->group->n_part > 0);
     clx_touch_path rest = *path;
     bool found = false;
     for (int32_t i = 0; i < s->group->n_part; ++i) {
-        clx_kit_part placed;
+        clx_template_part placed;
         clx_touch touch;
-        clx_kit_pose(s->group, i, origin, orientation, s->scale, &placed);
-        clx_touch_body body = s->kit->shape[placed.shape].body;
+        clx_template_pose(s->group, i, origin, orientation, s->scale, &placed);
+        clx_touch_body body = s->templates->shape[placed.shape].body;
         clx_touch_body_place(&body, placed.position, placed.orientation, placed.scale);
         if (!clx_touch_scene_first_among(s->scene, s->n_body, &body, &rest, &touch)) {
             continue;
@@ -217,10 +212,10 @@ bool clx_search_fly(const clx_search *s, const double origin[3], const double or
         if (touch.beaten) {
             return false;
         }
-        if (!found || touch.t < landing->touch.t) {
+        if (!found || touch.t < placement->touch.t) {
             found = true;
-            landing->touch = touch;
-            landing->part = i;
+            placement->touch = touch;
+            placement->part = i;
             rest.t_high = touch.t;
         }
     }
@@ -228,7 +223,7 @@ bool clx_search_fly(const clx_search *s, const double origin[3], const double or
 }
 
 static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, double bound,
-                          clx_landing *landing)
+                          clx_placement *placement)
 {
     CLAST_ASSERT(trial >= 0);
     double back[3];
@@ -237,28 +232,28 @@ static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, doub
     const int64_t n_trial = (int64_t)s->aim.n_ray * s->n_orientation;
     clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_ORIENTATION,
                              clx_aim_index(&s->aim, trial, n_trial));
-    clx_rng_orientation(&rng, landing->orientation);
-    q_unit(landing->orientation);
+    clx_rng_orientation(&rng, placement->orientation);
+    q_unit(placement->orientation);
     path.t_low = r->t_low;
     path.t_enough = -losing_place(s, r, bound);
-    bool found = clx_search_fly(s, r->origin, landing->orientation, &path, landing);
-    if (found && landing->touch.overlap) {
+    bool found = clx_search_fly(s, r->origin, placement->orientation, &path, placement);
+    if (found && placement->touch.overlap) {
         path.t_low = -HUGE_VAL; // the start lies inside a side branch: come from outside of all
-        found = clx_search_fly(s, r->origin, landing->orientation, &path, landing);
+        found = clx_search_fly(s, r->origin, placement->orientation, &path, placement);
     }
-    landing->found = found;
-    landing->trial = trial;
+    placement->found = found;
+    placement->trial = trial;
     if (found) {
-        landing->along = -landing->touch.t;
-        v3_copy(landing->origin, r->origin);
-        v3_copy(landing->direction, r->direction);
-        v3_axpy(landing->centre, r->origin, landing->along, r->direction);
-        landing->distance = v3_distance(landing->centre, s->target);
+        placement->along = -placement->touch.t;
+        v3_copy(placement->origin, r->origin);
+        v3_copy(placement->direction, r->direction);
+        v3_axpy(placement->centre, r->origin, placement->along, r->direction);
+        placement->distance = v3_distance(placement->centre, s->target);
     }
     return found;
 }
 
-static bool is_better(const clx_landing *a, const clx_landing *b)
+static bool is_better(const clx_placement *a, const clx_placement *b)
 {
     if (!a->found || !b->found) {
         return a->found;
@@ -266,14 +261,14 @@ static bool is_better(const clx_landing *a, const clx_landing *b)
     return a->distance < b->distance || (a->distance == b->distance && a->trial < b->trial);
 }
 
-/// Keeps the better of two landings; a total order, so the last one standing is always the same.
-static void keep_landing(race *all, const clx_landing *landing)
+/// Keeps the better of two placements; a total order, so the last one standing is always the same.
+static void keep_placement(race *all, const clx_placement *placement)
 {
     while (atomic_flag_test_and_set_explicit(&all->lock, memory_order_acquire)) {
     }
-    if (is_better(landing, &all->best)) {
-        all->best = *landing;
-        atomic_store_explicit(&all->bound, landing->distance, memory_order_relaxed);
+    if (is_better(placement, &all->best)) {
+        all->best = *placement;
+        atomic_store_explicit(&all->bound, placement->distance, memory_order_relaxed);
     }
     atomic_flag_clear_explicit(&all->lock, memory_order_release);
 }
@@ -281,13 +276,13 @@ static void keep_landing(race *all, const clx_landing *landing)
 static void run_trial(race *all, int64_t i)
 {
     const clx_search *s = all->search;
-    clx_landing landing = {0};
+    clx_placement placement = {0};
     const ray *r = &all->rays[i / all->n_orientation];
     const int64_t trial = r->number * s->n_orientation + i % all->n_orientation;
     const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
-    if (r->least <= bound + margin_of(s, bound) && attempt_trial(s, r, trial, bound, &landing) &&
-        landing.distance <= bound) {
-        keep_landing(all, &landing);
+    if (r->least <= bound + margin_of(s, bound) && attempt_trial(s, r, trial, bound, &placement) &&
+        placement.distance <= bound) {
+        keep_placement(all, &placement);
     }
 }
 
@@ -318,7 +313,7 @@ const char *clx_search_paths(const clx_search *search)
                                                           : "axes";
 }
 
-clast_status clx_search_run(const clx_search *search, clx_landing *best)
+clast_status clx_search_run(const clx_search *search, clx_placement *best)
 {
     CLAST_ASSERT(search->aim.n_ray > 0 && search->n_orientation > 0);
     clast_status status = CLAST_OK;
@@ -341,18 +336,18 @@ done:
     return status;
 }
 
-double clx_search_overlap(const clx_search *search, const clx_landing *landing)
+double clx_search_overlap(const clx_search *search, const clx_placement *placement)
 {
     double back[3];
     const double size = search->scale * search->group->radius;
-    v3_scale(back, -1.0, landing->direction);
+    v3_scale(back, -1.0, placement->direction);
     clx_touch_path path = clx_touch_path_along(back);
-    clx_landing again;
+    clx_placement again;
     double step = 0.0;
     while (step < 4.0 * size) {
-        path.t_low = -(landing->along + step);
+        path.t_low = -(placement->along + step);
         path.t_high = path.t_low;
-        if (!clx_search_fly(search, landing->origin, landing->orientation, &path, &again) ||
+        if (!clx_search_fly(search, placement->origin, placement->orientation, &path, &again) ||
             !again.touch.overlap) {
             return step;
         }

@@ -1,7 +1,8 @@
 #pragma once
-// One particle's search: rays in a cone, orientations on each ray, the landing nearest the target.
+// One particle's search: rays in a cone, orientations on each ray, the placement nearest the
+// target.
 #include "aggregate/aim.h"
-#include "aggregate/kit.h"
+#include "aggregate/template.h"
 #include "base/parallel.h"
 #include "touch/scene.h"
 
@@ -15,8 +16,8 @@ typedef struct clx_beside {
 
 /// What is thrown at what, and from where.
 typedef struct clx_search {
-    const clx_kit *kit;
-    const clx_kit_group *group;
+    const clx_templates *templates;
+    const clx_template *group;
     double scale;
     double size; ///< as the sizes mean it; the unit of `start` [m]
 
@@ -38,7 +39,7 @@ typedef struct clx_search {
 } clx_search;
 
 /// Where a particle came to rest.
-typedef struct clx_landing {
+typedef struct clx_placement {
     bool found;
     int64_t trial;
     double distance; ///< centre of mass to target
@@ -48,12 +49,12 @@ typedef struct clx_landing {
     double orientation[4];
     int32_t part; ///< of the group, that touches
     clx_touch touch;
-} clx_landing;
+} clx_placement;
 
 /// First touch of all parts of the group that moves along the path; false if none touches or the
-/// trial is beaten. Fills touch and part of the landing.
+/// trial is beaten. Fills touch and part of the placement.
 bool clx_search_fly(const clx_search *search, const double origin[3], const double orientation[4],
-                    const clx_touch_path *path, clx_landing *landing);
+                    const clx_touch_path *path, clx_placement *placement);
 
 /// Attempts, a new axis or walk each, before a search is given up.
 int32_t clx_search_tries(const clast_aggregate_params *params);
@@ -64,8 +65,8 @@ const char *clx_search_paths(const clx_search *search);
 /// The best of all trials; ties go to the lower trial number, so threads do not matter.
 ///
 /// @return CLAST_E_MEMORY
-clast_status clx_search_run(const clx_search *search, clx_landing *best);
+clast_status clx_search_run(const clx_search *search, clx_placement *best);
 
-/// Distance that the landed particle must step back along its ray until nothing overlaps; 0 when
+/// Distance that the placed particle must step back along its ray until nothing overlaps; 0 when
 /// it touches within rounding. Checks the answer by another way than the one that found it.
-double clx_search_overlap(const clx_search *search, const clx_landing *landing);
+double clx_search_overlap(const clx_search *search, const clx_placement *placement);

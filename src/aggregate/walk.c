@@ -32,9 +32,9 @@ static double smallest_part(const clx_search *s)
     CLAST_ASSERT(s->group->n_part > 0);
     double least = HUGE_VAL;
     for (int32_t i = 0; i < s->group->n_part; ++i) {
-        const clx_kit_part *part = &s->group->part[i];
-        least =
-            fmin(least, s->scale * part->scale * s->kit->shape[part->shape].shape->bounding_radius);
+        const clx_template_part *part = &s->group->part[i];
+        least = fmin(least, s->scale * part->scale *
+                                s->templates->shape[part->shape].shape->bounding_radius);
     }
     return least;
 }
@@ -88,9 +88,9 @@ static double clearance(const walk *w)
     }
     double least = HUGE_VAL;
     for (int32_t i = 0; i < s->group->n_part; ++i) {
-        clx_kit_part placed;
-        clx_kit_pose(s->group, i, w->x, w->orientation, s->scale, &placed);
-        const double r = placed.scale * s->kit->shape[placed.shape].shape->bounding_radius;
+        clx_template_part placed;
+        clx_template_pose(s->group, i, w->x, w->orientation, s->scale, &placed);
+        const double r = placed.scale * s->templates->shape[placed.shape].shape->bounding_radius;
         least = fmin(least, clx_touch_scene_clearance(s->scene, placed.position, least + r) - r);
         if (least < w->least) {
             break; // the step is the least one
@@ -100,7 +100,7 @@ static double clearance(const walk *w)
 }
 
 /// One step; true when it ends in a touch.
-static bool step(walk *w, clx_landing *landing)
+static bool step(walk *w, clx_placement *placement)
 {
     const clx_search *s = w->search;
     double u[3];
@@ -113,27 +113,27 @@ static bool step(walk *w, clx_landing *landing)
     clx_touch_path path = clx_touch_path_along(u);
     path.t_low = 0.0;
     path.t_high = w->least;
-    if (!clx_search_fly(s, w->x, w->orientation, &path, landing)) {
+    if (!clx_search_fly(s, w->x, w->orientation, &path, placement)) {
         v3_axpy(w->x, w->x, w->least, u);
         return false;
     }
-    landing->found = true;
-    landing->along = -landing->touch.t;
-    v3_copy(landing->origin, w->x);
-    v3_scale(landing->direction, -1.0, u);
-    v3_axpy(landing->centre, w->x, landing->touch.t, u);
+    placement->found = true;
+    placement->along = -placement->touch.t;
+    v3_copy(placement->origin, w->x);
+    v3_scale(placement->direction, -1.0, u);
+    v3_axpy(placement->centre, w->x, placement->touch.t, u);
     for (int k = 0; k < 4; ++k) {
-        landing->orientation[k] = w->orientation[k];
+        placement->orientation[k] = w->orientation[k];
     }
-    landing->distance = v3_distance(landing->centre, s->target);
+    placement->distance = v3_distance(placement->centre, s->target);
     return true;
 }
 
-/// The landing of one Brownian walk that came from infinity; walks that escape are begun again and
-/// counted in aim.attempt. Not found: aim.attempt reached `tries`.
+/// The placement of one Brownian walk that came from infinity; walks that escape are begun again
+/// and counted in aim.attempt. Not found: aim.attempt reached `tries`.
 ///
 /// Follows from (seed, particle) alone. @note no allocation, one thread
-static void run_walk(clx_search *search, int32_t tries, clx_landing *landing)
+static void run_walk(clx_search *search, int32_t tries, clx_placement *placement)
 {
     CLAST_ASSERT(tries > 0 && search->walk_step > 0.0);
     walk w = {.search = search};
@@ -141,28 +141,28 @@ static void run_walk(clx_search *search, int32_t tries, clx_landing *landing)
     w.outer =
         (search->bounding_radius + search->scale * search->group->radius) * (1.0 + 1e-12) + w.least;
     w.rng = clx_rng_at(search->aim.seed, CLX_STREAM_AGGREGATE_WALK, (uint64_t)search->aim.particle);
-    *landing = (clx_landing){0};
+    *placement = (clx_placement){0};
     for (search->aim.attempt = 0; search->aim.attempt < tries; ++search->aim.attempt) {
         begin(&w);
         while (come_back(&w)) {
-            if (step(&w, landing)) {
+            if (step(&w, placement)) {
                 return;
             }
         }
     }
 }
 
-clast_status clx_walk_or_search(clx_search *search, int32_t tries, clx_landing *landing)
+clast_status clx_walk_or_search(clx_search *search, int32_t tries, clx_placement *placement)
 {
     clast_status status = CLAST_OK;
     if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
-        run_walk(search, tries, landing);
+        run_walk(search, tries, placement);
         return CLAST_OK;
     }
     do {
-        CLX_TRY(clx_search_run(search, landing));
+        CLX_TRY(clx_search_run(search, placement));
         search->beside = (clx_beside){0}; // done by the first search
-    } while (!landing->found && ++search->aim.attempt < tries);
+    } while (!placement->found && ++search->aim.attempt < tries);
 done:
     return status;
 }

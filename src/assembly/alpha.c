@@ -44,8 +44,7 @@ typedef struct {
 
 static void cloud_free(cloud *c)
 {
-    clx_free(c->item);
-    clx_free(c->point);
+    CLX_FREE(c->item, c->point);
     *c = (cloud){0};
 }
 

@@ -19,15 +19,9 @@ void clast_assembly_free(clast_assembly *assembly)
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         clast_shape_free(&assembly->shape[s]);
     }
-    clx_free(assembly->shape);
-    clx_free(assembly->shape_id);
-    clx_free(assembly->position);
-    clx_free(assembly->orientation);
-    clx_free(assembly->scale);
-    clx_free(assembly->density);
-    clx_free(assembly->id);
-    clx_free(assembly->contact);
-    clx_free(assembly->contact_point);
+    CLX_FREE(assembly->shape, assembly->shape_id, assembly->position, assembly->orientation,
+             assembly->scale, assembly->density, assembly->id, assembly->contact,
+             assembly->contact_point);
     *assembly = (clast_assembly){0};
 }
 

@@ -157,7 +157,6 @@ clast_status clast_assembly_enclosing_sphere(const clast_assembly *assembly, dou
     v3_copy(centre, c);
     *radius = fmax(far.distance, r); // all grains are inside, whatever the last round left
 done:
-    clx_free(point);
-    clx_free(order);
+    CLX_FREE(point, order);
     return status;
 }

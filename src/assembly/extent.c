@@ -125,21 +125,6 @@ static void second_moments(const clast_assembly *a, double c[3][3])
     }
 }
 
-static void sort_widths(clast_extent *e)
-{
-    for (int i = 1; i < 3; ++i) {
-        for (int j = i; j > 0 && e->width[j] > e->width[j - 1]; --j) {
-            double axis[3];
-            const double w = e->width[j];
-            e->width[j] = e->width[j - 1];
-            e->width[j - 1] = w;
-            v3_copy(axis, e->axis[j]);
-            v3_copy(e->axis[j], e->axis[j - 1]);
-            v3_copy(e->axis[j - 1], axis);
-        }
-    }
-}
-
 clast_status clast_assembly_extent(const clast_assembly *assembly, clast_extent *extent)
 {
     CLX_ARGUMENTS(assembly, extent);
@@ -162,7 +147,7 @@ clast_status clast_assembly_extent(const clast_assembly *assembly, clast_extent 
         v3_scale(back, -1.0, made.axis[k]);
         made.width[k] = farthest_along(&hull, made.axis[k], x) + farthest_along(&hull, back, x);
     }
-    sort_widths(&made);
+    v3_sort_axes(made.width, made.axis);
     *extent = made;
 done:
     clx_hull_parts_free(&parts);

@@ -12,8 +12,7 @@ static const double COARSE = 1e-2;
 
 static void part_free(clx_hull_part *part)
 {
-    clx_free(part->vert);
-    clx_free(part->at);
+    CLX_FREE(part->vert, part->at);
     clast_spheres_free(&part->spheres);
     *part = (clx_hull_part){0};
 }

@@ -23,8 +23,7 @@ typedef struct {
 static void imaged_free(imaged *m)
 {
     clast_assembly_free(&m->all);
-    clx_free(m->origin);
-    clx_free(m->shift);
+    CLX_FREE(m->origin, m->shift);
     *m = (imaged){0};
 }
 
@@ -172,8 +171,7 @@ clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, dou
     }
     clx_contacts_replace(assembly, &made);
 done:
-    clx_free(made.contact);
-    clx_free(made.contact_point);
+    CLX_FREE(made.contact, made.contact_point);
     imaged_free(&m);
     return status;
 }

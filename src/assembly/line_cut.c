@@ -285,9 +285,7 @@ typedef struct {
 
 static void met_free(met *line)
 {
-    clx_free(line->x);
-    clx_free(line->shared_span);
-    clx_free(line->density);
+    CLX_FREE(line->x, line->shared_span, line->density);
 }
 
 static clast_status met_alloc(int32_t n, met *line)
@@ -354,8 +352,7 @@ clast_status clx_common_moments(const clast_parts *parts, const clast_mesh *mesh
         }
     }
 done:
-    clx_free(b);
-    clx_free(plane);
+    CLX_FREE(b, plane);
     met_free(&on);
     return status;
 }

@@ -295,9 +295,7 @@ static clast_status make_solid(const clast_assembly *a, bool keep_voids,
         CLX_TRY(fill_voids(&f, grid, is_void));
     }
 done:
-    clx_free(f.seen);
-    clx_free(f.stack);
-    clx_free(is_void);
+    CLX_FREE(f.seen, f.stack, is_void);
     return status;
 }
 

@@ -39,9 +39,7 @@ typedef struct shadow {
 
 static void shadow_free(shadow *s)
 {
-    clx_free(s->shade);
-    clx_free(s->own);
-    clx_free(s->span);
+    CLX_FREE(s->shade, s->own, s->span);
     *s = (shadow){0};
 }
 

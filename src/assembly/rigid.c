@@ -310,7 +310,6 @@ clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *na
 done:
     clast_shape_free(&made);
     clast_mesh_free(&j.mesh);
-    clx_free(j.parts.part);
-    clx_free(j.density);
+    CLX_FREE(j.parts.part, j.density);
     return status;
 }

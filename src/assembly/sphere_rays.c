@@ -34,14 +34,7 @@ typedef struct rays {
 
 static void rays_free(rays *r)
 {
-    clx_free(r->at);
-    clx_free(r->radius);
-    clx_free(r->direction);
-    clx_free(r->farthest);
-    clx_free(r->hit);
-    clx_free(r->number);
-    clx_free(r->tag);
-    clx_free(r->first);
+    CLX_FREE(r->at, r->radius, r->direction, r->farthest, r->hit, r->number, r->tag, r->first);
     *r = (rays){0};
 }
 
@@ -154,8 +147,7 @@ static clast_status draw_directions(uint64_t seed, rays *r)
     }
     r->first[n_cell] = r->n_ray;
 done:
-    clx_free(cell);
-    clx_free(drawn);
+    CLX_FREE(cell, drawn);
     return status;
 }
 

@@ -60,8 +60,7 @@ done:
 
 void clx_pairs_free(clx_pairs *pairs)
 {
-    clx_free(pairs->pair);
-    clx_free(pairs->point);
+    CLX_FREE(pairs->pair, pairs->point);
     *pairs = (clx_pairs){0};
 }
 

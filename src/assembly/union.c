@@ -288,8 +288,7 @@ done:
 
 static void group_free(group *g)
 {
-    clx_free(g->member);
-    clx_free(g->partner);
+    CLX_FREE(g->member, g->partner);
     *g = (group){0};
 }
 
@@ -365,8 +364,7 @@ done:
 void clx_contacts_replace(clast_assembly *assembly, clast_assembly *made)
 {
     CLAST_ASSERT(assembly->n_grain == made->n_grain);
-    clx_free(assembly->contact);
-    clx_free(assembly->contact_point);
+    CLX_FREE(assembly->contact, assembly->contact_point);
     assembly->contact = made->contact;
     assembly->contact_point = made->contact_point;
     assembly->n_contact = made->n_contact;
@@ -398,8 +396,7 @@ clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
     }
     clx_contacts_replace(assembly, &made);
 done:
-    clx_free(made.contact);
-    clx_free(made.contact_point);
+    CLX_FREE(made.contact, made.contact_point);
     clx_pairs_free(&pairs);
     clx_touch_set_free(&set);
     return status;

@@ -41,13 +41,7 @@ typedef struct wrap {
 static void wrap_free(wrap *w)
 {
     clx_grid_free(&w->grid);
-    clx_free(w->mark);
-    clx_free(w->reachable);
-    clx_free(w->nearest);
-    clx_free(w->next);
-    clx_free(w->part);
-    clx_free(w->border);
-    clx_free(w->stack);
+    CLX_FREE(w->mark, w->reachable, w->nearest, w->next, w->part, w->border, w->stack);
     *w = (wrap){0};
 }
 

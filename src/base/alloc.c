@@ -416,3 +416,10 @@ void clx_free(void *block)
         }
     }
 }
+
+void clx_free_blocks(size_t n, void *const block[])
+{
+    for (size_t k = 0; k < n; ++k) {
+        clx_free(block[k]);
+    }
+}

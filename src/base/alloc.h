@@ -21,6 +21,11 @@ CLX_SHARED clast_status clx_grow(void *block, int64_t *capacity, int64_t need, s
 /// Frees; NULL is allowed.
 CLX_SHARED void clx_free(void *block);
 
+/// Frees several blocks: CLX_FREE(low, high, volume).
+#define CLX_FREE(...)                                                                              \
+    clx_free_blocks(sizeof((void *[]){__VA_ARGS__}) / sizeof(void *), (void *[]){__VA_ARGS__})
+CLX_SHARED void clx_free_blocks(size_t n, void *const block[]);
+
 /// Blocks that wait for the next call instead of going back to the system. Sizes are rounded up to
 /// powers of two, so that the same sequence of calls takes nothing from the system the second time.
 typedef struct clx_pool clx_pool;

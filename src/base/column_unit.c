@@ -259,3 +259,12 @@ clast_status clx_table_add_said(clast_table *table, const char *name, const char
     (void)clx_column_unit(said, unit);
     return clast_table_add_number(table, name, is_known(unit) ? unit : "-", number);
 }
+
+clast_status clx_table_add_numbers(clast_table *table, size_t n, const char *const column[][2])
+{
+    clast_status status = CLAST_OK;
+    for (size_t k = 0; k < n && status == CLAST_OK; ++k) {
+        status = clast_table_add_number(table, column[k][0], column[k][1], NULL);
+    }
+    return status;
+}

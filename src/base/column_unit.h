@@ -47,6 +47,12 @@ clast_status clx_column_length(const clast_column *column, bool takes_phi, clx_l
 /// A number of such a column in `unit`.
 double clx_length_value(const clx_length_unit *length, double number);
 
+/// Adds n columns of numbers: the name and the unit of each. Pointers to them are asked for after.
+CLX_SHARED clast_status clx_table_add_numbers(clast_table *table, size_t n,
+                                              const char *const column[][2]);
+#define CLX_ADD_COLUMNS(table, column)                                                             \
+    clx_table_add_numbers(table, sizeof(column) / sizeof *(column), column)
+
 /// clast_table_add_number with the unit that the text `said` says, "-" where clast knows none.
 clast_status clx_table_add_said(clast_table *table, const char *name, const char *said,
                                 double **number);

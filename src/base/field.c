@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include <clast/field.h>
-#include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>

@@ -110,10 +110,7 @@ static void forget(clx_file *file)
     if (file->temporary != NULL) {
         forget_temporary(file->temporary);
     }
-    clx_free(file->path);
-    clx_free(file->target);
-    clx_free(file->temporary);
-    clx_free(file->buffer);
+    CLX_FREE(file->path, file->target, file->temporary, file->buffer);
     *file = (clx_file){0};
 }
 

@@ -12,10 +12,7 @@ static void free_column(clast_column *column, int64_t n_row)
             clx_free(column->text[i]);
         }
     }
-    clx_free(column->text);
-    clx_free(column->number);
-    clx_free(column->name);
-    clx_free(column->unit);
+    CLX_FREE(column->text, column->number, column->name, column->unit);
     *column = (clast_column){0};
 }
 
@@ -27,8 +24,7 @@ void clast_table_free(clast_table *table)
     for (int32_t c = 0; c < table->n_column; ++c) {
         free_column(&table->column[c], table->n_row);
     }
-    clx_free(table->column);
-    clx_free(table->name);
+    CLX_FREE(table->column, table->name);
     *table = (clast_table){0};
 }
 

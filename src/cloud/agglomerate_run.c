@@ -13,19 +13,11 @@
 
 void clx_evolution_free(clx_evolution *r)
 {
-    clx_free(r->population.x);
-    clx_free(r->population.monomers);
-    clx_free(r->population.radius);
-    clx_free(r->population.mass);
-    clx_free(r->population.velocity);
-    clx_free(r->population.speed_rms);
-    clx_free(r->population.owner);
-    clx_free(r->population.weight);
+    CLX_FREE(r->population.x, r->population.monomers, r->population.radius, r->population.mass,
+             r->population.velocity, r->population.speed_rms, r->population.owner,
+             r->population.weight);
     clast_decomposition_free(&r->later);
-    clx_free(r->x_at_mesh);
-    clx_free(r->cell);
-    clx_free(r->volume);
-    clx_free(r->medium);
+    CLX_FREE(r->x_at_mesh, r->cell, r->volume, r->medium);
     *r = (clx_evolution){0};
 }
 
@@ -525,8 +517,7 @@ static clast_status fill_media(clx_evolution *r)
         }
     }
 done:
-    clx_free(sum);
-    clx_free(n);
+    CLX_FREE(sum, n);
     return status;
 }
 

@@ -63,7 +63,7 @@ static double depth_integral(const clx_depth_law *law, double z)
     return z * z * (e1 / 2.0 - z * (e2 / 3.0 - z * e3 / 4.0));
 }
 
-double clx_depth_quantile(const clx_depth_law *law, double p)
+static double depth_quantile(const clx_depth_law *law, double p)
 {
     double low = 0.0;
     double high = 1.0;
@@ -93,7 +93,7 @@ static double constant_part(const clx_depth_law *law, double g, double a, double
 {
     const double cross = clx_depth_cdf(law, a) >= g   ? a // H is above g in all of [a, b]
                          : clx_depth_cdf(law, b) <= g ? b
-                                                      : clx_depth_quantile(law, g);
+                                                      : depth_quantile(law, g);
     const double below = g * (cross - a) - (depth_integral(law, cross) - depth_integral(law, a));
     const double above = depth_integral(law, b) - depth_integral(law, cross) - g * (b - cross);
     return below + above;
@@ -108,9 +108,9 @@ enum { KINK_LIMIT = 4096, KINK_EDGE = 512, N_PANEL = 64 };
 static double ideal_by_kinks(const clx_depth_law *law, int64_t n, int64_t low, int64_t high)
 {
     double sum = 0.0;
-    double a = clx_depth_quantile(law, (double)low / (double)n);
+    double a = depth_quantile(law, (double)low / (double)n);
     for (int64_t k = low + 1; k <= high; ++k) {
-        const double b = clx_depth_quantile(law, (double)k / (double)n);
+        const double b = depth_quantile(law, (double)k / (double)n);
         for (int q = 0; q < CLX_GAUSS_N; ++q) {
             const double z = a + (b - a) * clx_gauss_point(q);
             sum += (b - a) * clx_gauss_weight(q) *
@@ -165,8 +165,7 @@ double clx_depth_ideal(const clx_depth_law *law, double n_point)
     }
     const double edge = (double)KINK_EDGE / (double)n;
     return ideal_by_kinks(law, n, 0, KINK_EDGE) + ideal_by_kinks(law, n, n - KINK_EDGE, n) +
-           ideal_smooth(law, (double)n, clx_depth_quantile(law, edge),
-                        clx_depth_quantile(law, 1.0 - edge));
+           ideal_smooth(law, (double)n, depth_quantile(law, edge), depth_quantile(law, 1.0 - edge));
 }
 
 double clast_boundary_score_ideal(double n, int32_t d, const double *side)

@@ -3,7 +3,6 @@
 #include "cloud/part.h"
 
 #include <clast/cloud.h>
-#include <clast/decompose.h>
 
 /// H(z) = 1 - prod (1 - c_j z) on [0, 1].
 typedef struct clx_depth_law {
@@ -13,7 +12,6 @@ typedef struct clx_depth_law {
 
 clx_depth_law clx_depth_law_of_box(int32_t d, const double *side);
 double clx_depth_cdf(const clx_depth_law *law, double z);
-double clx_depth_quantile(const clx_depth_law *law, double p);
 
 /// Depth of a point of the unit cube over half the shortest side, in [0, 1].
 double clx_depth_of(const clx_depth_law *law, const double *u);

@@ -47,17 +47,8 @@ clast_status clx_box_begin(clx_box *s, int64_t n)
 
 void clx_box_end(clx_box *s)
 {
-    clx_free(s->population.monomers);
-    clx_free(s->population.radius);
-    clx_free(s->population.mass);
-    clx_free(s->population.owner);
-    clx_free(s->free_slot);
-    clx_free(s->member);
-    clx_free(s->next);
-    clx_free(s->frozen);
-    clx_free(s->n_kind);
-    clx_free(s->kind);
-    clx_free(s->born);
+    CLX_FREE(s->population.monomers, s->population.radius, s->population.mass, s->population.owner,
+             s->free_slot, s->member, s->next, s->frozen, s->n_kind, s->kind, s->born);
     *s = (clx_box){0};
 }
 

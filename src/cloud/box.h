@@ -22,7 +22,7 @@ typedef struct clx_box {
     int64_t start, added, settled; ///< mass
     int64_t above;                 ///< mass of particles above gel_size
     double gel_size;               ///< whole number of units above which mass is told as gel
-    double time, now;              ///< of the last deal or step; of the event [s]
+    double time, now;              ///< of the last partition or step; of the event [s]
     double gel_time;               ///< NaN before
     int64_t n_event;               ///< collisions drawn
     clast_status status;           ///< of growing

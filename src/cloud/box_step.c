@@ -1,7 +1,7 @@
 // A well-mixed box of Monte Carlo in time. Where collisions go event by event, so does all else:
-// the exact process. Where a box is dealt into blocks or rates are frozen for a sub-step, particles
-// settle, break and come in between them, each by its own clock. [docs/theory/agglomeration.md
-// section 6]
+// the exact process. Where a box is partitioned into blocks or rates are frozen for a sub-step,
+// particles settle, break and come in between them, each by its own clock.
+// [docs/theory/agglomeration.md section 6]
 #include "base/status.h"
 #include "cloud/box.h"
 #include "cloud/kernel_range.h"
@@ -19,7 +19,7 @@ clast_status clx_box_step(clx_box *s, double end, uint64_t step, clast_range_use
                    .population = &s->population,
                    .box = s,
                    .flows = s->changes,
-                   .deal = 1.0,
+                   .rate_factor = 1.0,
                    .scale = s->collide.alpha / s->volume,
                    .needs = clx_collide_needs(&s->collide),
                    .ranges = s->ranges,
@@ -39,7 +39,7 @@ clast_status clx_box_step(clx_box *s, double end, uint64_t step, clast_range_use
                   "the box has more than %d kinds of particles; let it be partitioned into blocks "
                   "(block > 0)",
                   KIND_LIMIT);
-        clx_block_evolve_dealt(&b, s->n_kind, dt);
+        clx_block_evolve_partitioned(&b, s->n_kind, dt);
     }
     s->time = s->now = end;
     s->n_event += b.n_event;

@@ -2,6 +2,7 @@
 #include "cloud/cells.h"
 
 #include "base/alloc.h"
+#include "geom/union_find.h"
 #include <string.h>
 
 static void box_of_each(const clx_bins *bins, int32_t *cell, int32_t *n_cell)
@@ -93,16 +94,6 @@ static void boxes(const clx_bins *bins, const uint16_t *tag, int32_t *cell, int3
     }
 }
 
-static int32_t root_of(int32_t *parent, int32_t b)
-{
-    CLAST_ASSERT(b >= 0);
-    while (parent[b] != b) {
-        parent[b] = parent[parent[b]];
-        b = parent[b];
-    }
-    return b;
-}
-
 /// Union-find over face neighbours; the lowest bin is the root, so numbers follow first bins.
 static clast_status components(const clx_bins *bins, const uint16_t *tag, int32_t *cell,
                                int32_t *n_cell)
@@ -112,19 +103,17 @@ static clast_status components(const clx_bins *bins, const uint16_t *tag, int32_
     int32_t *parent = NULL;
     strides(bins, stride);
     CLX_TRY(clx_alloc(&parent, bins->n_bin, sizeof *parent));
+    clx_sets_init(parent, (int32_t)bins->n_bin);
     for (int64_t b = 0; b < bins->n_bin; ++b) {
-        parent[b] = (int32_t)b;
         for (int32_t j = 0; j < bins->d; ++j) {
             if (b / stride[j] % bins->nb[j] == 0 || tag[b - stride[j]] != tag[b]) {
                 continue;
             }
-            const int32_t here = root_of(parent, (int32_t)b);
-            const int32_t there = root_of(parent, (int32_t)(b - stride[j]));
-            parent[here > there ? here : there] = here > there ? there : here;
+            clx_sets_join(parent, (int32_t)b, (int32_t)(b - stride[j]));
         }
     }
     for (int64_t b = 0; b < bins->n_bin; ++b) { // a root comes before its members
-        const int32_t root = root_of(parent, (int32_t)b);
+        const int32_t root = clx_sets_find(parent, (int32_t)b);
         cell[b] = root == (int32_t)b ? (*n_cell)++ : cell[root];
     }
 done:

@@ -44,7 +44,7 @@ static clx_block block_of(const step_context *s, int32_t c)
                        .frozen = s->scratch.frozen + begin,
                        .n = s->start[c + 1] - begin,
                        .kind = s->scratch.kind + begin,
-                       .deal = 1.0,
+                       .rate_factor = 1.0,
                        .scale = s->config->alpha / s->cells->volume[c],
                        .needs = s->needs,
                        .ranges = s->ranges};
@@ -67,7 +67,7 @@ static void evolve_cell(const step_context *s, int32_t c)
         (void)clx_block_rates(&block);
         clx_block_evolve(&block, s->dt);
     } else if (limit > 0) {
-        clx_block_evolve_dealt(&block, s->scratch.n_kind + begin, s->dt);
+        clx_block_evolve_partitioned(&block, s->scratch.n_kind + begin, s->dt);
     } else {
         s->is_too_many[c] = true;
     }
@@ -388,15 +388,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
     }
     CLX_TRY(run_step(&s, n_event));
 done:
-    clx_free(s.scratch.order);
-    clx_free(s.scratch.next);
-    clx_free(s.scratch.frozen);
-    clx_free(s.scratch.kind);
-    clx_free(s.scratch.n_kind);
-    clx_free(s.start);
-    clx_free(s.n_event);
-    clx_free(s.n_real);
-    clx_free(s.range);
-    clx_free(s.is_too_many);
+    CLX_FREE(s.scratch.order, s.scratch.next, s.scratch.frozen, s.scratch.kind, s.scratch.n_kind,
+             s.start, s.n_event, s.n_real, s.range, s.is_too_many);
     return status;
 }

@@ -20,7 +20,7 @@ typedef struct clx_collide_scratch {
     int64_t *next;   ///< [n] list of a kind, -1 ends it
     int64_t *frozen; ///< [n] particles by kind at the start of a sub-step
     clx_kind *kind;  ///< [n]
-    int64_t *n_kind; ///< [n] kinds of the blocks of a deal
+    int64_t *n_kind; ///< [n] kinds of the blocks of a partition
 } clx_collide_scratch;
 
 /// A block: particles member [n] that meet at the rate kernel x scale.
@@ -34,8 +34,8 @@ typedef struct clx_block {
     int64_t n_kind;
     uint32_t ranges; ///< rows of the table of ranges that its events are held against
     clast_range_use range;
-    double deal;  ///< what dealing into blocks leaves out; 1 without
-    double scale; ///< alpha / V, times deal
+    double rate_factor; ///< what a partition into blocks leaves out; 1 without
+    double scale;       ///< alpha / V, times rate_factor
     uint32_t needs;
     clx_rng *rng;
     struct clx_box *box; ///< whose particles these are; NULL: they only collide
@@ -67,7 +67,7 @@ void clx_block_drop_dead(clx_block *block);
 void clx_block_evolve(clx_block *block, double dt);
 
 /// Evolves a cell of more kinds than config->block for a time dt; n_kind [block->n] is scratch.
-void clx_block_evolve_dealt(clx_block *cell, int64_t *n_kind, double dt);
+void clx_block_evolve_partitioned(clx_block *cell, int64_t *n_kind, double dt);
 void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng);
 
 /// Lets two live particles stick; weighted parcels as clast_collide says. `live` lists those that

@@ -119,13 +119,13 @@ double clx_block_kernel(const clx_block *b, const clx_kind *x, const clx_kind *y
 }
 
 /// Twice the rate, over scale, at which the particles of one parcel collide: rows count pairs
-/// twice. A parcel is always in its own block, so its rate has no share of the deal.
+/// twice. A parcel is always in its own block, so its rate has no share of rate_factor.
 double clx_block_self_rate(const clx_block *b, const clx_kind *kind)
 {
     if (!b->config->self_collisions || kind->weight <= 1.0) {
         return 0.0;
     }
-    return 2.0 * (kind->weight - 1.0) / b->deal * pair_rate(b, &kind->as, &kind->as);
+    return 2.0 * (kind->weight - 1.0) / b->rate_factor * pair_rate(b, &kind->as, &kind->as);
 }
 
 int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])

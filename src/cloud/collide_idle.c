@@ -2,7 +2,6 @@
 // law of sticking do not look at is a mistake of the person who gives it.
 #include <clast/agglomerate.h>
 
-#include "base/status.h"
 #include <string.h>
 
 #define KERNEL(name)   (1U << CLAST_KERNEL_##name)

@@ -120,7 +120,8 @@ static double over_angles(const clast_domain *d, double r)
     return sum;
 }
 
-bool clx_covariogram_is_exact(const clast_domain *d)
+/// Whether clx_covariogram knows the domain.
+static bool is_exact(const clast_domain *d)
 {
     return d->kind == CLAST_DOMAIN_BOX || d->kind == CLAST_DOMAIN_CYLINDER ||
            d->kind == CLAST_DOMAIN_SPHERE;
@@ -260,7 +261,7 @@ clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n, const do
                   CLAST_E_ARGUMENT, "radius %d is %g: radii are > 0 and ascend", i + 1, radius[i]);
     }
     CLX_TRY(clx_alloc(&made, 2 * (int64_t)n, sizeof *made));
-    if (clx_covariogram_is_exact(domain)) {
+    if (is_exact(domain)) {
         const double volume = clast_domain_volume(domain);
         integrate(domain, n, radius, made);
         for (int32_t i = 0; i < n; ++i) {

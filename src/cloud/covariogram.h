@@ -6,9 +6,6 @@
 /// The set covariance in closed form or by quadrature [m^d]: a box, a cylinder or a sphere.
 double clx_covariogram(const clast_domain *domain, double r);
 
-/// True where clx_covariogram knows the domain.
-bool clx_covariogram_is_exact(const clast_domain *domain);
-
 /// Integral of S_d r^(d-1) c(r) dr from 0 to each radius, by quasi-Monte Carlo with its standard
 /// error: chords of a closed surface or a half pipe, points of a map.
 clast_status clx_covariogram_sample(const clast_domain *domain, int32_t n, const double *radius,

@@ -189,9 +189,7 @@ clast_status clx_covariogram_pairs(const clast_domain *domain, int32_t n, const 
     CLX_TRY(clx_parallel_try(N_SHIFT, 1, sample_shift, &s));
     gather(&s, share, error);
 done:
-    clx_free(s.within);
-    clx_free(s.below);
-    clx_free(s.radius2);
+    CLX_FREE(s.within, s.below, s.radius2);
     clx_lines_free(&s.lines);
     return status;
 }

@@ -144,8 +144,7 @@ static clast_status leave_out_empty(const clx_sample *m, clast_cells *cells)
         cells->of_bin[b] = cells->of_bin[b] >= 0 ? number[cells->of_bin[b]] : -1;
     }
 done:
-    clx_free(number);
-    clx_free(moved);
+    CLX_FREE(number, moved);
     return status;
 }
 

@@ -36,53 +36,50 @@ const clast_field clast_decompose_fields[] = {
      "full|first|fast|test", .common = true, .group = "method"},
     {FIELD(CLAST_FIELD_CHOICE, mesh), CLAST_CELLS_AUTO, 0, 0, "-",
      "what bins are joined into; tree splits by a chi-square test; auto: tree for the full "
-     "variant, "
-     "else boxes",
+     "variant, else boxes",
      "boxes|components|bins|labels|tree|auto", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
-    {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
+    {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test"},
     {FIELD(CLAST_FIELD_I32, votes), 2, 1, 5, "-",
-     "tests that must reject; where a single one votes, 2 is 1", NULL},
+     "tests that must reject; where a single one votes, 2 is 1"},
     {FIELD(CLAST_FIELD_TEXT, tests), 0, 0, 0, "-", "tests that vote",
      "symmetric,centred,star,henze_zirkler,pearson"},
     {FIELD(CLAST_FIELD_CHOICE, statistic), 0, 0, 0, "-",
      "of the discrepancies: A_n as published, or Liang's stronger T", "A|T"},
     {FIELD(CLAST_FIELD_BOOL, paper), 0, 0, 0, "-",
-     "p-values, score (trapezoids) and events (n^2 / V) as printed, errors included", NULL},
+     "p-values, score (trapezoids) and events (n^2 / V) as printed, errors included"},
     {FIELD(CLAST_FIELD_I32, ghost_samples), 0, 0, 65535, "-",
-     "expected scores by so many ghost samples; 0: without sampling", NULL},
+     "expected scores by so many ghost samples; 0: without sampling"},
     {FIELD(CLAST_FIELD_BOOL, crossfit), 0, 0, 0, "-",
-     "events by cross-fitting too: cells of one half of the points, counts of the other half", NULL,
+     "events by cross-fitting too: cells of one half of the points, counts of the other half",
      .common = true},
     {FIELD(CLAST_FIELD_CHOICE, lower), 0, 0, 0, "-",
      "lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one, after it "
      "or jointly",
      "q20|search|joint"},
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
-     "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
-    {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
+     "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)"},
+    {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most"},
     {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "m^d",
      "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]",
      CLAST_KEEPS_DIMENSION, .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
-     "level of the test in each tree cell", NULL, .group = "tree"},
+     "level of the test in each tree cell", .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
-     "level of the test that splits the whole cloud into a tree: uniform clouds split by chance",
-     NULL},
+     "level of the test that splits the whole cloud into a tree: uniform clouds split by chance"},
     {FIELD(CLAST_FIELD_F64, variable_tolerance), 0.0, 0.0, 1e300, "-",
-     "standard deviation that a tree cell may keep of the variable (its column's unit)", NULL},
+     "standard deviation that a tree cell may keep of the variable (its column's unit)"},
     {FIELD(CLAST_FIELD_I32, tree_least), 16, 2, 1000000, "-",
-     "points below which a tree cell is not split", NULL},
+     "points below which a tree cell is not split"},
     {FIELD(CLAST_FIELD_BOOL, tree_refine), 1, 0, 0, "-",
-     "give each cell of a tree that was split as the blocks its last test looked at", NULL},
+     "give each cell of a tree that was split as the blocks its last test looked at"},
     {FIELD(CLAST_FIELD_BOOL, extrapolate), 1, 0, 0, "-",
      "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
-     "cells",
-     NULL},
+     "cells"},
     {FIELD(CLAST_FIELD_BOOL, pairs), 0, 0, 0, "-",
-     "count pairs by distance: g(r), and events by pairs beside those by cells", NULL,
-     .common = true, .group = "pairs"},
+     "count pairs by distance: g(r), and events by pairs beside those by cells", .common = true,
+     .group = "pairs"},
     {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "m",
      "greatest distance of pairs (a bare number: m); 0: some 110 neighbours a point, three mean "
      "spacings in 3-D",
@@ -92,7 +89,7 @@ const clast_field clast_decompose_fields[] = {
      "resolve the cloud",
      "cells|pairs|auto"},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8446744073709552e19, "-",
-     "seed of every draw (ghost points, samples, collisions)", NULL, .common = true,
+     "seed of every draw (ghost points, samples, collisions)", .common = true,
      .group = "random numbers"},
     {0}};
 #undef FIELD
@@ -130,19 +127,9 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
 
 static void free_cells(clast_cells *cells)
 {
-    clx_free(cells->low);
-    clx_free(cells->high);
-    clx_free(cells->volume);
-    clx_free(cells->count);
-    clx_free(cells->label);
-    clx_free(cells->pass);
-    clx_free(cells->weight);
-    clx_free(cells->events);
-    clx_free(cells->of_point);
-    clx_free(cells->of_bin);
-    clx_free(cells->bin_count);
-    clx_free(cells->key);
-    clx_free(cells->group);
+    CLX_FREE(cells->low, cells->high, cells->volume, cells->count, cells->label, cells->pass,
+             cells->weight, cells->events, cells->of_point, cells->of_bin, cells->bin_count,
+             cells->key, cells->group);
     *cells = (clast_cells){0};
 }
 
@@ -281,8 +268,7 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
     tree.group = NULL;
 done:
     clx_uniformity_tree_free(&tree);
-    clx_free(of_sample);
-    clx_free(variable);
+    CLX_FREE(of_sample, variable);
     return status;
 }
 
@@ -346,8 +332,7 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     passes.bins.count = NULL;
 done:
     clx_passes_free(&passes);
-    clx_free(cell);
-    clx_free(of_sample);
+    CLX_FREE(cell, of_sample);
     return status;
 }
 
@@ -576,11 +561,11 @@ done:
 }
 
 /// Whether so many points repeat the place of another that their density has no lower bound.
-static bool is_repeated(const clx_shown *cached, const clx_ladder *ladder)
+static bool is_repeated(const clx_shown *cached, const clx_pair_levels *levels)
 {
     return cached != NULL && cached->is_known
                ? cached->cells.is_repeated
-               : ladder->n > 0 && clx_resolution_of(ladder).is_repeated;
+               : levels->n > 0 && clx_resolution_of(levels).is_repeated;
 }
 
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
@@ -588,18 +573,18 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
                                   clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
-    clx_ladder ladder;
+    clx_pair_levels levels;
     result->beta_dt = config->beta_dt;
     result->volume = clast_domain_volume(sample->domain);
     result->seed = config->seed;
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
-    CLX_TRY(clx_events_count(cloud, config, sample, cached, &ladder, result));
-    if (is_repeated(cached, &ladder)) { // cells at their cap have no bound either
+    CLX_TRY(clx_events_count(cloud, config, sample, cached, &levels, result));
+    if (is_repeated(cached, &levels)) { // cells at their cap have no bound either
         result->events_low = (double)NAN;
     }
     to_domain(sample->domain, &result->cells); // pairs within the cells are of its volumes
-    CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &ladder, result));
+    CLX_TRY(clx_pair_events(sample->comm, sample->domain, cloud, config, &levels, result));
     result->events_cross = (double)NAN;
     if (config->crossfit) {
         CLX_TRY(crossfit(sample->comm, cloud, config, sample->domain, &result->events_cross));

@@ -53,17 +53,16 @@ static clast_status probe(const clast_domain_map_functions *f, const double u[3]
               "the map says that the image (%g, %g, %g) of (%g, %g, %g) is outside the domain",
               x[0], x[1], x[2], u[0], u[1], u[2]);
     for (int32_t j = 0; j < f->dimension; ++j) {
-        CLX_CHECK(fabs(back[j] - u[j]) <= 1e-8, CLAST_E_CONFIG,
-                  "map and unmap do not undo each other: coordinate %d of (%g, %g, %g) comes back "
-                  "as %g",
-                  j, u[0], u[1], u[2], back[j]);
+        CLX_CHECK(
+            fabs(back[j] - u[j]) <= 1e-8, CLAST_E_CONFIG,
+            "map and unmap do not undo each other: coordinate %d of (%g, %g, %g) comes back as %g",
+            j, u[0], u[1], u[2], back[j]);
     }
     const double volume = jacobian(f, u);
-    CLX_CHECK(
-        fabs(volume - f->volume) <= 1e-3 * f->volume, CLAST_E_CONFIG,
-        "the map does not keep uniform points uniform: |det dx/du| is %g at (%g, %g, %g), the "
-        "volume is %g",
-        volume, u[0], u[1], u[2], f->volume);
+    CLX_CHECK(fabs(volume - f->volume) <= 1e-3 * f->volume, CLAST_E_CONFIG,
+              "the map does not keep uniform points uniform: |det dx/du| is %g at (%g, %g, %g), "
+              "the volume is %g",
+              volume, u[0], u[1], u[2], f->volume);
 done:
     return status;
 }
@@ -114,11 +113,10 @@ static clast_status check_surface(const clast_mesh_check_result *found)
               (long long)found->n_intersection, found->intersection[0], found->intersection[1]);
     for (int32_t k = 0; k < found->n_part; ++k) {
         const clast_mesh_part *part = &found->part[k];
-        CLX_CHECK(
-            (part->depth % 2 == 0) == (part->volume > 0.0), CLAST_E_GEOMETRY,
-            "part %d of the domain's surface lies in %d others and is oriented %sward: what is "
-            "inside is not defined",
-            k, part->depth, part->volume > 0.0 ? "out" : "in");
+        CLX_CHECK((part->depth % 2 == 0) == (part->volume > 0.0), CLAST_E_GEOMETRY,
+                  "part %d of the domain's surface lies in %d others and is oriented %sward: what "
+                  "is inside is not defined",
+                  k, part->depth, part->volume > 0.0 ? "out" : "in");
     }
 done:
     return status;

@@ -399,7 +399,7 @@ done:
 
 /// Puts what pairs of all distances show in the place of cells that do not resolve the cloud. The
 /// interval is of Poisson points, whose number is one more thing that varies. Called by all ranks.
-static clast_status ask_pairs(const count *n, const clx_ladder *ladder, int64_t most,
+static clast_status ask_pairs(const count *n, const clx_pair_levels *levels, int64_t most,
                               clx_resolution *shown, clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
@@ -418,7 +418,7 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, int64_t 
     }
     CLX_TRY(clast_comm_agree(n->sample->comm, status, NULL));
     CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, is_part ? &some : n->cloud, &how,
-                            is_part ? NULL : ladder, &pairs));
+                            is_part ? NULL : levels, &pairs));
     clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
     if (e.resolved && isinf(pairs.integral.scale) && n->cells->n > 1) { // the tests saw structure
         e.resolved = false;
@@ -446,26 +446,28 @@ done:
     return status;
 }
 
-static void remember_count(const clx_resolution *shown, const clx_ladder *ladder, clx_shown *cached)
+static void remember_count(const clx_resolution *shown, const clx_pair_levels *levels,
+                           clx_shown *cached)
 {
     if (cached != NULL) {
         cached->is_counted = true;
-        cached->counted = (clx_counted){shown->is_by_pairs, *shown, *ladder};
+        cached->counted = (clx_counted){shown->is_by_pairs, *shown, *levels};
     }
 }
 
 /// The last count as these points have it: what it showed beyond the pairs in the finest cells that
 /// have pairs enough, then and now, is taken to have stayed. False where it must be counted anew.
-static bool carry_over(const clx_shown *cached, const clx_ladder *ladder, clx_resolution *shown)
+static bool carry_over(const clx_shown *cached, const clx_pair_levels *levels,
+                       clx_resolution *shown)
 {
     const clx_counted *last = &cached->counted;
     const double factor =
-        cached->may_carry && last->is_known ? clx_resolution_change(&last->ladder, ladder) : 0.0;
+        cached->may_carry && last->is_known ? clx_resolution_change(&last->levels, levels) : 0.0;
     if (!(factor <= most_carried && factor * most_carried >= 1.0)) {
         return false;
     }
     const clx_resolution carried = scaled(last->by_pairs, factor);
-    if (carried.resolved && !clx_resolution_allows(ladder, carried.value)) {
+    if (carried.resolved && !clx_resolution_allows(levels, carried.value)) {
         return false;
     }
     *shown = carried;
@@ -473,7 +475,7 @@ static bool carry_over(const clx_shown *cached, const clx_ladder *ladder, clx_re
 }
 
 /// What the pairs of all points show, and by cells alone: counted, or as cached.
-static clast_status find_shown(const count *n, clx_shown *cached, clx_ladder *ladder,
+static clast_status find_shown(const count *n, clx_shown *cached, clx_pair_levels *levels,
                                clx_shown *found, clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
@@ -486,17 +488,17 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_ladder *la
         found->cells = scaled(cached->cells, all);
         return CLAST_OK;
     }
-    CLX_TRY(clx_ladder_count(n->sample->comm, n->sample, n->cloud->weight, ladder));
-    found->relative = found->cells = clx_resolution_of(ladder);
+    CLX_TRY(clx_pair_levels_count(n->sample->comm, n->sample, n->cloud->weight, levels));
+    found->relative = found->cells = clx_resolution_of(levels);
     const bool asks = n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain &&
                       n->cloud->weight == NULL && !found->cells.resolved &&
                       !found->cells.is_repeated && !found->cells.is_apart && r->n >= 2;
     CLAST_ASSERT(clx_comm_is_same(n->sample->comm, asks)); // what follows is done by all or none
     if (asks) {
-        if (cached == NULL || n->config->pairs || !carry_over(cached, ladder, &found->relative)) {
+        if (cached == NULL || n->config->pairs || !carry_over(cached, levels, &found->relative)) {
             const int64_t most = cached != NULL ? cached->pairs_most : 0;
-            CLX_TRY(ask_pairs(n, ladder, most, &found->relative, r));
-            remember_count(&found->relative, ladder, cached);
+            CLX_TRY(ask_pairs(n, levels, most, &found->relative, r));
+            remember_count(&found->relative, levels, cached);
         }
     }
     if (cached != NULL && all > 0.0) {
@@ -543,7 +545,7 @@ done:
 }
 
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *cached, clx_ladder *ladder,
+                              const clx_sample *sample, clx_shown *cached, clx_pair_levels *levels,
                               clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
@@ -556,12 +558,12 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
                .scale = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain),
                .rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0,
                .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
-    *ladder = (clx_ladder){0};
+    *levels = (clx_pair_levels){0};
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
     CLX_TRY(clast_comm_agree(sample->comm, alloc_parts(&n), NULL));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
-    CLX_TRY(find_shown(&n, cached, ladder, &shown, result));
+    CLX_TRY(find_shown(&n, cached, levels, &shown, result));
     settle(&n, &shown.cells, result);
     result->events_by_cells =
         (clast_estimate){result->events, result->events_low, result->events_high, result->resolved};
@@ -572,8 +574,6 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     result->bias_estimate =
         n.is_printed && result->n > 0 ? (double)result->cells.n / (double)result->n : (double)NAN;
 done:
-    clx_free(n.cell);
-    clx_free(n.half);
-    clx_free(n.capped);
+    CLX_FREE(n.cell, n.half, n.capped);
     return status;
 }

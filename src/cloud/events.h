@@ -2,11 +2,11 @@
 // Events of cells, what uniform cells hide of them, and their interval.
 #include "cloud/resolution.h"
 
-/// Pairs by distance at the time they were counted, beside the ladder of the same points.
+/// Pairs by distance at the time they were counted, beside the levels of the same points.
 typedef struct clx_counted {
     bool is_known;
     clx_resolution by_pairs;
-    clx_ladder ladder;
+    clx_pair_levels levels;
 } clx_counted;
 
 /// What the pairs of one sample have shown, over the sum of pairs in its cells.
@@ -26,7 +26,7 @@ typedef struct clx_shown {
 /// @param cached  NULL: what the pairs show is counted. Else it is taken from there where it is
 /// known, and left there where it was not: cells that stay keep their resolution. Of new cells that
 /// do not resolve the cloud it is carried over from its last count where that may be
-/// @param ladder  of the points, as counted; without rungs where it was not
+/// @param levels  of the points, as counted; without levels where it was not
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *cached, clx_ladder *ladder,
+                              const clx_sample *sample, clx_shown *cached, clx_pair_levels *levels,
                               clast_decomposition *result);

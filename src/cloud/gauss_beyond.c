@@ -144,7 +144,6 @@ clast_status clx_gauss_sum_beyond(const clx_gauss_beyond *points, double *sum)
     }
     *sum = clx_fixed_value(&c.scale, &all, 1);
 done:
-    clx_free(c.entry);
-    clx_free(c.block);
+    CLX_FREE(c.entry, c.block);
     return status;
 }

@@ -458,9 +458,7 @@ static clast_status quadratic_form(const grid *g, double *sum)
         }
     }
 done:
-    clx_free(b.to);
-    clx_free(b.other);
-    clx_free(b.padded);
+    CLX_FREE(b.to, b.other, b.padded);
     return status;
 }
 
@@ -608,11 +606,6 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
     *sum += beyond;
     part->comm->broadcast(part->comm->context, 0, sum, (int64_t)sizeof *sum);
 done:
-    clx_free(g.count);
-    clx_free(g.node);
-    clx_free(g.start);
-    clx_free(g.order);
-    clx_free(list[0].y);
-    clx_free(list[1].y);
+    CLX_FREE(g.count, g.node, g.start, g.order, list[0].y, list[1].y);
     return status;
 }

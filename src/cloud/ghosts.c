@@ -159,8 +159,6 @@ clast_status clx_ghosts_expected_score(const clx_ghost_sample *sample, double *s
     }
     *score = sum / n_grid;
 done:
-    clx_free(sums->p);
-    clx_free(sums->p2);
-    clx_free(sums->whole);
+    CLX_FREE(sums->p, sums->p2, sums->whole);
     return status;
 }

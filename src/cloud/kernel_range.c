@@ -172,15 +172,27 @@ static double density_ratio(const seen *s)
     return s->m->particle_density / s->m->density;
 }
 
+/// A pair as a law of sticking sees it.
+static clast_impact impact_of(const clast_collide_config *c, const clast_medium *medium,
+                              const clast_collider *a, const clast_collider *b)
+{
+    const bool is_fractal = c->radius_law != CLAST_RADIUS_VOLUME;
+    return (clast_impact){.speed = clast_impact_speed(c->kernel, medium, a, b),
+                          .radius = {a->radius, b->radius},
+                          .mass = {a->mass, b->mass},
+                          .curvature = {is_fractal ? c->monomer_radius : a->radius,
+                                        is_fractal ? c->monomer_radius : b->radius}};
+}
+
 static double impact_stokes(const seen *s)
 {
-    const clast_impact hit = clx_impact_of(s->config, s->m, s->a, s->b);
+    const clast_impact hit = impact_of(s->config, s->m, s->a, s->b);
     return clast_sticking_stokes(&s->config->sticking, &hit);
 }
 
 static double curvature(const seen *s)
 {
-    const clast_impact hit = clx_impact_of(s->config, s->m, s->a, s->b);
+    const clast_impact hit = impact_of(s->config, s->m, s->a, s->b);
     return hit.curvature[0] * hit.curvature[1] / (hit.curvature[0] + hit.curvature[1]);
 }
 
@@ -460,8 +472,7 @@ const char *clast_range_use_words(const clast_range_use *use, size_t size, char 
         const clast_kernel_range *r = &row[use->row].text;
         const bool is_high = use->value > r->high;
         (void)clx_number_print(words, size,
-                               "%s: %s is %.3g at the farthest, where it holds %s %.3g "
-                               "[%s]",
+                               "%s: %s is %.3g at the farthest, where it holds %s %.3g [%s]",
                                r->owner, r->quantity, use->value, is_high ? "up to" : "from",
                                is_high ? r->high : r->low, r->source);
     }
@@ -476,28 +487,16 @@ clast_status clx_range_check(const clast_range_use *use, const char *of)
         return CLAST_OK;
     }
     (void)clast_range_use_words(use, sizeof words, words);
-    return clx_fail(CLAST_E_CONFIG,
-                    "%s; %.3g %% %s lie beyond: %s, or take it as it is with "
-                    "--out-of-range extrapolate",
-                    words, 100.0 * use->outside / use->n, of,
-                    use->row >= 0 && use->row < CLAST_N_KERNEL_RANGE ? row[use->row].text.instead
-                                                                     : "");
-}
-
-clast_impact clx_impact_of(const clast_collide_config *c, const clast_medium *medium,
-                           const clast_collider *a, const clast_collider *b)
-{
-    const bool is_fractal = c->radius_law != CLAST_RADIUS_VOLUME;
-    return (clast_impact){.speed = clast_impact_speed(c->kernel, medium, a, b),
-                          .radius = {a->radius, b->radius},
-                          .mass = {a->mass, b->mass},
-                          .curvature = {is_fractal ? c->monomer_radius : a->radius,
-                                        is_fractal ? c->monomer_radius : b->radius}};
+    return clx_fail(
+        CLAST_E_CONFIG,
+        "%s; %.3g %% %s lie beyond: %s, or take it as it is with --out-of-range extrapolate", words,
+        100.0 * use->outside / use->n, of,
+        use->row >= 0 && use->row < CLAST_N_KERNEL_RANGE ? row[use->row].text.instead : "");
 }
 
 double clx_sticking_of(const clast_collide_config *c, const clast_medium *medium,
                        const clast_collider *a, const clast_collider *b)
 {
-    const clast_impact hit = clx_impact_of(c, medium, a, b);
+    const clast_impact hit = impact_of(c, medium, a, b);
     return clast_sticking_share(&c->sticking, &hit);
 }

@@ -26,9 +26,7 @@ clast_status clx_range_up_to(const clast_collide_config *config, double time,
 
 void clx_range_merge(clast_range_use *into, const clast_range_use *from);
 
-/// A pair as a law of sticking sees it; the share of such impacts that stick, alpha apart.
-clast_impact clx_impact_of(const clast_collide_config *config, const clast_medium *medium,
-                           const clast_collider *a, const clast_collider *b);
+/// The share of a pair's impacts that stick, alpha apart.
 double clx_sticking_of(const clast_collide_config *config, const clast_medium *medium,
                        const clast_collider *a, const clast_collider *b);
 

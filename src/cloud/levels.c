@@ -59,8 +59,7 @@ static double percentile(const frequency *f, double p)
 
 void clx_levels_free(clx_levels *levels)
 {
-    clx_free(levels->lambda);
-    clx_free(levels->lower);
+    CLX_FREE(levels->lambda, levels->lower);
     *levels = (clx_levels){0};
 }
 
@@ -116,8 +115,7 @@ clast_status clx_levels_find(const int32_t *count, const uint8_t *active, int64_
     made = (clx_levels){0};
 done:
     clx_levels_free(&made);
-    clx_free(all.bins);
-    clx_free(filled.bins);
+    CLX_FREE(all.bins, filled.bins);
     return status;
 }
 

@@ -15,9 +15,7 @@ void clx_pair_cells_free(clx_pair_cells *c)
     for (int j = 0; j < 3; ++j) {
         clx_free(c->x[j]);
     }
-    clx_free(c->safe2);
-    clx_free(c->key);
-    clx_free(c->begin);
+    CLX_FREE(c->safe2, c->key, c->begin);
     *c = (clx_pair_cells){0};
 }
 

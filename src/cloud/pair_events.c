@@ -47,7 +47,7 @@ clast_estimate clx_pair_poisson(const clast_estimate *e, double n)
 
 clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
                              const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clx_ladder *ladder, clast_decomposition *result)
+                             const clx_pair_levels *levels, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clast_pairs_config how;
@@ -63,7 +63,7 @@ clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
         CLX_TRY(clast_fields_default(clast_pairs_fields, &how));
         how.radius = config->pairs_radius;
         how.outside = config->outside;
-        CLX_TRY(clx_pairs_count(comm, domain, cloud, &how, ladder->n > 0 ? ladder : NULL,
+        CLX_TRY(clx_pairs_count(comm, domain, cloud, &how, levels->n > 0 ? levels : NULL,
                                 &result->pairs));
     }
     const double n = (double)result->n;

@@ -293,9 +293,6 @@ done:
     for (int chunk = 0; chunk < MOST_CHUNK && t != NULL; ++chunk) {
         clx_free(t->count[chunk]);
     }
-    clx_free(t != NULL ? t->moment : NULL);
-    clx_free(t);
-    clx_free(a);
-    clx_free(b);
+    CLX_FREE(t != NULL ? t->moment : NULL, t, a, b);
     return status;
 }

@@ -499,7 +499,7 @@ static void find_window(const clx_pair_shells *all, clx_mixture_fit *f, double *
 {
     *a = (answers){.window = *all};
     ask_both(f, a);
-    if (a->fits || clx_resolution_of(all->ladder).is_apart) {
+    if (a->fits || clx_resolution_of(all->levels).is_apart) {
         return;
     }
     answers next = {.is_cut = true};
@@ -553,7 +553,7 @@ static void judge(const clx_pair_shells *all, const answers *a, clx_mixture_fit 
     const double size = most_size * size_of(a);
     const double least = smooth->s < size ? least_pairs : least_even;
     const double close = pairs_within(all, fmin(smooth->s, size));
-    const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
+    const bool is_allowed = clx_resolution_allows(in->levels, in->n * (in->n - 1.0) * e->value);
     const double least_points = in->d > 2 ? least_spatial : 0.0;
     const bool is_met = a->fits && is_seen && is_allowed && doubt <= most_doubt && close >= least;
     const bool is_chance = is_met && (fabs(log(kinked->value / smooth->value)) > most_between ||
@@ -601,7 +601,7 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     made.scale = fmin(a.smooth.s, widest);
     made.fit_p = fit_p(&a);
     set_window(&a.window, &made);
-    if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {
+    if (in->levels->n_repeated > most_repeated * (double)made.n_pair) {
         made.estimate.low = (double)NAN; // there is no density at the places of repeated points
         made.estimate.high = INFINITY;
         made.estimate.resolved = false;
@@ -609,7 +609,6 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     }
     *result = made;
 done:
-    clx_free(covariance);
-    clx_free(f);
+    CLX_FREE(covariance, f);
     return status;
 }

@@ -8,7 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-void clx_pair_coefficients(double x, int upper, double c[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS])
+enum { BASIS = 3 };
+
+/// Coefficients of (1, y, |y - 1/2|) for y below x (upper = 0) or above it (upper = 1), per
+/// discrepancy.
+static void pair_coefficients(double x, int upper, double c[CLAST_N_DISCREPANCY][BASIS])
 {
     const double s = upper != 0 ? 1.0 : -1.0;
     const double far = fabs(x - 0.5);
@@ -108,7 +112,7 @@ static void sort_by(const comparison *c, int64_t *item, int64_t *scratch, int64_
     }
 }
 
-static double product3(const double c[CLX_PAIR_BASIS], const double *s, int32_t stride)
+static double product3(const double c[BASIS], const double *s, int32_t stride)
 {
     return c[0] * s[0] + c[1] * s[stride] + c[2] * s[2 * stride];
 }
@@ -118,8 +122,8 @@ static void sum_line(work *w, int64_t n)
     basis total = {{0}};
     for (int64_t i = 0; i < n; ++i) {
         basis own;
-        double c[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS];
-        clx_pair_coefficients(w->u[w->order[i]], 0, c);
+        double c[CLAST_N_DISCREPANCY][BASIS];
+        pair_coefficients(w->u[w->order[i]], 0, c);
         for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
             w->sum[k] += product3(c[k], total.value, 1);
         }
@@ -142,18 +146,18 @@ static void contribute_sides(work *w, int64_t x, unsigned upper, const basis *al
 {
     const int32_t last = w->d - 1;
     const double *u = w->u + x * w->d;
-    double c[3][CLAST_N_DISCREPANCY][CLX_PAIR_BASIS]; // of each axis; the last: of points above
-    double below[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS];
+    double c[3][CLAST_N_DISCREPANCY][BASIS]; // of each axis; the last: of points above
+    double below[CLAST_N_DISCREPANCY][BASIS];
     basis lower;
     basis higher = *all;
     CLAST_ASSERT(w->d >= 2 && w->d <= 3);
     tree_prefix(w, w->rank[x], &lower);
     add_to(&higher, &lower, -1.0, w->n_basis);
     for (int32_t j = 0; j < last; ++j) {
-        clx_pair_coefficients(u[j], (upper >> j & 1u) != 0 ? 1 : 0, c[j]);
+        pair_coefficients(u[j], (upper >> j & 1u) != 0 ? 1 : 0, c[j]);
     }
-    clx_pair_coefficients(u[last], 0, below);
-    clx_pair_coefficients(u[last], 1, c[last]);
+    pair_coefficients(u[last], 0, below);
+    pair_coefficients(u[last], 1, c[last]);
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
         double reduced[MAX_BASIS / 3] = {0};
         int32_t left = w->n_basis / 3;
@@ -339,10 +343,6 @@ clast_status clx_pair_sums_exact(const double *u, int64_t n, int32_t d,
         sum[k] = 2.0 * w.sum[k]; // each unordered pair was met once
     }
 done:
-    clx_free(w.order);
-    clx_free(w.scratch);
-    clx_free(w.rank);
-    clx_free(w.last);
-    clx_free(w.tree);
+    CLX_FREE(w.order, w.scratch, w.rank, w.last, w.tree);
     return status;
 }

@@ -13,13 +13,6 @@ typedef struct clx_part clx_part;
 
 #include <clast/decompose.h>
 
-enum { CLX_PAIR_BASIS = 3 };
-
-/// Coefficients of (1, y, |y - 1/2|) for y below x (upper = 0) or above it (upper = 1), per
-/// discrepancy.
-void clx_pair_coefficients(double x, int upper,
-                           double coefficient[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS]);
-
 /// To rounding. 1-D: sort and prefix sums; 2-D: sort and a Fenwick tree; 3-D: divide and conquer
 /// over the first coordinate with a Fenwick tree.
 clast_status clx_pair_sums_exact(const double *u, int64_t n, int32_t d,

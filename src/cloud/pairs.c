@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "cloud/contract.h"
 #include "cloud/pair_count.h"
-#include "cloud/pair_deal.h"
 #include "cloud/pair_integral.h"
+#include "cloud/pair_partition.h"
 #include "cloud/surface.h"
 #include <clast/decompose.h>
 #include <clast/machine.h>
@@ -54,7 +54,7 @@ typedef struct {
     double share[CLAST_MAX_SHELL], error[CLAST_MAX_SHELL];
     clx_pair_sum sum[CLAST_MAX_SHELL];
     clx_pair_cells grid, cells;
-    clx_pair_deal deal;
+    clx_pair_partition partition;
 } job;
 
 static void find_inside(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -191,7 +191,7 @@ static clast_status count_cells(const double low[3], double extent, double radiu
     w->grid = clx_pair_grid(w->domain->dimension, low, extent, radius);
     CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&c.key, w->n, sizeof *c.key), NULL));
     clx_parallel_for(w->n, BLOCK, find_keys, &c);
-    CLX_TRY(clx_pair_deal_make(w->comm, &w->grid, &c.key, w->n, &w->deal));
+    CLX_TRY(clx_pair_partition_make(w->comm, &w->grid, &c.key, w->n, &w->partition));
 done:
     clx_free(c.key);
     return status;
@@ -208,7 +208,7 @@ static clast_status fill_cells(job *w)
     CLX_TRY(clast_comm_agree(w->comm, clx_alloc(&c.entry, w->n, sizeof *c.entry), NULL));
     clx_parallel_for(w->n, BLOCK, find_keys, &c);
     const clx_pair_points points = {w->cloud->x, c.entry, w->n};
-    CLX_TRY(clx_pair_deal_points(w->comm, &w->grid, &w->deal, &points, &x, &n));
+    CLX_TRY(clx_pair_partition_points(w->comm, &w->grid, &w->partition, &points, &x, &n));
     clx_free(c.entry);
     c.entry = NULL;
     for (int64_t i = 0; i < n && w->domain->is_placed; ++i) {
@@ -218,8 +218,7 @@ static clast_status fill_cells(job *w)
     }
     CLX_TRY(clast_comm_agree(w->comm, clx_pair_cells_make(&w->grid, x, n, &w->cells), NULL));
 done:
-    clx_free(c.entry);
-    clx_free(x);
+    CLX_FREE(c.entry, x);
     return status;
 }
 
@@ -241,7 +240,7 @@ static clast_status make_cells(const clast_pairs_config *config, job *w)
     CLX_TRY(count_cells(low, extent, radius, w));
     const double most = fmax(most_work * (double)w->n_all, free_work);
     for (int round = 0; config->radius == 0.0 && round < 40; ++round) {
-        const double work = w->deal.work * pow(4.0, d);
+        const double work = w->partition.work * pow(4.0, d);
         if (work <= most) {
             break;
         }
@@ -272,19 +271,20 @@ static void add_sum(int32_t shell, const clx_pair_sum *part, clx_pair_sum *sum)
 static clast_status sum_pairs(int32_t n_shell, job *w, int64_t *n_repeated)
 {
     clast_status status = CLAST_OK;
-    const int32_t n_block = w->deal.end - w->deal.begin;
+    const int32_t n_block = w->partition.end - w->partition.begin;
     clx_pair_sum *sum = NULL;
     int64_t repeated[CLX_PAIR_BLOCKS] = {0};
     clx_gathered all = {0};
     const int64_t size = n_shell * (int64_t)sizeof *sum;
     status = clx_alloc(&sum, (int64_t)n_block * n_shell, sizeof *sum);
     if (status == CLAST_OK) {
-        const clx_pair_blocks block = {n_block, w->deal.first + w->deal.begin, sum, repeated};
+        const clx_pair_blocks block = {n_block, w->partition.first + w->partition.begin, sum,
+                                       repeated};
         status = clx_pair_cells_sum(&w->cells, w->domain, n_shell, w->radius, block);
     }
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     CLX_TRY(clx_comm_share(w->comm, sum, n_block * size, &all));
-    for (int64_t b = 0; b < w->deal.n_block; ++b) {
+    for (int64_t b = 0; b < w->partition.n_block; ++b) {
         for (int32_t k = 0; k < n_shell; ++k) {
             add_sum(k, (const clx_pair_sum *)(const void *)(all.bytes + b * size) + k, &w->sum[k]);
         }
@@ -394,8 +394,8 @@ static void set_integrals(const job *w, int32_t n_shell, const double *matrix, d
     }
 }
 
-/// The ladder of the points inside.
-static clast_status count_ladder(const job *w, clx_ladder *ladder)
+/// The levels of the points inside.
+static clast_status count_levels(const job *w, clx_pair_levels *levels)
 {
     const clx_sample sample = {.domain = w->domain,
                                .comm = w->comm,
@@ -403,10 +403,11 @@ static clast_status count_ladder(const job *w, clx_ladder *ladder)
                                .n_real = w->n,
                                .x = w->cloud->x,
                                .number = w->number};
-    return clx_ladder_count(w->comm, &sample, NULL, ladder);
+    return clx_pair_levels_count(w->comm, &sample, NULL, levels);
 }
 
-static clast_status fill(job *w, int32_t n_shell, const clx_ladder *ladder, clast_pairs *result)
+static clast_status fill(job *w, int32_t n_shell, const clx_pair_levels *levels,
+                         clast_pairs *result)
 {
     clast_status status = CLAST_OK;
     double *column[N_COLUMN];
@@ -433,7 +434,7 @@ static clast_status fill(job *w, int32_t n_shell, const clx_ladder *ladder, clas
                                     .n_shell = n_shell,
                                     .n = (double)w->n_all,
                                     .volume = result->volume,
-                                    .ladder = ladder,
+                                    .levels = levels,
                                     .radius = w->radius,
                                     .pairs = pairs,
                                     .spread = spread,
@@ -472,11 +473,11 @@ done:
 
 clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
                              const clast_cloud *cloud, const clast_pairs_config *config,
-                             const clx_ladder *ladder, clast_pairs *pairs)
+                             const clx_pair_levels *levels, clast_pairs *pairs)
 {
     clast_status status = CLAST_OK;
     clast_pairs made = {0};
-    clx_ladder own = {0};
+    clx_pair_levels own = {0};
     job w = {.comm = comm, .domain = domain, .cloud = cloud};
     int64_t before = 0;
     int64_t n = 0;
@@ -494,16 +495,15 @@ clast_status clx_pairs_count(const clast_comm *comm, const clast_domain *domain,
     made.volume = clast_domain_volume(domain);
     made.radius = w.radius[config->n_shell - 1];
     clx_pair_cells_free(&w.cells);
-    if (ladder == NULL) {
-        CLX_TRY(count_ladder(&w, &own));
+    if (levels == NULL) {
+        CLX_TRY(count_levels(&w, &own));
     }
-    status = fill(&w, config->n_shell, ladder != NULL ? ladder : &own, &made);
+    status = fill(&w, config->n_shell, levels != NULL ? levels : &own, &made);
     CLX_TRY(clast_comm_agree(comm, status, NULL));
     *pairs = made;
     made = (clast_pairs){0};
 done:
-    clx_free(w.inside);
-    clx_free(w.number);
+    CLX_FREE(w.inside, w.number);
     clx_pair_cells_free(&w.cells);
     clast_pairs_free(&made);
     return status;

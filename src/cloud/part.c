@@ -46,31 +46,19 @@ void clx_part_copy(const clx_part *part, int64_t begin, int64_t n, double *u)
     clx_parallel_for(n, POINTS_A_BLOCK, copy_block, &c);
 }
 
-static int by_place(const void *a, const void *b, int32_t d)
-{
-    const double *x = a;
-    const double *y = b;
-    for (int32_t j = 0; j < d; ++j) {
-        if (x[j] != y[j]) {
-            return x[j] < y[j] ? -1 : 1;
-        }
-    }
-    return 0;
-}
-
 static int by_place1(const void *a, const void *b)
 {
-    return by_place(a, b, 1);
+    return clx_compare_doubles(a, b, 1);
 }
 
 static int by_place2(const void *a, const void *b)
 {
-    return by_place(a, b, 2);
+    return clx_compare_doubles(a, b, 2);
 }
 
 static int by_place3(const void *a, const void *b)
 {
-    return by_place(a, b, 3);
+    return clx_compare_doubles(a, b, 3);
 }
 
 /// Key in the order of the numbers; -0 is 0.
@@ -133,8 +121,7 @@ clast_status clx_part_share(const clx_part *part, double **u)
     made = NULL;
 done:
     clx_gathered_free(&all);
-    clx_free(own);
-    clx_free(made);
+    CLX_FREE(own, made);
     return status;
 }
 
@@ -411,8 +398,6 @@ int64_t clx_ranked_run(const clx_ranked *ranked, int64_t begin, int64_t end, int
 
 void clx_ranked_free(clx_ranked *ranked)
 {
-    clx_free(ranked->key);
-    clx_free(ranked->item);
-    clx_free(ranked->first);
+    CLX_FREE(ranked->key, ranked->item, ranked->first);
     *ranked = (clx_ranked){0};
 }

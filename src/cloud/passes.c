@@ -59,8 +59,7 @@ static clast_status classify(work *w)
 {
     clast_status status = CLAST_OK;
     clx_bins *bins = &w->passes->bins;
-    clx_free(w->bin_of);
-    clx_free(w->depth_of);
+    CLX_FREE(w->bin_of, w->depth_of);
     w->bin_of = NULL;
     w->depth_of = NULL;
     status = clx_alloc(&w->bin_of, w->n, sizeof *w->bin_of);
@@ -472,13 +471,7 @@ clast_status clx_passes_run(const clx_part *part, const clast_domain *domain,
     CLX_TRY(iterate(&w, result));
     CLX_TRY(clx_bins_count(&passes->bins, part)); // the real points again
 done:
-    clx_free(w.u);
-    clx_free(w.active);
-    clx_free(w.label);
-    clx_free(w.best);
-    clx_free(w.bin_of);
-    clx_free(w.depth_of);
-    clx_free(w.depth_count);
+    CLX_FREE(w.u, w.active, w.label, w.best, w.bin_of, w.depth_of, w.depth_count);
     if (status != CLAST_OK) {
         clx_passes_free(passes);
     }

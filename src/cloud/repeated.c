@@ -136,9 +136,7 @@ clast_status clast_cloud_repeated_ranks(const clast_cloud *cloud, const clast_co
     }
     *n_repeated = clx_comm_total(s.comm, n);
 done:
-    clx_free(s.n_out);
-    clx_free(s.at);
-    clx_free(s.out);
+    CLX_FREE(s.n_out, s.at, s.out);
     return status;
 }
 

@@ -1,6 +1,6 @@
 // What cells of one size hide by being taken as uniform falls with their size: by 2 a halving where
 // the density jumps, by 4 where it is smooth, by less where it has a pole. With q the sums over the
-// ladder's rungs and S = q_r - q_(r-2) the tail is S / (ratio^2 - 1), with a ratio between the one
+// levels of cells and S = q_r - q_(r-2) the tail is S / (ratio^2 - 1), with a ratio between the one
 // that was measured (2 where nothing was) and 4. The middle is added to q_r, the half range is the
 // estimate's systematic error. [docs/theory/decompose.md section 8]
 #include "cloud/resolution.h"
@@ -11,7 +11,7 @@
 
 enum { LEAST_HALVINGS = 3 };
 
-static const double least_pairs = 500.0; ///< in the cells of a rung that decides
+static const double least_pairs = 500.0; ///< in the cells of a level that decides
 static const double most_error = 0.01;   ///< most systematic error of a resolved value
 static const double most_share = 0.5;    ///< the same over its standard error
 static const double witness = 2.5;       ///< finer cells may lie so many standard errors higher
@@ -21,22 +21,22 @@ static const double bound_pairs = 50.0;    ///< a lower bound needs so many, and
                                            ///< cells before: the least number came out great else
 static const double apart_pairs = 50.0;    ///< expected in cells that show points apart
 static const double apart_errors = 5.0;    ///< standard errors by which these have fewer
-static const double most_repeated = 0.05;  ///< share of repeated points' pairs in such a rung
-static const double allowed_pairs = 30.0;  ///< a rung that a value may not lie below
-static const double falling_pairs = 100.0; ///< a rung that what a halving adds is looked at
+static const double most_repeated = 0.05;  ///< share of repeated points' pairs in such a level
+static const double allowed_pairs = 30.0;  ///< a level that a value may not lie below
+static const double falling_pairs = 100.0; ///< a level that what a halving adds is looked at
 static const double allowed_errors = 1.0;  ///< standard errors below it
 static const double most_falling = 0.7;    ///< what it adds over what the one before added
 static const double least_addition = 0.02; ///< of the value: less need not fall
 
-/// What one rung says.
+/// What one level says.
 typedef struct {
     double value, systematic, error; ///< error: both kinds
-    bool resolved;                   ///< as far as this rung tells
-    int32_t finer;                   ///< a rung whose pairs show more than that; 0: none
+    bool resolved;                   ///< as far as this level tells
+    int32_t finer;                   ///< a level whose pairs show more than that; 0: none
 } reading;
 
 /// Variance of sum a_r q_r.
-static double variance_of(const clx_ladder *l, const double *a)
+static double variance_of(const clx_pair_levels *l, const double *a)
 {
     double sum = 0.0;
     for (int32_t r = 0; r < l->n; ++r) {
@@ -48,17 +48,17 @@ static double variance_of(const clx_ladder *l, const double *a)
 }
 
 /// Standard error of q_a - q_b.
-static double error_between(const clx_ladder *l, int32_t a, int32_t b)
+static double error_between(const clx_pair_levels *l, int32_t a, int32_t b)
 {
-    double form[CLX_LADDER_RUNGS] = {0};
+    double form[CLX_PAIR_LEVELS] = {0};
     form[a] += 1.0;
     form[b] -= 1.0;
     return sqrt(variance_of(l, form));
 }
 
-/// What the two halvings before rung r added; no less than a halving before lets expect, so that a
+/// What the two halvings before level r added; no less than a halving before lets expect, so that a
 /// sample is not taken for resolved because a small number came out small by chance.
-static double step_at(const clx_ladder *l, int32_t r)
+static double step_at(const clx_pair_levels *l, int32_t r)
 {
     CLAST_ASSERT(r >= 2 && r < l->n);
     const double seen = l->pairs[r] - l->pairs[r - 2];
@@ -66,9 +66,9 @@ static double step_at(const clx_ladder *l, int32_t r)
     return fmax(fmax(seen, before / expected_ratio), error_between(l, r, r - 2));
 }
 
-/// Ratio of what successive halvings add, less its standard error, by those that end at rung r;
+/// Ratio of what successive halvings add, less its standard error, by those that end at level r;
 /// NAN where nothing is seen to fall.
-static double seen_ratio(const clx_ladder *l, int32_t r)
+static double seen_ratio(const clx_pair_levels *l, int32_t r)
 {
     CLAST_ASSERT(r >= 3 && r < l->n);
     const double before = l->pairs[r - 1] - l->pairs[r - 3];
@@ -78,9 +78,9 @@ static double seen_ratio(const clx_ladder *l, int32_t r)
 }
 
 /// Least ratio of what successive halvings add: the measured one. Where nothing is seen to fall
-/// that of a jump, or the lower one of the rung before. What ends at the first rung has no ratio of
-/// its own: that of a jump, or the lower one of the next, which poles show.
-static double least_ratio_at(const clx_ladder *l, int32_t r)
+/// that of a jump, or the lower one of the level before. What ends at the first level has no ratio
+/// of its own: that of a jump, or the lower one of the next, which poles show.
+static double least_ratio_at(const clx_pair_levels *l, int32_t r)
 {
     if (r < 3) {
         return l->n > 3 && l->n_pair[3] >= least_pairs ? fmin(jump, seen_ratio(l, 3)) : jump;
@@ -91,7 +91,7 @@ static double least_ratio_at(const clx_ladder *l, int32_t r)
 
 /// Points at a place, on average: copies come together, so that pairs are this number squared at a
 /// time.
-static double points_at_a_place(const clx_ladder *l)
+static double points_at_a_place(const clx_pair_levels *l)
 {
     const double n_point = l->n > 0 ? sqrt(2.0 * ldexp(l->n_pair[0], l->d * l->first)) : 0.0;
     return n_point > 0.0 ? 1.0 + 2.0 * l->n_repeated / n_point : 1.0;
@@ -99,7 +99,7 @@ static double points_at_a_place(const clx_ladder *l)
 
 /// Whether points keep apart, as seeded or stratified ones do: finer cells hold fewer pairs per
 /// volume than coarser ones, where those of independent points hold as many or more.
-static bool keeps_apart(const clx_ladder *l)
+static bool keeps_apart(const clx_pair_levels *l)
 {
     const double together = points_at_a_place(l);
     for (int32_t r = 0; r < l->n; ++r) {
@@ -118,10 +118,10 @@ static bool keeps_apart(const clx_ladder *l)
     return false;
 }
 
-static reading read_rung(const clx_ladder *l, int32_t r)
+static reading read_level(const clx_pair_levels *l, int32_t r)
 {
     reading made = {0};
-    double form[CLX_LADDER_RUNGS] = {0};
+    double form[CLX_PAIR_LEVELS] = {0};
     const double step = l->pairs[r] - l->pairs[r - 2];
     const double ratio = least_ratio_at(l, r);
     const double least = 1.0 / (smooth * smooth - 1.0);
@@ -133,7 +133,7 @@ static reading read_rung(const clx_ladder *l, int32_t r)
     const double variance = variance_of(l, form);
     made.error = sqrt(variance + made.systematic * made.systematic);
     for (int32_t m = r + 1; m < l->n; ++m) {
-        double finer[CLX_LADDER_RUNGS] = {0};
+        double finer[CLX_PAIR_LEVELS] = {0};
         for (int32_t k = 0; k < l->n; ++k) {
             finer[k] = (k == m ? 1.0 : 0.0) - form[k];
         }
@@ -147,9 +147,9 @@ static reading read_rung(const clx_ladder *l, int32_t r)
     return made;
 }
 
-/// Greatest lower bound of the first n rungs: pairs of any cells fall short of the integral. NAN
+/// Greatest lower bound of the first n levels: pairs of any cells fall short of the integral. NAN
 /// where those of repeated points weigh in all of them.
-static double lower_bound(const clx_ladder *l, int32_t n)
+static double lower_bound(const clx_pair_levels *l, int32_t n)
 {
     double most = 0.0;
     bool is_repeated = false;
@@ -166,13 +166,13 @@ static double lower_bound(const clx_ladder *l, int32_t n)
     return is_repeated && most == 0.0 ? (double)NAN : most;
 }
 
-bool clx_resolution_allows(const clx_ladder *l, double value)
+bool clx_resolution_allows(const clx_pair_levels *l, double value)
 {
     if (keeps_apart(l)) {
         return false;
     }
-    int32_t base = 0;    // the last rung with the pairs of one that decides
-    int32_t falling = 0; // the last rung whose steps tell
+    int32_t base = 0;    // the last level with the pairs of one that decides
+    int32_t falling = 0; // the last level whose steps tell
     for (int32_t r = 0; r < l->n; ++r) {
         base = l->n_pair[r] >= least_pairs ? r : base;
         falling = l->n_pair[r] >= falling_pairs ? r : falling;
@@ -192,9 +192,9 @@ bool clx_resolution_allows(const clx_ladder *l, double value)
            added < least_addition * value;
 }
 
-/// How many times the points would give rung r its pairs; rungs beyond the last have 2^d times
+/// How many times the points would give level r its pairs; levels beyond the last have 2^d times
 /// fewer.
-static double factor_for(const clx_ladder *l, int32_t r)
+static double factor_for(const clx_pair_levels *l, int32_t r)
 {
     const int32_t last = r < l->n ? r : l->n - 1;
     const double pairs = l->n_pair[last] * ldexp(1.0, -l->d * (r - last));
@@ -202,12 +202,12 @@ static double factor_for(const clx_ladder *l, int32_t r)
     return factor > CLX_MOST_FACTOR ? (double)INFINITY : fmax(1.1, factor);
 }
 
-/// The same for what rung r, the last with pairs enough, leaves open: finer rungs where structure
+/// The same for what level r, the last with pairs enough, leaves open: finer levels where structure
 /// is seen there, and where the systematic error would have fallen far enough. Large cells do not
 /// show yet how it falls: as at jumps or where it is smooth is then supposed.
-static double factor_needed(const clx_ladder *l, int32_t r)
+static double factor_needed(const clx_pair_levels *l, int32_t r)
 {
-    const reading at = read_rung(l, r);
+    const reading at = read_level(l, r);
     const bool is_early = l->first + r < 4;
     const double ratio =
         is_early ? expected_ratio : fmin(smooth, fmax(1.5, 1.25 * least_ratio_at(l, r)));
@@ -229,7 +229,7 @@ static double factor_needed(const clx_ladder *l, int32_t r)
     return factor_for(l, wanted > r ? wanted : r);
 }
 
-clx_resolution clx_resolution_of(const clx_ladder *l)
+clx_resolution clx_resolution_of(const clx_pair_levels *l)
 {
     clx_resolution made = {.high = INFINITY, .n_factor = INFINITY};
     const bool is_apart = keeps_apart(l);
@@ -237,7 +237,7 @@ clx_resolution clx_resolution_of(const clx_ladder *l)
     int32_t last = 2;
     bool is_deep = false;
     for (int32_t r = 2; r < l->n && (r == 2 || l->n_pair[r] >= least_pairs); ++r) {
-        const reading at = read_rung(l, r);
+        const reading at = read_level(l, r);
         last = r;
         is_deep = is_deep || (at.resolved && l->first + r >= LEAST_HALVINGS);
         if (at.resolved && at.error < least) {
@@ -260,7 +260,7 @@ clx_resolution clx_resolution_of(const clx_ladder *l)
     return made;
 }
 
-double clx_resolution_change(const clx_ladder *before, const clx_ladder *now)
+double clx_resolution_change(const clx_pair_levels *before, const clx_pair_levels *now)
 {
     double found = (double)NAN;
     for (int32_t r = 0; r < now->n; ++r) {

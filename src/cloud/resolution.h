@@ -1,6 +1,6 @@
 #pragma once
 // Whether a sample resolves its own structure, and the integral of its squared density.
-#include "cloud/ladder.h"
+#include "cloud/pair_levels.h"
 
 #define CLX_NORMAL_975  1.959963984540054
 #define CLX_MOST_BIAS   0.02  ///< of what is called resolved
@@ -18,15 +18,15 @@ typedef struct clx_resolution {
     bool is_apart;    ///< points keep apart: pairs in small cells tell nothing of their density
 } clx_resolution;
 
-/// Reads a ladder. [docs/theory/decompose.md section 8]
-clx_resolution clx_resolution_of(const clx_ladder *ladder);
+/// Reads the levels. [docs/theory/decompose.md section 8]
+clx_resolution clx_resolution_of(const clx_pair_levels *levels);
 
-/// Whether a value that pairs of all distances gave may stand beside the ladder: no rung lies
+/// Whether a value that pairs of all distances gave may stand beside the levels: no level lies
 /// higher, what a halving adds has begun to fall, and points do not keep apart.
 ///
 /// @param value  as clx_resolution's
-bool clx_resolution_allows(const clx_ladder *ladder, double value);
+bool clx_resolution_allows(const clx_pair_levels *levels, double value);
 
 /// How many times the pairs per volume are that they were, by the finest cells that have 500 pairs
 /// in both; NAN where none have.
-double clx_resolution_change(const clx_ladder *before, const clx_ladder *now);
+double clx_resolution_change(const clx_pair_levels *before, const clx_pair_levels *now);

@@ -107,8 +107,7 @@ done:
 
 void clx_blocks_free(clx_blocks *blocks)
 {
-    clx_free(blocks->sum);
-    clx_free(blocks->square);
+    CLX_FREE(blocks->sum, blocks->square);
     *blocks = (clx_blocks){0};
 }
 
@@ -167,6 +166,12 @@ done:
     return status;
 }
 
+static void cell_cache_free(clx_cell_cache *cache)
+{
+    CLX_FREE(cache->low, cache->high, cache->volume, cache->first);
+    *cache = (clx_cell_cache){0};
+}
+
 clast_status clx_cell_cache_copy(const clast_cells *cells, int32_t d, clx_cell_cache *cache)
 {
     clast_status status = CLAST_OK;
@@ -181,21 +186,12 @@ clast_status clx_cell_cache_copy(const clast_cells *cells, int32_t d, clx_cell_c
     if (cells->key != NULL && cells->n > 0) {
         CLX_TRY(make_table(cells, d, &made));
     }
-    clx_cell_cache_free(cache);
+    cell_cache_free(cache);
     *cache = made;
     made = (clx_cell_cache){0};
 done:
-    clx_cell_cache_free(&made);
+    cell_cache_free(&made);
     return status;
-}
-
-void clx_cell_cache_free(clx_cell_cache *cache)
-{
-    clx_free(cache->low);
-    clx_free(cache->high);
-    clx_free(cache->volume);
-    clx_free(cache->first);
-    *cache = (clx_cell_cache){0};
 }
 
 typedef struct {

@@ -51,7 +51,6 @@ clast_status clx_cell_cache_copy(const clast_cells *cells, int32_t d, clx_cell_c
 /// cube. *has_all is false when some point lies in no cell (a void of a mesh domain): cut anew.
 clast_status clx_cell_cache_refill(const clx_cell_cache *cache, const clx_sample *sample,
                                    int64_t n_point, clast_cells *cells, bool *has_all);
-void clx_cell_cache_free(clx_cell_cache *cache);
 
 /// A number for all that decides how points are cut: the configuration's fields and the domain.
 uint64_t clx_setup_of(const clast_domain *domain, const clast_decompose_config *config);

@@ -17,8 +17,7 @@ enum { BLOCK = 4096 };
 
 void clx_sample_free(clx_sample *sample)
 {
-    clx_free(sample->u);
-    clx_free(sample->number);
+    CLX_FREE(sample->u, sample->number);
     *sample = (clx_sample){0};
 }
 

@@ -14,18 +14,8 @@ enum { MOST_SECTIONS = 4000 };
 
 void clx_sectional_free(clx_sectional *s)
 {
-    clx_free(s->x);
-    clx_free(s->rate);
-    clx_free(s->share);
-    clx_free(s->lent);
-    clx_free(s->loan);
-    clx_free(s->lower);
-    clx_free(s->breaks);
-    clx_free(s->fragment);
-    clx_free(s->sink);
-    clx_free(s->source);
-    clx_free(s->as);
-    clx_free(s->is_outside);
+    CLX_FREE(s->x, s->rate, s->share, s->lent, s->loan, s->lower, s->breaks, s->fragment, s->sink,
+             s->source, s->as, s->is_outside);
     *s = (clx_sectional){0};
 }
 

@@ -17,7 +17,7 @@ typedef struct {
     int64_t *n_out; ///< [n_rank] bytes to each
     int64_t *at;    ///< [n_rank]
     double *out;    ///< points by the rank they go to
-} deal;
+} shuffling;
 
 void clx_shuffled_free(clx_shuffled *shuffled)
 {
@@ -32,7 +32,7 @@ static int32_t width_of(const clast_cloud *cloud)
 }
 
 /// All that is known of point i; returns the hash.
-static uint64_t read_point(const deal *s, int64_t i, double *point)
+static uint64_t read_point(const shuffling *s, int64_t i, double *point)
 {
     const clast_cloud *cloud = s->cloud;
     int32_t k = 0;
@@ -49,13 +49,13 @@ static uint64_t read_point(const deal *s, int64_t i, double *point)
     return clx_place_hash(point, k);
 }
 
-static int32_t rank_of(const deal *s, uint64_t hash)
+static int32_t rank_of(const shuffling *s, uint64_t hash)
 {
     return (int32_t)(hash % (uint64_t)s->comm->n_rank);
 }
 
 /// Puts the points one behind the other, rank by rank.
-static clast_status pack(deal *s)
+static clast_status pack(shuffling *s)
 {
     clast_status status = CLAST_OK;
     const int32_t n_rank = s->comm->n_rank;
@@ -108,7 +108,7 @@ done:
 }
 
 /// The points [n][width] that came, as a cloud in the order of their keys.
-static clast_status unpack(const deal *s, const double *point, int64_t n, uint64_t seed,
+static clast_status unpack(const shuffling *s, const double *point, int64_t n, uint64_t seed,
                            clx_shuffled *made)
 {
     clast_status status = CLAST_OK;
@@ -144,7 +144,7 @@ clast_status clx_shuffle(const clast_comm *comm, const clast_cloud *cloud, uint6
                          clx_shuffled *shuffled)
 {
     clast_status status = CLAST_OK;
-    deal s = {.comm = comm, .cloud = cloud, .width = width_of(cloud)};
+    shuffling s = {.comm = comm, .cloud = cloud, .width = width_of(cloud)};
     clx_gathered in = {0};
     clx_shuffled made = {.comm = comm, .n_all = clx_comm_total(comm, cloud->n)};
     CLX_TRY(clast_comm_agree(comm, pack(&s), NULL));
@@ -158,9 +158,7 @@ clast_status clx_shuffle(const clast_comm *comm, const clast_cloud *cloud, uint6
     made = (clx_shuffled){0};
 done:
     clx_gathered_free(&in);
-    clx_free(s.n_out);
-    clx_free(s.at);
-    clx_free(s.out);
+    CLX_FREE(s.n_out, s.at, s.out);
     clx_shuffled_free(&made);
     return status;
 }

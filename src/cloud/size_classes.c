@@ -24,10 +24,7 @@ done:
 
 void clx_size_classes_free(clx_size_classes *c)
 {
-    clx_free(c->single);
-    clx_free(c->single2);
-    clx_free(c->number);
-    clx_free(c->number2);
+    CLX_FREE(c->single, c->single2, c->number, c->number2);
     *c = (clx_size_classes){0};
 }
 

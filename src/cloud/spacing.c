@@ -181,14 +181,7 @@ static double expected(int64_t n, int32_t d)
 
 static int by_place(const void *a, const void *b)
 {
-    const asked *x = a;
-    const asked *y = b;
-    for (int k = 0; k < 3; ++k) {
-        if (x->x[k] != y->x[k]) {
-            return x->x[k] < y->x[k] ? -1 : 1;
-        }
-    }
-    return 0;
+    return clx_compare_doubles(((const asked *)a)->x, ((const asked *)b)->x, 3);
 }
 
 /// Puts places in an order of their own and those that are one together; returns their number.
@@ -224,8 +217,7 @@ static clast_status join(asked *query, int64_t *n)
     }
     *n = kept;
 done:
-    clx_free(entry);
-    clx_free(ordered);
+    CLX_FREE(entry, ordered);
     return status;
 }
 
@@ -312,9 +304,7 @@ static clast_status measure_here(const clx_part *part, const asked *query, int64
         clx_parallel_for(n, QUERY_BLOCK, query_block, &c);
     }
 done:
-    clx_free(t.x);
-    clx_free(t.low);
-    clx_free(t.high);
+    CLX_FREE(t.x, t.low, t.high);
     return status;
 }
 
@@ -382,8 +372,7 @@ static clast_status test(const clx_part *part, clast_spacing *result)
     CLX_TRY(measure_distances(part, query, n, &best));
     compare(part, query, n, best, result);
 done:
-    clx_free(query);
-    clx_free(best);
+    CLX_FREE(query, best);
     return status;
 }
 

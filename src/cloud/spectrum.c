@@ -18,36 +18,33 @@ const clast_field clast_spectrum_fields[] = {
      "mono|exponential|lognormal|table"},
     {FIELD(CLAST_FIELD_F64, concentration), 0.0, 0.0, 1e300, "1/m^3",
      "particles a volume at the start of a box; of a table, whose numbers are then shares, or 0: "
-     "their sum",
-     NULL},
+     "their sum"},
     {FIELD(CLAST_FIELD_F64, initial_mean), 1.0, 1e-100, 1e100, "-",
-     "mean size at the start [monomers]", NULL},
+     "mean size at the start [monomers]"},
     {FIELD(CLAST_FIELD_F64, initial_sd), 1.5, 1.001, 100.0, "-",
-     "geometric standard deviation of a lognormal start", NULL},
-    {FIELD(CLAST_FIELD_I32, particles), 10000, 2, 10000000, "-", "particles of a Monte Carlo box",
-     NULL},
+     "geometric standard deviation of a lognormal start"},
+    {FIELD(CLAST_FIELD_I32, particles), 10000, 2, 10000000, "-", "particles of a Monte Carlo box"},
     {FIELD(CLAST_FIELD_F64, size_min), 0.0, 0.0, 1e100, "-",
      "smallest size, which does not break [monomers]; 0: that of the start (which must then have "
-     "others, or be single monomers, where particles break)",
-     NULL},
+     "others, or be single monomers, where particles break)"},
     {FIELD(CLAST_FIELD_F64, size_max), 0.0, 0.0, 1e100, "-",
-     "largest size of the grid [monomers]; 0: 1e5 mean sizes of the start", NULL},
+     "largest size of the grid [monomers]; 0: 1e5 mean sizes of the start"},
     {FIELD(CLAST_FIELD_I32, per_octave), 16, 1, 1000, "-",
-     "sections of the grid that double the size", NULL},
+     "sections of the grid that double the size"},
     {FIELD(CLAST_FIELD_F64, breakage_rate), 0.0, 0.0, 1e300, "1/s",
-     "S1: a particle of x monomers breaks at S1 x^p", NULL},
-    {FIELD(CLAST_FIELD_F64, breakage_exponent), 1.0, -10.0, 10.0, "-", "p", NULL},
+     "S1: a particle of x monomers breaks at S1 x^p"},
+    {FIELD(CLAST_FIELD_F64, breakage_exponent), 1.0, -10.0, 10.0, "-", "p"},
     {FIELD(CLAST_FIELD_CHOICE, fragments), 0, 0, 0, "-",
      "sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves", "power|halves"},
     {FIELD(CLAST_FIELD_F64, fragment_exponent), 0.0, -0.99, 100.0, "-",
-     "c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1", NULL},
+     "c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1"},
     {FIELD(CLAST_FIELD_F64, source), 0.0, 0.0, 1e300, "1/(m^3 s)",
-     "particles that come in, a volume and time", NULL},
-    {FIELD(CLAST_FIELD_F64, source_size), 1.0, 1e-100, 1e100, "-", "their size [monomers]", NULL},
+     "particles that come in, a volume and time"},
+    {FIELD(CLAST_FIELD_F64, source_size), 1.0, 1e-100, 1e100, "-", "their size [monomers]"},
     {FIELD(CLAST_FIELD_F64, settling_depth), 0.0, 0.0, 1e300, "m",
-     "particles leave at settling speed / this depth; 0: they stay", NULL},
+     "particles leave at settling speed / this depth; 0: they stay"},
     {FIELD(CLAST_FIELD_F64, tolerance), 1e-7, 1e-12, 1e-2, "-",
-     "relative error of a step of the sectional solver", NULL},
+     "relative error of a step of the sectional solver"},
     {0}};
 #undef FIELD
 
@@ -76,12 +73,11 @@ static clast_status check_kernel(const clast_spectrum_config *config, const clas
               "fractal radii need --monomer-radius");
     CLX_CHECK((needs & CLAST_NEEDS_MASS) == 0 || c->medium.particle_density > 0.0, CLAST_E_CONFIG,
               "a box with this kernel or sink needs masses: --particle-density");
-    CLX_CHECK(
-        !(config->settling_depth > 0.0) || c->medium.particle_density > c->medium.density,
-        CLAST_E_CONFIG,
-        "settling_depth: particles of %g kg/m^3 do not settle in a fluid of %g kg/m^3; leave it "
-        "out",
-        c->medium.particle_density, c->medium.density);
+    CLX_CHECK(!(config->settling_depth > 0.0) || c->medium.particle_density > c->medium.density,
+              CLAST_E_CONFIG,
+              "settling_depth: particles of %g kg/m^3 do not settle in a fluid of %g kg/m^3; leave "
+              "it out",
+              c->medium.particle_density, c->medium.density);
     CLX_CHECK((needs & CLAST_NEEDS_SPEED_RMS) == 0 || c->medium.speed_rms > 0.0, CLAST_E_CONFIG,
               "a box with this kernel needs --speed-rms");
 done:
@@ -98,13 +94,13 @@ static clast_status check(const clast_spectrum_config *config, const clast_colli
               clx_unit_text(config->duration, "s"), config->n_step, config->repeats);
     CLX_TRY(clx_collide_config_check(collide));
     CLX_TRY(check_kernel(config, collide));
-    CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL || config->breakage_rate == 0.0 ||
-                  clx_fragments_count(config) > 0,
-              CLAST_E_CONFIG,
-              "fragment_exponent: monte-carlo breaks particles into 2, 3, 4 .. %d fragments, "
-              "exponent 0, -0.5, -0.667 .. %.3f (1/(m-1) - 1); %g has no whole number: take "
-              "sectional",
-              CLX_MOST_FRAGMENTS, 1.0 / (CLX_MOST_FRAGMENTS - 1) - 1.0, config->fragment_exponent);
+    CLX_CHECK(
+        config->solver == CLAST_SOLVER_SECTIONAL || config->breakage_rate == 0.0 ||
+            clx_fragments_count(config) > 0,
+        CLAST_E_CONFIG,
+        "fragment_exponent: monte-carlo breaks particles into 2, 3, 4 .. %d fragments, exponent 0, "
+        "-0.5, -0.667 .. %.3f (1/(m-1) - 1); %g has no whole number: take sectional",
+        CLX_MOST_FRAGMENTS, 1.0 / (CLX_MOST_FRAGMENTS - 1) - 1.0, config->fragment_exponent);
     CLX_CHECK(config->solver == CLAST_SOLVER_MONTE_CARLO || config->repeats == 1, CLAST_E_CONFIG,
               "repeats: the sectional solver draws nothing, so it runs once, not %d times",
               config->repeats);
@@ -119,10 +115,10 @@ static clast_status make_grid(const clx_start *start, clx_sectional *grid)
     const double low = start->low;
     const double mean = c->initial == CLAST_INITIAL_TABLE ? start->high : c->initial_mean;
     const double high = c->size_max > 0.0 ? c->size_max : fmax(1e5 * mean, 100.0 * start->high);
-    CLX_CHECK(c->source == 0.0 || (c->source_size >= low && c->source_size <= high), CLAST_E_CONFIG,
-              "source_size: %g monomers lies outside the grid from %g to %g (--size-min, "
-              "--size-max)",
-              c->source_size, low, high);
+    CLX_CHECK(
+        c->source == 0.0 || (c->source_size >= low && c->source_size <= high), CLAST_E_CONFIG,
+        "source_size: %g monomers lies outside the grid from %g to %g (--size-min, --size-max)",
+        c->source_size, low, high);
     CLX_TRY(clx_sectional_grid(low, high, start->unit, c->per_octave, grid));
 done:
     return status;
@@ -146,12 +142,7 @@ done:
 
 static void free_sums(clx_spectrum_sums *s)
 {
-    clx_free(s->number);
-    clx_free(s->number2);
-    clx_free(s->moment);
-    clx_free(s->moment2);
-    clx_free(s->told);
-    clx_free(s->told2);
+    CLX_FREE(s->number, s->number2, s->moment, s->moment2, s->told, s->told2);
 }
 
 /// One row of the sectional solver into sums; the error of its mass.

@@ -78,11 +78,10 @@ static clast_status draw_sizes(sampling *s, int32_t run)
     for (int64_t i = 0; i < p->n; ++i) {
         const double x = clx_start_quantile(s->start, ((double)i + first) / (double)p->n);
         const double units = fmax(1.0, round(x / box->unit));
-        CLX_CHECK(
-            sum + units < MOST_UNITS, CLAST_E_CONFIG,
-            "size_min, source_size: the particles of the start are more than 2^53 units of %g "
-            "monomers; take fewer --particles or a larger --size-min or --source-size",
-            box->unit);
+        CLX_CHECK(sum + units < MOST_UNITS, CLAST_E_CONFIG,
+                  "size_min, source_size: the particles of the start are more than 2^53 units of "
+                  "%g monomers; take fewer --particles or a larger --size-min or --source-size",
+                  box->unit);
         clx_box_put(box, i, (int64_t)units);
         sum += units;
     }

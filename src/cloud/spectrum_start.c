@@ -86,13 +86,12 @@ clast_status clx_start_begin(const clast_spectrum_config *config, const clast_sp
               s.high);
     refine(&s);
     // a monomer's aggregates break; what is counted in monomers and is of one size was meant to
-    CLX_CHECK(config->breakage_rate == 0.0 || config->size_min > 0.0 || s.low < s.high ||
-                  s.high == 1.0,
-              CLAST_E_CONFIG,
-              "breakage_rate: every particle at the start has %g monomers, which is then the "
-              "smallest size and does not break; name a smaller one with --size-min (of single "
-              "monomers: 1)",
-              s.high);
+    CLX_CHECK(
+        config->breakage_rate == 0.0 || config->size_min > 0.0 || s.low < s.high || s.high == 1.0,
+        CLAST_E_CONFIG,
+        "breakage_rate: every particle at the start has %g monomers, which is then the smallest "
+        "size and does not break; name a smaller one with --size-min (of single monomers: 1)",
+        s.high);
     *start = s;
 done:
     return status;
@@ -236,11 +235,10 @@ clast_status clast_spectrum_start_from_table(clast_table *table, clast_spectrum_
     int64_t n = 0;
     CLX_CHECK(size != NULL && number != NULL, CLAST_E_FORMAT,
               "%s: needs the columns size and number, or size and n", table->name);
-    CLX_CHECK(
-        !is_spectrum || clast_table_find(table, "size_low") < 0, CLAST_E_FORMAT,
-        "%s: the spectrum of a cloud, whose n counts particles; give columns size and number, "
-        "n over the cloud's volume (1/m^3)",
-        table->name);
+    CLX_CHECK(!is_spectrum || clast_table_find(table, "size_low") < 0, CLAST_E_FORMAT,
+              "%s: the spectrum of a cloud, whose n counts particles; give columns size and "
+              "number, n over the cloud's volume (1/m^3)",
+              table->name);
     CLX_CHECK(table->n_row > 0, CLAST_E_FORMAT, "%s: no row of sizes", table->name);
     CLX_TRY(last_time(table, time, &last));
     for (int64_t i = 0; i < table->n_row; ++i) {

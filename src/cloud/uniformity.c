@@ -7,7 +7,6 @@
 #include "cloud/contract.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { HENZE_ZIRKLER = 3, PEARSON = 4 };

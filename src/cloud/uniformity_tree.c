@@ -573,8 +573,7 @@ static clast_status order_codes(growth *g)
     CLX_TRY(clx_ranked_sort_items(p->comm, &c.code, &c.item, p->n, limit, &g->ranked));
     CLX_TRY(order_untested(g, &g->ranked));
 done:
-    clx_free(c.code);
-    clx_free(c.item);
+    CLX_FREE(c.code, c.item);
     return status;
 }
 
@@ -681,8 +680,7 @@ done:
     clx_free(g.point);
     clx_ranked_free(&g.ranked);
     clx_ranked_free(&g.untested);
-    clx_free(g.begin);
-    clx_free(g.shared);
+    CLX_FREE(g.begin, g.shared);
     return status;
 }
 
@@ -707,10 +705,6 @@ int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double 
 
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells)
 {
-    clx_free(cells->low);
-    clx_free(cells->high);
-    clx_free(cells->count);
-    clx_free(cells->key);
-    clx_free(cells->group);
+    CLX_FREE(cells->low, cells->high, cells->count, cells->key, cells->group);
     *cells = (clx_uniformity_tree_cells){0};
 }

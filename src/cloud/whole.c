@@ -29,7 +29,8 @@ static const char *bins_fault(const clast_cells *cells)
                                                                            : NULL;
 }
 
-const char *clx_cells_fault(const clast_cells *cells, int64_t n_point)
+/// The same of the cells alone, in which `n_point` points lie.
+static const char *cells_fault(const clast_cells *cells, int64_t n_point)
 {
     if (cells == NULL) {
         return "is NULL";
@@ -65,5 +66,5 @@ const char *clx_decomposition_fault(const clast_decomposition *result)
         return "a number of points or passes, or the dimension, cannot be";
     }
     const char *fault = clx_table_fault(&result->search);
-    return fault != NULL ? fault : clx_cells_fault(&result->cells, result->n_here);
+    return fault != NULL ? fault : cells_fault(&result->cells, result->n_here);
 }

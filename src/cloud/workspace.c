@@ -20,24 +20,21 @@ const clast_field clast_workspace_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, tests), CLAST_TESTS_EACH, 0, 0, "-",
      "when the uniformity tests are made; between them the last vote stands",
      "each|every|moved|never", .group = "loop"},
-    {FIELD(CLAST_FIELD_I32, tests_every), 50, 1, 1e9, "-", "every: calls from test to test", NULL},
+    {FIELD(CLAST_FIELD_I32, tests_every), 50, 1, 1e9, "-", "every: calls from test to test"},
     {FIELD(CLAST_FIELD_F64, tests_moved), 0.5, 0.0, 1e300, "-",
-     "moved: standard errors that a mean or covariance moves before the tests are made again",
-     NULL},
+     "moved: standard errors that a mean or covariance moves before the tests are made again"},
     {FIELD(CLAST_FIELD_CHOICE, cells), CLAST_CUT_EACH, 0, 0, "-",
      "when points are cut into cells anew; between, the cells' points and events are counted anew",
      "each|every|changed"},
-    {FIELD(CLAST_FIELD_I32, cells_every), 10, 1, 1e9, "-", "every: calls from cut to cut", NULL},
+    {FIELD(CLAST_FIELD_I32, cells_every), 10, 1, 1e9, "-", "every: calls from cut to cut"},
     {FIELD(CLAST_FIELD_F64, cells_level), 0.05, 1e-12, 1.0, "-",
-     "changed: level of the chi-square test of the counts since the cut", NULL},
+     "changed: level of the chi-square test of the counts since the cut"},
     {FIELD(CLAST_FIELD_I32, pairs_every), 0, 0, 1e9, "-",
      "calls at least between two counts of the pairs of a cloud that cells do not resolve; 0: at "
-     "each cut",
-     NULL},
+     "each cut"},
     {FIELD(CLAST_FIELD_I32, pairs_most), 0, 0, 1e9, "-",
      "points that a count of pairs takes at the most, of a greater cloud a part chosen by their "
-     "places; 0: all, else at least 1000",
-     NULL},
+     "places; 0: all, else at least 1000"},
     {0}};
 #undef FIELD
 

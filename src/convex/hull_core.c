@@ -28,13 +28,7 @@ typedef struct {
 static void scratch_free(scratch *s)
 {
     clast_mesh_free(&s->hull);
-    clx_free(s->beside);
-    clx_free(s->face_of);
-    clx_free(s->queue);
-    clx_free(s->edge_of);
-    clx_free(s->next);
-    clx_free(s->head);
-    clx_free(s->list);
+    CLX_FREE(s->beside, s->face_of, s->queue, s->edge_of, s->next, s->head, s->list);
 }
 
 static clast_status scratch_alloc(scratch *s)
@@ -317,8 +311,7 @@ static clast_status build_near(scratch *s, clx_hull_core *core)
     }
     core->near_first[core->n_vert] = s->head[core->n_vert];
 done:
-    clx_free(head);
-    clx_free(list);
+    CLX_FREE(head, list);
     return status;
 }
 
@@ -408,13 +401,8 @@ done:
 void clx_hull_core_destroy(clx_hull_core *core)
 {
     if (core != NULL) {
-        clx_free(core->vert);
-        clx_free(core->face);
-        clx_free(core->side);
-        clx_free(core->edge);
-        clx_free(core->near_first);
-        clx_free(core->near);
-        clx_free(core);
+        CLX_FREE(core->vert, core->face, core->side, core->edge, core->near_first, core->near,
+                 core);
     }
 }
 

@@ -26,15 +26,8 @@ static const double LAST = 0.25;
 
 void clx_sweeping_free(clx_sweeping *s)
 {
-    clx_free(s->chunk);
-    clx_free(s->pace);
-    clx_free(s->before);
-    clx_free(s->lowest);
-    clx_free(s->deferred);
-    clx_free(s->force);
-    clx_free(s->active);
-    clx_free(s->contribution);
-    clx_free(s->contribution_to);
+    CLX_FREE(s->chunk, s->pace, s->before, s->lowest, s->deferred, s->force, s->active,
+             s->contribution, s->contribution_to);
     *s = (clx_sweeping){0};
 }
 
@@ -95,8 +88,7 @@ static clast_status reserve_contributions(clx_sweeping *s, int64_t n)
 {
     clast_status status = CLAST_OK;
     if (s->contribution_capacity[0] < n || s->contribution_capacity[1] < n) {
-        clx_free(s->contribution);
-        clx_free(s->contribution_to);
+        CLX_FREE(s->contribution, s->contribution_to);
         s->contribution = NULL;
         s->contribution_to = NULL;
         s->contribution_capacity[0] = 0;

@@ -15,9 +15,7 @@ static const double SAME_NORMAL = 0.9;
 void clx_container_destroy(clx_container *container)
 {
     if (container != NULL) {
-        clx_free(container->tri);
-        clx_free(container->owner);
-        clx_free(container);
+        CLX_FREE(container->tri, container->owner, container);
     }
 }
 

@@ -47,20 +47,10 @@ void clast_dem_destroy(clast_dem *dem)
     clx_walls_free(&dem->walls);
     clx_inner_free(&dem->inner);
     clx_sweeping_free(&dem->sweeping);
-    clx_free(dem->body);
-    clx_free(dem->grain);
-    clx_free(dem->motion);
-    clx_free(dem->travel);
-    clx_free(dem->item);
-    clx_free(dem->item_begin);
-    clx_free(dem->convex);
-    clx_free(dem->item_rotation);
-    clx_free(dem->block_flag);
-    clx_free(dem->slabs.solid);
-    clx_free(dem->cell);
+    CLX_FREE(dem->body, dem->grain, dem->motion, dem->travel, dem->item, dem->item_begin,
+             dem->convex, dem->item_rotation, dem->block_flag, dem->slabs.solid, dem->cell);
     clx_energy_destroy(dem->energy);
-    clx_free(dem->laws.law);
-    clx_free(dem);
+    CLX_FREE(dem->laws.law, dem);
 }
 
 static bool all_finite(const double *x, int n)

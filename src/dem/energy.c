@@ -24,10 +24,7 @@ enum { BLOCK = 256 };
 void clx_energy_destroy(clx_energy *energy)
 {
     if (energy != NULL) {
-        clx_free(energy->grain);
-        clx_free(energy->slide);
-        clx_free(energy->part);
-        clx_free(energy);
+        CLX_FREE(energy->grain, energy->slide, energy->part, energy);
     }
 }
 

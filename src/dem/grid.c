@@ -9,10 +9,7 @@
 
 void clx_dem_grid_free(clx_dem_grid *grid)
 {
-    clx_free(grid->cell);
-    clx_free(grid->bucket);
-    clx_free(grid->entry);
-    clx_free(grid->by_level);
+    CLX_FREE(grid->cell, grid->bucket, grid->entry, grid->by_level);
     *grid = (clx_dem_grid){0};
 }
 

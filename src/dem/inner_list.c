@@ -22,18 +22,9 @@ static const double LEAST = 0.002;
 
 void clx_inner_free(clx_inner_list *inner)
 {
-    clx_free(inner->index);
-    clx_free(inner->force);
-    clx_free(inner->begin);
-    clx_free(inner->in_begin);
-    clx_free(inner->in);
-    clx_free(inner->until);
-    clx_free(inner->total);
-    clx_free(inner->block);
-    clx_free(inner->packed);
-    clx_free(inner->old.index);
-    clx_free(inner->old.begin);
-    clx_free(inner->old.packed);
+    CLX_FREE(inner->index, inner->force, inner->begin, inner->in_begin, inner->in, inner->until,
+             inner->total, inner->block, inner->packed, inner->old.index, inner->old.begin,
+             inner->old.packed);
     *inner = (clx_inner_list){0};
 }
 

@@ -178,8 +178,7 @@ static clast_status share_rows(const clx_ranks *r, clast_status status, contact 
     *n = m;
     sorted = NULL;
 done:
-    clx_free(sorted);
-    clx_free(next);
+    CLX_FREE(sorted, next);
     clx_gathered_free(&all);
     return status;
 }
@@ -205,8 +204,7 @@ static clast_status find(const clast_dem *dem, contact **row, int64_t *n)
     *row = w.row;
     w.row = NULL;
 done:
-    clx_free(w.pair);
-    clx_free(w.row);
+    CLX_FREE(w.pair, w.row);
     return status;
 }
 
@@ -323,8 +321,7 @@ static clast_status count_rattlers(const clast_dem *dem, int64_t n, const contac
     const int32_t left = dem->n_grain - load->n_rattler;
     load->coordination_held = left > 0 ? 2.0 * (double)held / left : 0.0;
 done:
-    clx_free(count);
-    clx_free(is_out);
+    CLX_FREE(count, is_out);
     return status;
 }
 
@@ -335,7 +332,7 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y ? 1 : 0;
 }
 
-/// Shares of the normal forces between grains below which half, nine tenths, 99 % of them lie.
+/// Shares of the forces between grains below which half, nine tenths, 99 % of them lie.
 static clast_status measure_forces(int64_t n, const contact *row, clast_dem_load *load)
 {
     static const double share[3] = {0.5, 0.9, 0.99};

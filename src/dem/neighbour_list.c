@@ -18,21 +18,11 @@
 
 void clx_neighbour_list_free(clx_neighbour_list *list)
 {
-    clx_free(list->pair);
-    clx_free(list->other);
-    clx_free(list->history);
-    clx_free(list->other_history);
-    clx_free(list->warm_start);
-    clx_free(list->free_slot);
-    clx_free(list->begin);
-    clx_free(list->anchor);
-    clx_free(list->limit);
-    clx_free(list->is_stale);
-    clx_free(list->triangle);
+    CLX_FREE(list->pair, list->other, list->history, list->other_history, list->warm_start,
+             list->free_slot, list->begin, list->anchor, list->limit, list->is_stale,
+             list->triangle);
     clx_dem_grid_free(&list->grid);
-    clx_free(list->found);
-    clx_free(list->sorted);
-    clx_free(list->found_begin);
+    CLX_FREE(list->found, list->sorted, list->found_begin);
     *list = (clx_neighbour_list){0};
 }
 

@@ -64,23 +64,8 @@ void clx_ranks_destroy(clx_ranks *r)
         r->local->laws = (clx_laws){0};
         clast_dem_destroy(r->local);
     }
-    clx_free(r->owner);
-    clx_free(r->next);
-    clx_free(r->local_of);
-    clx_free(r->cost);
-    clx_free(r->number);
-    clx_free(r->is_ghost);
-    clx_free(r->send);
-    clx_free(r->receive);
-    clx_free(r->out);
-    clx_free(r->in);
-    clx_free(r->n_out);
-    clx_free(r->n_in);
-    clx_free(r->n_wire);
-    clx_free(r->n_asked);
-    clx_free(r->wire.bytes);
-    clx_free(r->height);
-    clx_free(r);
+    CLX_FREE(r->owner, r->next, r->local_of, r->cost, r->number, r->is_ghost, r->send, r->receive,
+             r->out, r->in, r->n_out, r->n_in, r->n_wire, r->n_asked, r->wire.bytes, r->height, r);
 }
 
 /// What the rank's own simulation shares with the whole.

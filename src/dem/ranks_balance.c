@@ -161,9 +161,7 @@ static clast_status partition_together(clast_dem *whole, const clast_site *all, 
         r->next[i] = (int32_t)sum[i];
     }
 done:
-    clx_free(own);
-    clx_free(to);
-    clx_free(sum);
+    CLX_FREE(own, to, sum);
     return status;
 }
 
@@ -199,7 +197,6 @@ clast_status clx_ranks_partition(clast_dem *whole)
     r->counts.imbalance = imbalance(whole, r->next, whole->n_grain, sum);
     ++r->counts.n_balance;
 done:
-    clx_free(s);
-    clx_free(sum);
+    CLX_FREE(s, sum);
     return status;
 }

@@ -14,8 +14,7 @@ typedef struct {
 
 void clx_arrivals_free(clx_arrivals *a)
 {
-    clx_free(a->grain);
-    clx_free(a->pair);
+    CLX_FREE(a->grain, a->pair);
     *a = (clx_arrivals){0};
 }
 

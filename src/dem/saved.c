@@ -12,18 +12,8 @@ enum { WARM_START = sizeof(clx_warm_start) };
 
 void clx_dem_saved_free(clx_dem_saved *s)
 {
-    clx_free(s->shape);
-    clx_free(s->grain);
-    clx_free(s->anchor);
-    clx_free(s->limit);
-    clx_free(s->held);
-    clx_free(s->history);
-    clx_free(s->cell);
-    clx_free(s->energy);
-    clx_free(s->wall);
-    clx_free(s->id);
-    clx_free(s->pair);
-    clx_free(s->warm_start);
+    CLX_FREE(s->shape, s->grain, s->anchor, s->limit, s->held, s->history, s->cell, s->energy,
+             s->wall, s->id, s->pair, s->warm_start);
     *s = (clx_dem_saved){0};
 }
 

@@ -23,12 +23,10 @@ static const double LEAST = 0.01;
 void clx_walls_free(clx_walls *walls)
 {
     for (int32_t i = 0; i < walls->n; ++i) {
-        clx_free(walls->body[i].motion.time);
-        clx_free(walls->body[i].motion.place);
+        CLX_FREE(walls->body[i].motion.time, walls->body[i].motion.place);
         clx_wall_mesh_destroy(walls->body[i].mesh);
     }
-    clx_free(walls->body);
-    clx_free(walls->wall_force);
+    CLX_FREE(walls->body, walls->wall_force);
     *walls = (clx_walls){0};
 }
 
@@ -448,8 +446,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
         memcpy(time, motion->time, (size_t)motion->n * sizeof *time);
         memcpy(place, motion->place, (size_t)motion->n * sizeof *place);
     }
-    clx_free(w->motion.time);
-    clx_free(w->motion.place);
+    CLX_FREE(w->motion.time, w->motion.place);
     w->motion = *motion;
     w->motion.time = time;
     w->motion.place = place;
@@ -461,8 +458,7 @@ clast_status clast_dem_set_wall_motion(clast_dem *dem, int32_t wall,
     search_anew(dem);
     clx_wall_place(dem, wall);
 done:
-    clx_free(time);
-    clx_free(place);
+    CLX_FREE(time, place);
     return status;
 }
 

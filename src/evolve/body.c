@@ -17,11 +17,11 @@
 static const double BOLTZMANN = 1.380649e-23; ///< J/K, exact [SI2019]
 
 /// Adds mass times (R J R^T + r r^T) of one part.
-static void add_part(const clx_kit *kit, const clx_kit_part *part, double sum[6])
+static void add_part(const clx_templates *templates, const clx_template_part *part, double sum[6])
 {
     static const int row[6] = {0, 1, 2, 1, 0, 0};
     static const int column[6] = {0, 1, 2, 2, 2, 1};
-    const clast_shape *shape = kit->shape[part->shape].shape;
+    const clast_shape *shape = templates->shape[part->shape].shape;
     const double s2 = part->scale * part->scale;
     const double s3 = s2 * part->scale;
     double r[3][3];
@@ -52,10 +52,10 @@ static void add_part(const clx_kit *kit, const clx_kit_part *part, double sum[6]
 clast_status clx_evolve_kinds(clast_evolve *e)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc(&e->kind, e->kit.n_group - 1, sizeof *e->kind));
-    e->n_kind = e->kit.n_group - 1;
+    CLX_TRY(clx_alloc(&e->kind, e->templates.n_group - 1, sizeof *e->kind));
+    e->n_kind = e->templates.n_group - 1;
     for (int32_t k = 0; k < e->n_kind; ++k) {
-        const clx_kit_group *group = &e->kit.group[1 + k];
+        const clx_template *group = &e->templates.group[1 + k];
         clx_evolve_kind *kind = &e->kind[k];
         kind->volume = group->volume;
         kind->mass = group->mass;
@@ -63,13 +63,13 @@ clast_status clx_evolve_kinds(clast_evolve *e)
         CLX_CHECK(group->volume > 0.0 && group->mass > 0.0, CLAST_E_GEOMETRY,
                   "shape %d has no volume or no mass", k + 1);
         for (int32_t i = 0; i < group->n_part; ++i) {
-            add_part(&e->kit, &group->part[i], kind->second);
+            add_part(&e->templates, &group->part[i], kind->second);
         }
         for (int i = 0; i < 6; ++i) {
             kind->second[i] /= group->mass;
         }
         if (group->n_part == 1) {
-            CLX_TRY(clx_form_dimensions(&e->kit, group, kind->form));
+            CLX_TRY(clx_form_dimensions(&e->templates, group, kind->form));
         }
     }
 done:

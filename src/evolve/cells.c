@@ -9,12 +9,13 @@
 #include "base/alloc.h"
 #include "base/monitor.h"
 #include "cloud/repeated.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Of a deal of so many bodies one looks whether the run is to stop: it takes milliseconds.
+/// With so many bodies in pairs one looks whether the run is to stop: it takes milliseconds.
 enum { CELL_TO_LOOK_AT = 4096 };
 
 const char *const clx_cuts_column[CLX_N_CUTS_COLUMN][2] = {
@@ -236,13 +237,7 @@ typedef struct {
     int64_t event;
 } timed;
 
-static int by_time(const void *a, const void *b)
-{
-    const timed *x = a;
-    const timed *y = b;
-    return x->time != y->time ? (x->time > y->time ? 1 : -1)
-                              : (x->event > y->event) - (x->event < y->event);
-}
+CLX_RISING_BY_TWO(by_time, timed, time, event)
 
 /// The node of an event that has got another number; `place` [events from `first`].
 static int64_t new_node(const clast_evolve *e, int64_t first, const int64_t *place, int64_t node)
@@ -281,9 +276,7 @@ static clast_status order_events(clast_evolve *e, int64_t first)
         e->body[i].node = new_node(e, first, place, e->body[i].node);
     }
 done:
-    clx_free(list);
-    clx_free(place);
-    clx_free(copy);
+    CLX_FREE(list, place, copy);
     return status;
 }
 

@@ -17,20 +17,14 @@ void clast_evolve_destroy(clast_evolve *e)
     if (e == NULL) {
         return;
     }
-    clx_kit_free(&e->kit);
+    clx_templates_free(&e->templates);
     clx_flow_free(&e->flow);
-    clx_free(e->kind);
-    clx_free(e->grain);
-    clx_free(e->body);
-    clx_free(e->event);
+    CLX_FREE(e->kind, e->grain, e->body, e->event);
     clast_workspace_destroy(e->workspace);
     if (e->has_decompose) {
         clast_fields_free(clast_decompose_fields, &e->decompose);
     }
-    clx_free(e->live);
-    clx_free(e->at);
-    clx_free(e->order);
-    clx_free(e->start);
+    CLX_FREE(e->live, e->at, e->order, e->start);
     clx_rows_free(&e->balance);
     clx_rows_free(&e->spectrum);
     clx_rows_free(&e->cuts);
@@ -50,7 +44,7 @@ done:
     return status;
 }
 
-static clast_status prepare_kit(clast_evolve *e)
+static clast_status prepare_templates(clast_evolve *e)
 {
     clast_status status = CLAST_OK;
     clast_aggregate_params params = {0};
@@ -59,7 +53,7 @@ static clast_status prepare_kit(clast_evolve *e)
     params.mode = CLAST_AGGREGATE_CLUSTER;
     params.contact = CLAST_CONTACT_EXACT;
     params.size_meaning = CLAST_SIZE_VOLUME;
-    CLX_TRY(clx_kit_make(&params, &input, &e->kit));
+    CLX_TRY(clx_templates_make(&params, &input, &e->templates));
     CLX_TRY(clx_evolve_kinds(e));
 done:
     clast_aggregate_params_free(&params);
@@ -223,7 +217,7 @@ clast_status clx_evolve_create_again(const clast_evolve_config *config,
     if (input->field != NULL) {
         CLX_TRY(clx_flow_make(input->field, &e->flow));
     }
-    CLX_TRY(prepare_kit(e));
+    CLX_TRY(prepare_templates(e));
     CLX_TRY(prepare_cells(e));
     CLX_TRY(place_all(e));
     weigh_all(e);

@@ -16,14 +16,13 @@
 /// A body of grains as a scene or a group: which grain each part is of.
 typedef struct {
     int32_t n;
-    clx_kit_part *part;
+    clx_template_part *part;
     int32_t *grain;
 } parts;
 
 static void free_parts(parts *p)
 {
-    clx_free(p->part);
-    clx_free(p->grain);
+    CLX_FREE(p->part, p->grain);
     *p = (parts){0};
 }
 
@@ -32,16 +31,16 @@ static clast_status parts_of(const clast_evolve *e, const clx_evolve_body *body,
     clast_status status = CLAST_OK;
     int64_t n = 0;
     for (int32_t g = body->first; g >= 0; g = e->grain[g].next) {
-        n += e->kit.group[1 + e->grain[g].kind].n_part;
+        n += e->templates.group[1 + e->grain[g].kind].n_part;
     }
     CLX_TRY(clx_alloc(&p->part, n, sizeof *p->part));
     CLX_TRY(clx_alloc(&p->grain, n, sizeof *p->grain));
     for (int32_t g = body->first; g >= 0; g = e->grain[g].next) {
         const clx_evolve_grain *grain = &e->grain[g];
-        const clx_kit_group *group = &e->kit.group[1 + grain->kind];
+        const clx_template *group = &e->templates.group[1 + grain->kind];
         for (int32_t i = 0; i < group->n_part; ++i) {
-            clx_kit_pose(group, i, grain->position, grain->orientation, grain->scale,
-                         &p->part[p->n]);
+            clx_template_pose(group, i, grain->position, grain->orientation, grain->scale,
+                              &p->part[p->n]);
             p->grain[p->n++] = g;
         }
     }
@@ -55,8 +54,8 @@ static clast_status scene_of(const clast_evolve *e, const parts *p, clx_touch_sc
     clx_touch_scene *made = NULL;
     CLX_TRY(clx_touch_scene_create(&made));
     for (int32_t i = 0; i < p->n; ++i) {
-        const clx_kit_part *part = &p->part[i];
-        clx_touch_body body = e->kit.shape[part->shape].body;
+        const clx_template_part *part = &p->part[i];
+        clx_touch_body body = e->templates.shape[part->shape].body;
         clx_touch_body_place(&body, part->position, part->orientation, part->scale);
         CLX_TRY(clx_touch_scene_insert(made, &body));
     }
@@ -76,8 +75,8 @@ static int32_t tries_of(const clast_evolve *e)
 }
 
 static clast_status search(const clast_evolve *e, const clx_evolve_body *large,
-                           const clx_touch_scene *scene, const clx_kit_group *group,
-                           clx_landing *landing)
+                           const clx_touch_scene *scene, const clx_template *group,
+                           clx_placement *placement)
 {
     static const int32_t approach[] = {[CLAST_MEETING_BALLISTIC] = CLAST_APPROACH_BALLISTIC,
                                        [CLAST_MEETING_DIFFUSIVE] = CLAST_APPROACH_DIFFUSIVE,
@@ -86,9 +85,9 @@ static clast_status search(const clast_evolve *e, const clx_evolve_body *large,
     clast_status status = CLAST_OK;
     const int32_t tries = tries_of(e);
     if (e->meeting == CLAST_MEETING_REACTION) {
-        return clx_evolve_react(e, scene, group, tries, landing);
+        return clx_evolve_react(e, scene, group, tries, placement);
     }
-    clx_search s = {.kit = &e->kit,
+    clx_search s = {.templates = &e->templates,
                     .group = group,
                     .scale = 1.0,
                     .size = 2.0 * group->radius,
@@ -105,8 +104,8 @@ static clast_status search(const clast_evolve *e, const clx_evolve_body *large,
                     .bounding_radius = large->bounding_radius,
                     .walk_step = e->config->walk_step,
                     .on_one_thread = true};
-    CLX_TRY(clx_walk_or_search(&s, tries, landing));
-    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+    CLX_TRY(clx_walk_or_search(&s, tries, placement));
+    CLX_CHECK(placement->found, CLAST_E_CONVERGE,
               "event %lld: all of %d %s miss the larger of the pair; raise max_tries%s",
               (long long)e->n_event + 1, tries, clx_search_paths(&s),
               e->meeting == CLAST_MEETING_CENTRAL ? ", or take meeting: ballistic" : "");
@@ -139,13 +138,13 @@ static void combine(const clx_evolve_body *small, const double orientation[4],
 }
 
 /// Where the grains touch, in the frame of the first of them.
-static void note_contact(const clast_evolve *e, const clx_landing *landing, int32_t touched,
+static void note_contact(const clast_evolve *e, const clx_placement *placement, int32_t touched,
                          int32_t arriving, clx_evolve_event *event)
 {
     const clx_evolve_grain *grain = &e->grain[touched];
     const double *q = grain->orientation;
     const double back[4] = {q[0], -q[1], -q[2], -q[3]};
-    v3_sub(event->point, landing->touch.point, grain->position);
+    v3_sub(event->point, placement->touch.point, grain->position);
     q_rotate(event->point, back, event->point);
     event->contact[0] = touched;
     event->contact[1] = arriving;
@@ -153,15 +152,15 @@ static void note_contact(const clast_evolve *e, const clx_landing *landing, int3
 
 /// The smaller's grains take their poses about the larger, and all move to the common centre.
 static void place_grains(clast_evolve *e, clx_evolve_body *large, const clx_evolve_body *small,
-                         const clx_landing *landing)
+                         const clx_placement *placement)
 {
     double shift[3];
-    v3_scale(shift, small->mass / (large->mass + small->mass), landing->centre);
+    v3_scale(shift, small->mass / (large->mass + small->mass), placement->centre);
     for (int32_t g = small->first; g >= 0; g = e->grain[g].next) {
         clx_evolve_grain *grain = &e->grain[g];
-        q_rotate(grain->position, landing->orientation, grain->position);
-        v3_add(grain->position, landing->centre, grain->position);
-        q_mul(grain->orientation, landing->orientation,
+        q_rotate(grain->position, placement->orientation, grain->position);
+        v3_add(grain->position, placement->centre, grain->position);
+        q_mul(grain->orientation, placement->orientation,
               (const double[4]){grain->orientation[0], grain->orientation[1], grain->orientation[2],
                                 grain->orientation[3]});
         q_unit(grain->orientation);
@@ -185,22 +184,23 @@ static clast_status touch(clast_evolve *e, clx_evolve_body *large, clx_evolve_bo
     parts there = {0};
     parts coming = {0};
     clx_touch_scene *scene = NULL;
-    clx_landing landing = {0};
+    clx_placement placement = {0};
     CLX_TRY(parts_of(e, large, &there));
     CLX_TRY(parts_of(e, small, &coming));
     CLX_TRY(scene_of(e, &there, &scene));
     const bool is_ball =
-        coming.n == 1 && e->kit.shape[coming.part[0].shape].body.kind == CLX_TOUCH_SPHERE;
-    const clx_kit_group group = {.n_part = coming.n,
-                                 .part = coming.part,
-                                 .volume = small->volume,
-                                 .mass = small->mass,
-                                 .radius = small->bounding_radius,
-                                 .is_round = is_ball};
-    CLX_TRY(search(e, large, scene, &group, &landing));
-    note_contact(e, &landing, there.grain[landing.touch.body], coming.grain[landing.part], event);
-    combine(small, landing.orientation, landing.centre, large);
-    place_grains(e, large, small, &landing);
+        coming.n == 1 && e->templates.shape[coming.part[0].shape].body.kind == CLX_TOUCH_SPHERE;
+    const clx_template group = {.n_part = coming.n,
+                                .part = coming.part,
+                                .volume = small->volume,
+                                .mass = small->mass,
+                                .radius = small->bounding_radius,
+                                .is_round = is_ball};
+    CLX_TRY(search(e, large, scene, &group, &placement));
+    note_contact(e, &placement, there.grain[placement.touch.body], coming.grain[placement.part],
+                 event);
+    combine(small, placement.orientation, placement.centre, large);
+    place_grains(e, large, small, &placement);
 done:
     clx_touch_scene_destroy(scene);
     free_parts(&there);

@@ -1,6 +1,6 @@
 // Who meets in a cell where bodies are evenly spread.
 //
-// In a sub-step the n bodies are dealt into n / 2 pairs at random; each pair stands for
+// In a sub-step the n bodies are partitioned into n / 2 pairs at random; each pair stands for
 // (n (n - 1) / 2) / (n / 2) of all, so that it joins with the chance
 //
 //     1 - exp(-x),   x = W alpha beta (n (n - 1) / 2) / (n / 2) dt / V        [Shima2009 sec. 4.1]
@@ -102,9 +102,10 @@ static void hold_to_ranges(clast_evolve *e, const clast_collider pair[2])
     }
 }
 
-/// One deal of pairs; `scale` times the rate of a pair is its x. Members that merged are dropped.
-static clast_status deal(clast_evolve *e, int32_t *member, int64_t *n, double scale, double time,
-                         clx_rng *rng)
+/// One partition into pairs; `scale` times the rate of a pair is its x. Members that merged are
+/// dropped.
+static clast_status meet_in_pairs(clast_evolve *e, int32_t *member, int64_t *n, double scale,
+                                  double time, clx_rng *rng)
 {
     clast_status status = CLAST_OK;
     int64_t left = 0;
@@ -152,8 +153,8 @@ clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double
     clast_status status = CLAST_OK;
     double passed = 0.0;
     for (int64_t k = 0; passed < dt && n > 1; ++k) {
-        const int64_t dealt = n / 2;
-        const double pairs = 0.5 * (double)n * (double)(n - 1) / (double)dealt;
+        const int64_t n_pair = n / 2;
+        const double pairs = 0.5 * (double)n * (double)(n - 1) / (double)n_pair;
         const double each = e->config->weight * pairs / volume;
         const double most = each * greatest_rate(e, member, n);
         const double left = dt - passed;
@@ -165,7 +166,7 @@ clast_status clx_evolve_meet(clast_evolve *e, int32_t *member, int64_t n, double
         const double sub = left / parts;
         passed = parts > 1.0 ? passed + sub : dt;
         if (most > 0.0) {
-            CLX_TRY(deal(e, member, &n, each * sub, e->time + passed, rng));
+            CLX_TRY(meet_in_pairs(e, member, &n, each * sub, e->time + passed, rng));
         }
     }
 done:

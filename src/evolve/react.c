@@ -13,9 +13,9 @@
 static const double BACK = 1e-11; ///< of the parts' radii: from where overlap of others is asked
 
 typedef struct {
-    const clx_kit *kit;
+    const clx_templates *templates;
     const clx_touch_scene *scene;
-    const clx_kit_group *group;
+    const clx_template *group;
     clx_rng rng;
     double most; ///< greatest sum of the radii of a pair
 } reaction;
@@ -24,17 +24,17 @@ typedef struct {
 static clx_touch_body part_at(const reaction *r, int32_t i, const double centre[3],
                               const double orientation[4])
 {
-    clx_kit_part placed;
-    clx_kit_pose(r->group, i, centre, orientation, 1.0, &placed);
-    clx_touch_body body = r->kit->shape[placed.shape].body;
+    clx_template_part placed;
+    clx_template_pose(r->group, i, centre, orientation, 1.0, &placed);
+    clx_touch_body body = r->templates->shape[placed.shape].body;
     clx_touch_body_place(&body, placed.position, placed.orientation, placed.scale);
     return body;
 }
 
 static double radius_of(const reaction *r, int32_t i)
 {
-    const clx_kit_part *part = &r->group->part[i];
-    return part->scale * r->kit->shape[part->shape].body.radius;
+    const clx_template_part *part = &r->group->part[i];
+    return part->scale * r->templates->shape[part->shape].body.radius;
 }
 
 static double greatest_sum(const reaction *r)
@@ -78,7 +78,7 @@ static bool is_free(const reaction *r, const double centre[3], const double orie
 }
 
 /// One contact of a pair of parts; false where it is none, or others overlap.
-static bool attempt(reaction *r, clx_landing *landing)
+static bool attempt(reaction *r, clx_placement *placement)
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     double along[3];
@@ -86,43 +86,43 @@ static bool attempt(reaction *r, clx_landing *landing)
     double centre[3];
     double sum = 0.0;
     int32_t lying = 0;
-    draw_pair(r, &lying, &landing->part, &sum);
-    clx_rng_orientation(&r->rng, landing->orientation);
-    q_unit(landing->orientation);
+    draw_pair(r, &lying, &placement->part, &sum);
+    clx_rng_orientation(&r->rng, placement->orientation);
+    q_unit(placement->orientation);
     clx_rng_direction(&r->rng, along);
     const double off = sum * sqrt(clx_rng_uniform(&r->rng));
     const double angle = 2.0 * CLAST_PI * clx_rng_uniform(&r->rng);
     const clx_touch_path path = clx_touch_path_along(along);
     const clx_touch_body *there = clx_touch_scene_body(r->scene, lying);
-    clx_touch_body part = part_at(r, landing->part, origin, landing->orientation);
+    clx_touch_body part = part_at(r, placement->part, origin, placement->orientation);
     v3_axpy(place, there->position, off * cos(angle), path.side[0]);
     v3_axpy(place, place, off * sin(angle), path.side[1]);
     v3_sub(centre, place, part.position);
     clx_touch_body_move(&part, place);
-    if (!clx_first_touch(&part, there, &path, &landing->touch)) {
+    if (!clx_first_touch(&part, there, &path, &placement->touch)) {
         return false;
     }
-    landing->touch.body = lying;
-    v3_axpy(landing->centre, centre, landing->touch.t, along);
-    v3_axpy(centre, landing->centre, -BACK * sum, along);
-    return is_free(r, centre, landing->orientation, path);
+    placement->touch.body = lying;
+    v3_axpy(placement->centre, centre, placement->touch.t, along);
+    v3_axpy(centre, placement->centre, -BACK * sum, along);
+    return is_free(r, centre, placement->orientation, path);
 }
 
 clast_status clx_evolve_react(const clast_evolve *e, const clx_touch_scene *scene,
-                              const clx_kit_group *group, int32_t tries, clx_landing *landing)
+                              const clx_template *group, int32_t tries, clx_placement *placement)
 {
     CLAST_ASSERT(clx_touch_scene_count(scene) > 0 && group->n_part > 0);
     clast_status status = CLAST_OK;
-    reaction r = {.kit = &e->kit,
+    reaction r = {.templates = &e->templates,
                   .scene = scene,
                   .group = group,
                   .rng =
                       clx_rng_at(e->config->seed, CLX_STREAM_EVOLVE_REACT, (uint64_t)e->n_event)};
     r.most = greatest_sum(&r);
-    for (int32_t k = 0; k < tries && !landing->found; ++k) {
-        landing->found = attempt(&r, landing);
+    for (int32_t k = 0; k < tries && !placement->found; ++k) {
+        placement->found = attempt(&r, placement);
     }
-    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+    CLX_CHECK(placement->found, CLAST_E_CONVERGE,
               "event %lld: other grains overlap at all of %d contacts tried; raise max_tries, or "
               "take meeting: diffusive",
               (long long)e->n_event + 1, tries);

@@ -4,7 +4,7 @@
 // that become one (join.c), who meets (meet.c), cells (cells.c), walls that are no box's (walls.c),
 // motion (move.c), how long a step may be (pace.c), steps (evolve.c), what is told (tables.c,
 // measure.c), what is kept (saved.c). Calls go down only.
-#include "aggregate/kit.h"
+#include "aggregate/template.h"
 #include "evolve/flow.h"
 #include "evolve/rows.h"
 #include "math/rng.h"
@@ -13,7 +13,7 @@
 #include <clast/workspace.h>
 #include <math.h>
 
-/// A kind of particle as it is at scale 1, from a group of the kit.
+/// A kind of particle as it is at scale 1, from a template.
 typedef struct clx_evolve_kind {
     double second[6]; ///< integral of x x^T over the mass, by the mass: xx, yy, zz, yz, xz, xy
     double form[3];   ///< L, I, S of a single shape; 0 of a group
@@ -22,7 +22,7 @@ typedef struct clx_evolve_kind {
 
 /// A particle of the start, for ever: what it is, and where it sits in the body it is part of.
 typedef struct clx_evolve_grain {
-    int32_t kind; ///< group 1 + kind of the kit
+    int32_t kind; ///< template 1 + kind
     int32_t next; ///< grain of the same body, -1 ends it
     double scale;
     double position[3];    ///< relative to the body's centre of mass
@@ -103,7 +103,7 @@ struct clast_evolve {
     double wind[3];                    ///< at z = 0
     clx_flow flow;                     ///< of the user, on a grid
     int32_t meeting;                   ///< AUTO already resolved
-    clx_kit kit;
+    clx_templates templates;
     clx_evolve_kind *kind; ///< [n_kind]
     int32_t n_kind;
 
@@ -147,7 +147,7 @@ struct clast_evolve {
     clx_rows balance, spectrum;
 };
 
-/// body.c: kinds of the kit; what follows from a body's mass, volume, moments and reach.
+/// body.c: kinds of the templates; what follows from a body's mass, volume, moments and reach.
 clast_status clx_evolve_kinds(clast_evolve *e);
 void clx_evolve_update(const clast_evolve *e, clx_evolve_body *body);
 
@@ -161,13 +161,13 @@ void clx_evolve_list(clast_evolve *e);
 void clx_evolve_wind(const clast_evolve *e, double z, double velocity[3]);
 
 typedef struct clx_touch_scene clx_touch_scene;
-typedef struct clx_landing clx_landing;
+typedef struct clx_placement clx_placement;
 
 /// react.c: one of all the ways in which a group can touch a scene without overlap, each as likely.
 ///
 /// @return CLAST_E_CONVERGE where other parts overlap at all of `tries` contacts
 clast_status clx_evolve_react(const clast_evolve *e, const clx_touch_scene *scene,
-                              const clx_kit_group *group, int32_t tries, clx_landing *landing);
+                              const clx_template *group, int32_t tries, clx_placement *placement);
 
 /// join.c: lets two bodies in the fluid become one; `i` or `j`, the larger, lives on.
 clast_status clx_evolve_join(clast_evolve *e, int32_t i, int32_t j, double time, clx_rng *rng);

@@ -2,6 +2,7 @@
 #include "evolve/state.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/shape.h>
 #include <clast/status.h>
@@ -104,13 +105,7 @@ typedef struct {
     int32_t body;
 } arrival;
 
-static int by_time(const void *a, const void *b)
-{
-    const arrival *x = a;
-    const arrival *y = b;
-    return x->time != y->time ? (x->time > y->time ? 1 : -1)
-                              : (x->body > y->body) - (x->body < y->body);
-}
+CLX_RISING_BY_TWO(by_time, arrival, time, body)
 
 /// Bodies of one state, by the time when they came to it.
 static clast_status bodies_table(const clast_evolve *e, int32_t state, const char *name,
@@ -170,17 +165,18 @@ static const clx_evolve_body *body_of(const clast_evolve *e, int64_t node)
     return body->node == node && body->state != CLX_BODY_MERGED ? body : NULL;
 }
 
-/// Shapes of the kit that are in use, under names of their own; of_kit [n_shape] -1: not yet.
-static clast_status add_shape(const clast_evolve *e, int32_t k, int32_t *of_kit,
+/// Shapes of the templates that are in use, under names of their own; of_template [n_shape] -1: not
+/// yet.
+static clast_status add_shape(const clast_evolve *e, int32_t k, int32_t *of_template,
                               clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     clast_shape copy = {0};
     char name[256];
-    if (of_kit[k] >= 0) {
+    if (of_template[k] >= 0) {
         return CLAST_OK;
     }
-    CLX_TRY(clast_shape_copy(e->kit.shape[k].shape, &copy));
+    CLX_TRY(clast_shape_copy(e->templates.shape[k].shape, &copy));
     (void)snprintf(name, sizeof name, "%.200s", copy.name);
     for (int32_t i = 0; i < assembly->n_shape; ++i) {
         if (strcmp(assembly->shape[i].name, name) == 0) {
@@ -190,7 +186,7 @@ static clast_status add_shape(const clast_evolve *e, int32_t k, int32_t *of_kit,
     clx_free(copy.name);
     copy.name = NULL;
     CLX_TRY(clx_alloc_text(&copy.name, name));
-    CLX_TRY(clast_assembly_add_shape(assembly, &copy, &of_kit[k]));
+    CLX_TRY(clast_assembly_add_shape(assembly, &copy, &of_template[k]));
 done:
     clast_shape_free(&copy);
     return status;
@@ -199,23 +195,23 @@ done:
 /// The parts of all grains of a body with its centre at x; first [n_start] is the first part of
 /// each grain, or NULL.
 static clast_status add_grains(const clast_evolve *e, const clx_evolve_body *body,
-                               const double x[3], int32_t *of_kit, int32_t *first,
+                               const double x[3], int32_t *of_template, int32_t *first,
                                clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     for (int32_t g = body->first; g >= 0; g = e->grain[g].next) {
         const clx_evolve_grain *grain = &e->grain[g];
-        const clx_kit_group *group = &e->kit.group[1 + grain->kind];
+        const clx_template *group = &e->templates.group[1 + grain->kind];
         double centre[3];
         v3_add(centre, x, grain->position);
         if (first != NULL) {
             first[g] = assembly->n_grain;
         }
         for (int32_t i = 0; i < group->n_part; ++i) {
-            clx_kit_part part;
-            clx_kit_pose(group, i, centre, grain->orientation, grain->scale, &part);
-            CLX_TRY(add_shape(e, part.shape, of_kit, assembly));
-            CLX_TRY(clast_assembly_add_grain(assembly, of_kit[part.shape], part.position,
+            clx_template_part part;
+            clx_template_pose(group, i, centre, grain->orientation, grain->scale, &part);
+            CLX_TRY(add_shape(e, part.shape, of_template, assembly));
+            CLX_TRY(clast_assembly_add_grain(assembly, of_template[part.shape], part.position,
                                              part.orientation, part.scale, part.density));
         }
     }
@@ -254,11 +250,11 @@ done:
     return status;
 }
 
-static clast_status kit_numbers(const clast_evolve *e, int32_t **of_kit)
+static clast_status template_numbers(const clast_evolve *e, int32_t **of_template)
 {
-    const clast_status status = clx_alloc(of_kit, e->kit.n_shape, sizeof **of_kit);
-    for (int32_t k = 0; status == CLAST_OK && k < e->kit.n_shape; ++k) {
-        (*of_kit)[k] = -1;
+    const clast_status status = clx_alloc(of_template, e->templates.n_shape, sizeof **of_template);
+    for (int32_t k = 0; status == CLAST_OK && k < e->templates.n_shape; ++k) {
+        (*of_template)[k] = -1;
     }
     return status;
 }
@@ -269,21 +265,20 @@ clast_status clast_evolve_aggregate(const clast_evolve *e, int64_t node, clast_a
     clast_status status = CLAST_OK;
     const double none[3] = {0.0, 0.0, 0.0};
     clast_assembly made = {.unit = "m"};
-    int32_t *of_kit = NULL;
+    int32_t *of_template = NULL;
     int32_t *first = NULL;
     const clx_evolve_body *body = body_of(e, node);
     CLX_CHECK(body != NULL, CLAST_E_USAGE, "node %lld is no body now", (long long)node);
     CLX_CHECK(e->config->structure || body->n == 1, CLAST_E_CONFIG,
               "structure: drops that merge have no grains");
-    CLX_TRY(kit_numbers(e, &of_kit));
+    CLX_TRY(template_numbers(e, &of_template));
     CLX_TRY(clx_alloc(&first, e->n_start, sizeof *first));
-    CLX_TRY(add_grains(e, body, none, of_kit, first, &made));
+    CLX_TRY(add_grains(e, body, none, of_template, first, &made));
     CLX_TRY(add_contacts(e, node, first, &made));
     *assembly = made;
     made = (clast_assembly){0};
 done:
-    clx_free(of_kit);
-    clx_free(first);
+    CLX_FREE(of_template, first);
     clast_assembly_free(&made);
     return status;
 }
@@ -320,14 +315,14 @@ clast_status clast_evolve_assembly(const clast_evolve *e, clast_assembly *assemb
     clast_assembly made = {.unit = "m"};
     clx_rows rows = {.n_column = sizeof value_column / sizeof *value_column,
                      .column = value_column};
-    int32_t *of_kit = NULL;
+    int32_t *of_template = NULL;
     CLX_CHECK(e->config->structure, CLAST_E_CONFIG, "structure: drops that merge have no grains");
-    CLX_TRY(kit_numbers(e, &of_kit));
+    CLX_TRY(template_numbers(e, &of_template));
     for (int32_t i = 0; i < e->n_start; ++i) {
         const clx_evolve_body *body = &e->body[i];
         const int32_t n = made.n_grain;
         if (body->state == CLX_BODY_IN_FLUID || body->state == CLX_BODY_ON_FLOOR) {
-            CLX_TRY(add_grains(e, body, body->x, of_kit, NULL, &made));
+            CLX_TRY(add_grains(e, body, body->x, of_template, NULL, &made));
             CLX_TRY(values != NULL ? add_values(body, made.n_grain - n, &rows) : CLAST_OK);
         }
     }
@@ -335,7 +330,7 @@ clast_status clast_evolve_assembly(const clast_evolve *e, clast_assembly *assemb
     *assembly = made;
     made = (clast_assembly){0};
 done:
-    clx_free(of_kit);
+    clx_free(of_template);
     clx_rows_free(&rows);
     clast_assembly_free(&made);
     return status;

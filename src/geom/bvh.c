@@ -143,8 +143,6 @@ void clast_bvh_destroy(clast_bvh *bvh)
 {
     if (bvh != NULL) {
         clx_tree_free(&bvh->tree);
-        clx_free(bvh->corner);
-        clx_free(bvh->moment);
-        clx_free(bvh);
+        CLX_FREE(bvh->corner, bvh->moment, bvh);
     }
 }

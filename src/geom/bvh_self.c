@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "math/predicates.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 #include <string.h>
@@ -347,12 +348,7 @@ static void gather(self_search *search, int64_t n_block, int64_t cap, int32_t (*
 
 static int compare_pairs(const void *a, const void *b)
 {
-    const int32_t *p = a;
-    const int32_t *q = b;
-    if (p[0] != q[0]) {
-        return p[0] < q[0] ? -1 : 1;
-    }
-    return (p[1] > q[1]) - (p[1] < q[1]);
+    return clx_compare_ints(a, b, 2);
 }
 
 clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t budget, int64_t cap,

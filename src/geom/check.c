@@ -7,9 +7,9 @@
 #include "geom/topology.h"
 #include "geom/weld.h"
 #include "math/predicates.h"
-#include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,8 +95,7 @@ static clast_status count_fans(const clast_mesh *mesh, const clx_topology *topol
         result->euler += topology->edge_of[3 * t] >= 0;
     }
 done:
-    clx_free(corner_fan);
-    clx_free(n_fan);
+    CLX_FREE(corner_fan, n_fan);
     return status;
 }
 

@@ -6,7 +6,6 @@
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
-#include <stdlib.h>
 
 /// Area from the sides a >= b >= c. [Kahan2014, "Miscalculating area and angles of a needle-like
 /// triangle", eq. for Delta with the parentheses as printed]

@@ -6,6 +6,7 @@
 #include "geom/topology.h"
 #include "geom/tree.h"
 #include "math/rng.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
@@ -101,8 +102,7 @@ static clast_status add_genus(const clast_mesh *mesh, const clx_topology *topolo
         list[i].genus = known ? (2 - euler) / 2 : -1;
     }
 done:
-    clx_free(corner_fan);
-    clx_free(n_fan);
+    CLX_FREE(corner_fan, n_fan);
     return status;
 }
 
@@ -303,13 +303,6 @@ int32_t clx_count_apart(const clast_mesh_check_result *result)
     return n;
 }
 
-static int compare_low(const void *a, const void *b)
-{
-    const double *p = a;
-    const double *q = b;
-    return (p[0] > q[0]) - (p[0] < q[0]);
-}
-
 clast_status clx_count_parted(const clast_mesh_check_result *result, int32_t *n_parted)
 {
     clast_status status = CLAST_OK;
@@ -327,7 +320,7 @@ clast_status clx_count_parted(const clast_mesh_check_result *result, int32_t *n_
                 range[n++][1] = p->high[k];
             }
         }
-        qsort(range, (size_t)n, sizeof *range, compare_low);
+        qsort(range, (size_t)n, sizeof *range, clx_by_value);
         for (int32_t i = 0; i < n; ++i) {
             n_group += range[i][0] > high;
             high = fmax(high, range[i][1]);
@@ -416,8 +409,7 @@ static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int
     }
 done:
     clx_tree_free(&tree);
-    clx_free(first);
-    clx_free(tri);
+    CLX_FREE(first, tri);
     return status;
 }
 

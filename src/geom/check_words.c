@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 /// Below it a product of three lengths is not to be told from 0.
 static const double SMALLEST_EXTENT = 1e-95;
@@ -44,11 +43,10 @@ static void open_words(clast_mesh_check_result *r)
         if (r->n_open_after_weld > 0) {
             (void)snprintf(left, sizeof left, "fall to %d", r->n_open_after_weld);
         }
-        (void)clx_number_print(
-            advice, sizeof advice,
-            "they %s when vertices within %.3g (%.2g of the extent) are merged: run "
-            "`clast mesh repair`",
-            left, r->weld_tolerance, r->weld_tolerance / r->extent);
+        (void)clx_number_print(advice, sizeof advice,
+                               "they %s when vertices within %.3g (%.2g of the extent) are merged: "
+                               "run `clast mesh repair`",
+                               left, r->weld_tolerance, r->weld_tolerance / r->extent);
     }
     if (r->n_open_edge > 0) {
         add(r, true, "open_edges",
@@ -133,8 +131,7 @@ static void flat_words(clast_mesh_check_result *r)
         add(r, true, "flat", "all %d vertices lie in one plane: there is no volume", r->n_vertex);
     } else if (n_flat > 0) {
         add(r, true, "flat_parts",
-            "%d of %d parts ha%s no volume: the two sides of a sheet; `clast mesh repair` drops "
-            "%s",
+            "%d of %d parts ha%s no volume: the two sides of a sheet; `clast mesh repair` drops %s",
             n_flat, r->n_part, n_flat == 1 ? "s" : "ve", n_flat == 1 ? "it" : "them");
     } else if (r->closed && r->oriented && clx_is_no_volume(r->volume, r->area, r->extent)) {
         add(r, true, "flat", "a volume of %.3g by an area of %.3g: cavities take all of its parts",
@@ -189,11 +186,11 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
                        doubles->n_flat, doubles->n_part, doubles->n_flat == 1 ? "s" : "ve",
                        doubles->n_flat == 1 ? "it" : "them");
     } else if (doubles->n_intersection > 0) {
-        (void)snprintf(text, size,
-                       "it cuts itself at %s%lld pair%s of triangles; its volume counts overlaps "
-                       "twice",
-                       doubles->intersection_complete ? "" : "at least ",
-                       (long long)doubles->n_intersection, s(doubles->n_intersection));
+        (void)snprintf(
+            text, size,
+            "it cuts itself at %s%lld pair%s of triangles; its volume counts overlaps twice",
+            doubles->intersection_complete ? "" : "at least ", (long long)doubles->n_intersection,
+            s(doubles->n_intersection));
     } else if (!doubles->intersection_complete) {
         (void)snprintf(text, size,
                        "whether it cuts itself was not looked for, so densely do its triangles "
@@ -204,11 +201,10 @@ void clx_doubles_words(const clx_doubles *doubles, size_t size, char *text)
                        "or inward outside of one)",
                        doubles->n_doubled, doubles->n_part, doubles->n_doubled == 1 ? "s" : "");
     } else if (doubles->n_repeated > 0) {
-        (void)snprintf(
-            text, size,
-            "%d of its triangles repeat%s another with the same winding; its volume counts twice "
-            "what they bound",
-            doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
+        (void)snprintf(text, size,
+                       "%d of its triangles repeat%s another with the same winding; its volume "
+                       "counts twice what they bound",
+                       doubles->n_repeated, doubles->n_repeated == 1 ? "s" : "");
     }
 }
 
@@ -221,11 +217,11 @@ void clx_weld_words(const clast_mesh *mesh, const clast_mesh_repair_report *weld
     const double extent = v3_distance(low, high);
     text[0] = '\0';
     if (weld->n_merged > 0 && weld->weld_distance > SMALL_MOVE * extent) {
-        (void)clx_number_print(text, size,
-                               "%d vert%s of open edges merged with others within %.3g (%.2g of "
-                               "the extent)",
-                               weld->n_merged, weld->n_merged == 1 ? "ex" : "ices",
-                               weld->weld_distance, weld->weld_distance / extent);
+        (void)clx_number_print(
+            text, size,
+            "%d vert%s of open edges merged with others within %.3g (%.2g of the extent)",
+            weld->n_merged, weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance,
+            weld->weld_distance / extent);
     }
 }
 

@@ -20,10 +20,7 @@ static const double LEAST_HEIGHT = 1e-3; // of a triangle's longest side, unless
 void clx_thinning_free(clx_thinning *thin)
 {
     clast_mesh_free(&thin->mesh);
-    clx_free(thin->dead);
-    clx_free(thin->head);
-    clx_free(thin->next);
-    clx_free(thin->mark);
+    CLX_FREE(thin->dead, thin->head, thin->next, thin->mark);
     *thin = (clx_thinning){0};
 }
 

@@ -4,6 +4,7 @@
 #include "geom/convex_cell.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 
@@ -42,11 +43,7 @@ void clx_cell_free(clx_cell *cell)
     for (int64_t i = 0; i < cell->n_made; ++i) {
         clx_free(cell->face[i].corner);
     }
-    clx_free(cell->face);
-    clx_free(cell->clipped.corner);
-    clx_free(cell->rim.corner);
-    clx_free(cell->height);
-    clx_free(cell->spoke);
+    CLX_FREE(cell->face, cell->clipped.corner, cell->rim.corner, cell->height, cell->spoke);
     *cell = (clx_cell){0};
 }
 
@@ -117,12 +114,7 @@ done:
     return status;
 }
 
-static int by_angle(const void *a, const void *b)
-{
-    const double x = ((const spoke *)a)->angle;
-    const double y = ((const spoke *)b)->angle;
-    return (x > y) - (x < y);
-}
+CLX_RISING(by_angle, spoke, angle)
 
 /// The face that closes the cut.
 static clast_status close_cut(clx_cell *cell, const double normal[3], int32_t mark)

@@ -173,11 +173,10 @@ clast_status clx_cut_grid_shares(const clast_mesh *mesh, const clx_cut_grid *gri
         s.below[b] += s.below[b + stride];
     }
     for (int64_t b = 0; b < n_bin; ++b) {
-        CLX_CHECK(
-            share[b] > -1e-6 && share[b] < 1.0 + 1e-6, CLAST_E_GEOMETRY,
-            "the surface encloses a point %.3g times: parts overlap or are turned inside out; "
-            "see clast mesh check",
-            share[b]);
+        CLX_CHECK(share[b] > -1e-6 && share[b] < 1.0 + 1e-6, CLAST_E_GEOMETRY,
+                  "the surface encloses a point %.3g times: parts overlap or are turned inside "
+                  "out; see clast mesh check",
+                  share[b]);
         share[b] = snapped(share[b]);
     }
 done:

@@ -4,15 +4,14 @@
 #include "base/alloc.h"
 #include "geom/hull.h"
 #include "geom/qhull_call.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 #include <string.h>
 
 void clx_delaunay_free(clx_delaunay *c)
 {
-    clx_free(c->tet);
-    clx_free(c->faces);
-    clx_free(c->neighbour);
+    CLX_FREE(c->tet, c->faces, c->neighbour);
     *c = (clx_delaunay){0};
 }
 
@@ -41,9 +40,7 @@ static double circumradius(double p[4][3])
 
 static int compare_ints(const void *a, const void *b)
 {
-    const int32_t x = *(const int32_t *)a;
-    const int32_t y = *(const int32_t *)b;
-    return (x > y) - (x < y);
+    return clx_compare_ints(a, b, 1);
 }
 
 static int compare_tets(const void *a, const void *b)
@@ -58,12 +55,8 @@ static int compare_faces(const void *a, const void *b)
 {
     const clx_delaunay_face *p = a;
     const clx_delaunay_face *q = b;
-    for (int k = 0; k < 3; ++k) {
-        if (p->corner[k] != q->corner[k]) {
-            return p->corner[k] < q->corner[k] ? -1 : 1;
-        }
-    }
-    return (p->tet > q->tet) - (p->tet < q->tet);
+    const int order = clx_compare_ints(p->corner, q->corner, 3);
+    return order != 0 ? order : (p->tet > q->tet) - (p->tet < q->tet);
 }
 
 typedef struct {

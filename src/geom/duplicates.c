@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "geom/topology.h"
 #include "geom/union_find.h"
+#include "math/sort.h"
 #include <clast/mesh.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,12 +26,8 @@ static int compare_sorted(const void *a, const void *b)
 {
     const sorted_triangle *p = a;
     const sorted_triangle *q = b;
-    for (int k = 0; k < 3; ++k) {
-        if (p->corner[k] != q->corner[k]) {
-            return p->corner[k] < q->corner[k] ? -1 : 1;
-        }
-    }
-    return (p->tri > q->tri) - (p->tri < q->tri);
+    const int order = clx_compare_ints(p->corner, q->corner, 3);
+    return order != 0 ? order : (p->tri > q->tri) - (p->tri < q->tri);
 }
 
 static sorted_triangle sort_corners(const int32_t tri[3], int32_t t)
@@ -92,11 +89,7 @@ done:
 
 static void free_facets(facets *f)
 {
-    clx_free(f->sorted);
-    clx_free(f->place);
-    clx_free(f->patch);
-    clx_free(f->vote);
-    clx_free(f->is_copy);
+    CLX_FREE(f->sorted, f->place, f->patch, f->vote, f->is_copy);
 }
 
 /// @return places with several triangles

@@ -3,6 +3,7 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 
@@ -10,8 +11,7 @@ enum { MOST_FACES = 2048 };
 
 void clx_face_shadows_free(clx_face_shadows *shadows)
 {
-    clx_free(shadows->face);
-    clx_free(shadows->area);
+    CLX_FREE(shadows->face, shadows->area);
     *shadows = (clx_face_shadows){0};
 }
 
@@ -63,15 +63,7 @@ done:
     return status;
 }
 
-static int compare_views(const void *a, const void *b)
-{
-    const clx_face_view *p = a;
-    const clx_face_view *q = b;
-    if (p->least != q->least) {
-        return p->least < q->least ? -1 : 1;
-    }
-    return p->face < q->face ? -1 : 1;
-}
+CLX_RISING_BY_TWO(compare_views, clx_face_view, least, face)
 
 /// Widths and shadows along the faces' normals, several at a time.
 static void measure_views(const clx_hull_body *body, clx_face_views *views)

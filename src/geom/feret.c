@@ -242,8 +242,6 @@ clast_status clx_hull_body_feret(const clx_hull_body *body, const clx_chords *ch
     v3_copy(feret->shortest_axis, w.axis);
     feret->shortest = clx_hull_body_width(body, w.axis);
 done:
-    clx_free(opposite);
-    clx_free(is_tried);
-    clx_free(w.chord);
+    CLX_FREE(opposite, is_tried, w.chord);
     return status;
 }

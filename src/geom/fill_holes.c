@@ -52,16 +52,8 @@ typedef struct {
 
 static void filler_free(filler *f)
 {
-    clx_free(f->first);
-    clx_free(f->place);
-    clx_free(f->cost);
-    clx_free(f->bad);
-    clx_free(f->split);
-    clx_free(f->stack);
-    clx_free(f->sheets.of);
-    clx_free(f->sheets.next);
-    clx_free(f->sheets.n_border);
-    clx_free(f->sheets.area);
+    CLX_FREE(f->first, f->place, f->cost, f->bad, f->split, f->stack, f->sheets.of, f->sheets.next,
+             f->sheets.n_border, f->sheets.area);
     clx_polygon_cutter_free(&f->cutter);
 }
 

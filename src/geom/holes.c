@@ -23,12 +23,7 @@ typedef struct {
 
 static void walk_free(loop_walk *w)
 {
-    clx_free(w->first);
-    clx_free(w->arc);
-    clx_free(w->end);
-    clx_free(w->used);
-    clx_free(w->place);
-    clx_free(w->path);
+    CLX_FREE(w->first, w->arc, w->end, w->used, w->place, w->path);
     *w = (loop_walk){0};
 }
 
@@ -170,8 +165,7 @@ clast_status clx_loops_find_directed(const clast_mesh *mesh, const clx_topology 
 
 void clx_loops_free(clx_loops *loops)
 {
-    clx_free(loops->begin);
-    clx_free(loops->vertex);
+    CLX_FREE(loops->begin, loops->vertex);
     *loops = (clx_loops){0};
 }
 

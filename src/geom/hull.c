@@ -12,6 +12,7 @@
 #include "base/status.h"
 #include "geom/qhull_call.h"
 #include "geom/whole.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <stdlib.h>
@@ -104,14 +105,7 @@ static clast_status scaled_points(const double (*point)[3], int64_t n, double **
 
 static int compare_triangles(const void *a, const void *b)
 {
-    const int32_t *p = a;
-    const int32_t *q = b;
-    for (int k = 0; k < 3; ++k) {
-        if (p[k] != q[k]) {
-            return p[k] < q[k] ? -1 : 1;
-        }
-    }
-    return 0;
+    return clx_compare_ints(a, b, 3);
 }
 
 /// Turns a triangle so that its smallest number comes first.

@@ -15,15 +15,8 @@ static const double FLAT = 1e-13; // of the extent, as clast_mesh_hull
 
 void clx_hull_body_free(clx_hull_body *body)
 {
-    clx_free(body->vert);
-    clx_free(body->face);
-    clx_free(body->twin);
-    clx_free(body->half_at);
-    clx_free(body->normal);
-    clx_free(body->area);
-    clx_free(body->edge);
-    clx_free(body->begin);
-    clx_free(body->neighbour);
+    CLX_FREE(body->vert, body->face, body->twin, body->half_at, body->normal, body->area,
+             body->edge, body->begin, body->neighbour);
     *body = (clx_hull_body){0};
 }
 
@@ -249,10 +242,7 @@ clast_status clx_hull_body_make(const clast_mesh *mesh, clx_hull_body *body)
     *body = made;
     made = (clx_hull_body){0};
 done:
-    clx_free(tag);
-    clx_free(vert_number);
-    clx_free(face_number);
-    clx_free(slot_of);
+    CLX_FREE(tag, vert_number, face_number, slot_of);
     clx_hull_inc_free(&hull);
     clx_hull_body_free(&made);
     return status;

@@ -103,22 +103,6 @@ static void insert_box(clx_box candidate[CANDIDATES], int *n_candidate, const cl
     candidate[at] = *box;
 }
 
-static void sort_edges(clx_box *box)
-{
-    CLAST_ASSERT(box->edge[0] >= 0.0 && box->edge[1] >= 0.0 && box->edge[2] >= 0.0);
-    for (int i = 1; i < 3; ++i) {
-        for (int j = i; j > 0 && box->edge[j] > box->edge[j - 1]; --j) {
-            double axis[3];
-            const double edge = box->edge[j];
-            box->edge[j] = box->edge[j - 1];
-            box->edge[j - 1] = edge;
-            v3_copy(axis, box->axis[j]);
-            v3_copy(box->axis[j], box->axis[j - 1]);
-            v3_copy(box->axis[j - 1], axis);
-        }
-    }
-}
-
 /// A box on a face that may be among the least few.
 typedef struct {
     int32_t face;
@@ -289,7 +273,8 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_chords
     for (int k = 0; k < 3; ++k) {
         best.edge[k] = clx_hull_body_width(body, best.axis[k]);
     }
-    sort_edges(&best);
+    CLAST_ASSERT(best.edge[0] >= 0.0 && best.edge[1] >= 0.0 && best.edge[2] >= 0.0);
+    v3_sort_axes(best.edge, best.axis);
     *box = best;
 done:
     clx_free(boxes.at);

@@ -20,19 +20,9 @@ enum { MOST_AHEAD = 1024 }; ///< points for whose hull there is room before they
 
 void clx_hull_inc_free(clx_hull_inc *hull)
 {
-    clx_free(hull->facet);
-    clx_free(hull->vert);
-    clx_free(hull->free_facet);
-    clx_free(hull->free_vert);
-    clx_free(hull->pending);
-    clx_free(hull->pending_tag);
-    clx_free(hull->next);
-    clx_free(hull->candidate);
-    clx_free(hull->plane);
-    clx_free(hull->work);
-    clx_free(hull->visible);
-    clx_free(hull->horizon);
-    clx_free(hull->fresh);
+    CLX_FREE(hull->facet, hull->vert, hull->free_facet, hull->free_vert, hull->pending,
+             hull->pending_tag, hull->next, hull->candidate, hull->plane, hull->work, hull->visible,
+             hull->horizon, hull->fresh);
     *hull = (clx_hull_inc){0};
 }
 
@@ -695,8 +685,7 @@ clast_status clx_hull_inc_compact(clx_hull_inc *hull)
     hull->n_free_facet = 0;
     hull->n_free_vert = 0;
 done:
-    clx_free(facet);
-    clx_free(vert);
+    CLX_FREE(facet, vert);
     return status;
 }
 

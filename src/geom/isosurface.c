@@ -6,8 +6,8 @@
 #include "geom/isosurface.h"
 
 #include "base/alloc.h"
-#include "math/vec3.h"
 #include <clast/mesh.h>
+#include <math.h>
 
 const int8_t clx_grid_neighbour[CLX_GRID_NEIGHBOURS][3] = {
     {1, 0, 0},  {0, 1, 0},  {1, 1, 0},   {0, 0, 1},  {1, 0, 1},   {0, 1, 1},   {1, 1, 1},
@@ -237,7 +237,6 @@ clast_status clx_isosurface(const clx_grid *grid, double level, double apart, cl
     m.mesh = (clast_mesh){0};
 done:
     clast_mesh_free(&m.mesh);
-    clx_free(m.layer[0]);
-    clx_free(m.layer[1]);
+    CLX_FREE(m.layer[0], m.layer[1]);
     return status;
 }

@@ -154,7 +154,6 @@ clast_status clast_mesh_length(const clast_mesh *mesh, double *length)
     }
     *length = sqrt(tree.best2);
 done:
-    clx_free(tree.point);
-    clx_free(tree.node);
+    CLX_FREE(tree.point, tree.node);
     return status;
 }

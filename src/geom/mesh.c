@@ -12,8 +12,7 @@ void clast_mesh_free(clast_mesh *mesh)
     if (mesh == NULL) {
         return;
     }
-    clx_free(mesh->vert);
-    clx_free(mesh->tri);
+    CLX_FREE(mesh->vert, mesh->tri);
     *mesh = (clast_mesh){0};
 }
 

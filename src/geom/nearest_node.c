@@ -118,9 +118,6 @@ clast_status clx_nearest_node(const int32_t n[3], const uint8_t *marked, int32_t
     t.axis = 2;
     clx_parallel_for((int64_t)n[0] * n[1], ROWS_A_BLOCK, envelop_lines, &t);
 done:
-    clx_free(t.apex);
-    clx_free(t.was);
-    clx_free(t.from);
-    clx_free(t.height);
+    CLX_FREE(t.apex, t.was, t.from, t.height);
     return status;
 }

@@ -7,7 +7,6 @@
 #include "geom/topology.h"
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
-#include <stdlib.h>
 
 static void turn_over(clast_mesh *mesh, int32_t t)
 {
@@ -95,8 +94,7 @@ clast_status clx_orient_alike(clast_mesh *mesh, bool *turned, int32_t n_known, i
     }
 done:
     clx_topology_free(&topology);
-    clx_free(f.side);
-    clx_free(f.queue);
+    CLX_FREE(f.side, f.queue);
     return status;
 }
 

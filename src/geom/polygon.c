@@ -23,12 +23,7 @@ enum {
 
 void clx_polygon_cutter_free(clx_polygon_cutter *c)
 {
-    clx_free(c->flat);
-    clx_free(c->next);
-    clx_free(c->prev);
-    clx_free(c->reflex);
-    clx_free(c->is_tried);
-    clx_free(c->is_reflex);
+    CLX_FREE(c->flat, c->next, c->prev, c->reflex, c->is_tried, c->is_reflex);
     *c = (clx_polygon_cutter){0};
 }
 

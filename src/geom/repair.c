@@ -191,9 +191,7 @@ static void free_parts(parts *p)
 {
     clx_topology_free(&p->topology);
     clast_mesh_check_free(&p->found);
-    clx_free(p->of_triangle);
-    clx_free(p->parent);
-    clx_free(p->is_dropped);
+    CLX_FREE(p->of_triangle, p->parent, p->is_dropped);
 }
 
 /// Drops the triangles of parts that are marked, and those of no part if so asked.

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "geom/topology.h"
 #include "geom/union_find.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <stdlib.h>
@@ -19,15 +20,7 @@ typedef struct {
     bool forward; ///< runs from the lower to the higher vertex
 } wedge_side;
 
-static int compare_sides(const void *a, const void *b)
-{
-    const wedge_side *p = a;
-    const wedge_side *q = b;
-    if (p->angle != q->angle) {
-        return p->angle < q->angle ? -1 : 1;
-    }
-    return (p->half > q->half) - (p->half < q->half);
-}
+CLX_RISING_BY_TWO(compare_sides, wedge_side, angle, half)
 
 /// Joins the two corners at each end of the edge of two half-edges.
 static void join_users(const clast_mesh *mesh, const int32_t edge[2], int32_t h, int32_t g,
@@ -130,8 +123,7 @@ static clast_status double_vertices(clast_mesh *mesh, const clx_topology *topolo
     *n_separated += (int32_t)(n_new - mesh->n_vert);
     mesh->n_vert = (int32_t)n_new;
 done:
-    clx_free(number);
-    clx_free(taken);
+    CLX_FREE(number, taken);
     return status;
 }
 
@@ -157,8 +149,6 @@ clast_status clx_separate(clast_mesh *mesh, int32_t *n_separated)
     CLX_TRY(double_vertices(mesh, &topology, set, n_separated));
 done:
     clx_topology_free(&topology);
-    clx_free(set);
-    clx_free(side);
-    clx_free(open);
+    CLX_FREE(set, side, open);
     return status;
 }

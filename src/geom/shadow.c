@@ -2,6 +2,7 @@
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 #include <string.h>
@@ -23,10 +24,7 @@ done:
 
 void clx_shadow_free(clx_shadow *shadow)
 {
-    clx_free(shadow->point);
-    clx_free(shadow->next);
-    clx_free(shadow->up);
-    clx_free(shadow->spare);
+    CLX_FREE(shadow->point, shadow->next, shadow->up, shadow->spare);
     *shadow = (clx_shadow){0};
 }
 
@@ -41,14 +39,7 @@ double clx_shadow_area(const clx_hull_body *body, const double direction[3])
 
 static int compare_points(const void *a, const void *b)
 {
-    const double *p = a;
-    const double *q = b;
-    for (int k = 0; k < 2; ++k) {
-        if (p[k] != q[k]) {
-            return p[k] < q[k] ? -1 : 1;
-        }
-    }
-    return 0;
+    return clx_compare_doubles(a, b, 2);
 }
 
 /// Twice the area of a triangle, positive when a, b, c turn left.

@@ -33,9 +33,7 @@ typedef struct {
 static void simplifier_free(simplifier *s)
 {
     clx_thinning_free(&s->thin);
-    clx_free(s->heap);
-    clx_free(s->life);
-    clx_free(s->touch);
+    CLX_FREE(s->heap, s->life, s->touch);
 }
 
 static bool is_cheaper(const heap_edge *a, const heap_edge *b)
@@ -195,17 +193,15 @@ static clast_status check_solid(const clast_mesh *mesh, const clx_topology *topo
     for (int32_t c = 0; c < 3 * mesh->n_tri; c += 3) {
         n_bad += topology->edge_of[c] < 0;
     }
-    CLX_CHECK(
-        n_bad == 0, CLAST_E_GEOMETRY,
-        "simplify needs a closed, oriented manifold; %d edges, vertices or triangles are not: "
-        "run `clast mesh check`, then `clast mesh repair`",
-        n_bad);
+    CLX_CHECK(n_bad == 0, CLAST_E_GEOMETRY,
+              "simplify needs a closed, oriented manifold; %d edges, vertices or triangles are "
+              "not: run `clast mesh check`, then `clast mesh repair`",
+              n_bad);
     CLX_CHECK(clx_cone_volume(mesh) > 0.0, CLAST_E_GEOMETRY,
               "simplify needs a surface of positive volume, not %g: run `clast mesh repair`",
               clx_cone_volume(mesh));
 done:
-    clx_free(fan);
-    clx_free(n_fan);
+    CLX_FREE(fan, n_fan);
     return status;
 }
 

@@ -14,12 +14,7 @@ enum { MAX_POINTS = 1000000, PRUNE_STEP = 24, COMPACT_STEP = 64 };
 void clx_smooth_hull_free(clx_smooth_hull *hull)
 {
     clx_hull_inc_free(&hull->inner);
-    clx_free(hull->body);
-    clx_free(hull->exposed);
-    clx_free(hull->balls);
-    clx_free(hull->touch);
-    clx_free(hull->touch_tag);
-    clx_free(hull->wait);
+    CLX_FREE(hull->body, hull->exposed, hull->balls, hull->touch, hull->touch_tag, hull->wait);
     *hull = (clx_smooth_hull){0};
 }
 

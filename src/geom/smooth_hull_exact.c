@@ -61,10 +61,7 @@ typedef struct tip {
 
 static void scratch_free(scratch *s)
 {
-    clx_free(s->seam);
-    clx_free(s->dual);
-    clx_free(s->patch);
-    clx_free(s->is_bad);
+    CLX_FREE(s->seam, s->dual, s->patch, s->is_bad);
     *s = (scratch){0};
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "geom/union_find.h"
+#include "math/sort.h"
 #include <clast/mesh.h>
 #include <stdlib.h>
 
@@ -11,15 +12,7 @@ typedef struct {
     int32_t half;
 } edge_use;
 
-static int compare_uses(const void *a, const void *b)
-{
-    const edge_use *p = a;
-    const edge_use *q = b;
-    if (p->high != q->high) {
-        return p->high < q->high ? -1 : 1;
-    }
-    return (p->half > q->half) - (p->half < q->half);
-}
+CLX_RISING_BY_TWO(compare_uses, edge_use, high, half)
 
 /// Buckets are short (half the valence of a vertex), so insertion beats qsort; qsort bounds the
 /// rest.
@@ -136,18 +129,14 @@ clast_status clx_topology_build(const clast_mesh *mesh, clx_topology *topology)
     *topology = made;
     made = (clx_topology){0};
 done:
-    clx_free(end);
-    clx_free(use);
+    CLX_FREE(end, use);
     clx_topology_free(&made);
     return status;
 }
 
 void clx_topology_free(clx_topology *topology)
 {
-    clx_free(topology->edge);
-    clx_free(topology->begin);
-    clx_free(topology->half);
-    clx_free(topology->edge_of);
+    CLX_FREE(topology->edge, topology->begin, topology->half, topology->edge_of);
     *topology = (clx_topology){0};
 }
 

@@ -413,8 +413,7 @@ static clast_status build_along(clx_tree_box *box, int32_t leaf_size, clx_tree *
     c->node = tree->node;
     clx_parallel_for(c->n, 1, copy_subtrees, c);
 done:
-    clx_free(made);
-    clx_free(c);
+    CLX_FREE(made, c);
     return status;
 }
 
@@ -452,7 +451,6 @@ done:
 
 void clx_tree_free(clx_tree *tree)
 {
-    clx_free(tree->node);
-    clx_free(tree->item);
+    CLX_FREE(tree->node, tree->item);
     *tree = (clx_tree){0};
 }

@@ -69,7 +69,6 @@ done:
 
 void clx_vertex_set_free(clx_vertex_set *set)
 {
-    clx_free(set->vert);
-    clx_free(set->slot);
+    CLX_FREE(set->vert, set->slot);
     *set = (clx_vertex_set){0};
 }

@@ -131,8 +131,7 @@ clast_status clx_weld_map(const clast_mesh *mesh, const clx_weld_rule *rule, int
         }
     }
 done:
-    clx_free(grid.head);
-    clx_free(grid.next);
+    CLX_FREE(grid.head, grid.next);
     return status;
 }
 
@@ -188,12 +187,7 @@ typedef struct {
 
 static void search_free(weld_search *w)
 {
-    clx_free(w->open);
-    clx_free(w->order);
-    clx_free(w->max_shift);
-    clx_free(w->rim.tri);
-    clx_free(w->scratch);
-    clx_free(w->map);
+    CLX_FREE(w->open, w->order, w->max_shift, w->rim.tri, w->scratch, w->map);
 }
 
 typedef struct {

@@ -14,8 +14,7 @@ void clast_aggregate_report_free(clast_aggregate_report *report)
     if (report == NULL) {
         return;
     }
-    clx_free(report->result);
-    clx_free(report->folder);
+    CLX_FREE(report->result, report->folder);
     *report = (clast_aggregate_report){0};
 }
 

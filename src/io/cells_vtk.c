@@ -21,9 +21,7 @@ typedef struct {
 
 static void free_boxes(boxes *b)
 {
-    clx_free(b->low);
-    clx_free(b->high);
-    clx_free(b->cell);
+    CLX_FREE(b->low, b->high, b->cell);
 }
 
 static clast_status add_box(boxes *b, const double low[3], const double high[3], int32_t cell)

@@ -503,8 +503,7 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
         }
     }
 done:
-    clx_free(is_repeated);
-    clx_free(wanted);
+    CLX_FREE(is_repeated, wanted);
     return status;
 }
 

@@ -251,9 +251,7 @@ clast_status clast_curve_parse(const char *name, const void *bytes, size_t n, cl
     CLX_TRY(make_curve(&r, curve));
 done:
     clast_table_free(&table);
-    clx_free(r.row);
-    clx_free(r.sieve);
-    clx_free(r.mass);
+    CLX_FREE(r.row, r.sieve, r.mass);
     return status;
 }
 

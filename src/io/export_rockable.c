@@ -320,8 +320,7 @@ static clast_status put_configuration(clx_file *file, const clast_assembly *a, c
     }
     CLX_TRY(put_particles(file, a, group, rotation));
 done:
-    clx_free(group);
-    clx_free(density);
+    CLX_FREE(group, density);
     return status;
 }
 

@@ -130,18 +130,12 @@ void clx_h5_close(clx_h5 *h5)
     for (int64_t i = 0; h5 != NULL && i < h5->n; ++i) {
         clx_h5_node *node = &h5->node[i];
         for (int64_t k = 0; k < node->n_attribute; ++k) {
-            clx_free(node->attribute[k].name);
-            clx_free(node->attribute[k].value);
+            CLX_FREE(node->attribute[k].name, node->attribute[k].value);
         }
-        clx_free(node->attribute);
-        clx_free(node->data);
-        clx_free(node->name);
+        CLX_FREE(node->attribute, node->data, node->name);
     }
     if (h5 != NULL) {
-        clx_free(h5->node);
-        clx_free(h5->slot);
-        clx_free(h5->member);
-        clx_free(h5);
+        CLX_FREE(h5->node, h5->slot, h5->member, h5);
     }
 }
 

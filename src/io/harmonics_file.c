@@ -31,9 +31,7 @@ done:
 
 static void rows_free(series_rows *rows)
 {
-    clx_free(rows->plus);
-    clx_free(rows->minus);
-    clx_free(rows->seen);
+    CLX_FREE(rows->plus, rows->minus, rows->seen);
 }
 
 static clast_status add_row(clx_text *text, series_rows *rows)

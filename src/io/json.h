@@ -24,4 +24,4 @@ CLX_SHARED void clx_json_set_number(json_t *object, const char *key, double valu
 void clx_json_set_count(json_t *object, const char *key, int64_t value);
 
 /// The object as a text, of clx_alloc_text.
-clast_status clx_json_dump(const json_t *object, char **text);
+CLX_SHARED clast_status clx_json_dump(const json_t *object, char **text);

@@ -31,8 +31,7 @@ void clast_pack_unload(clast_pack_source *source)
     for (int32_t i = 0; i < source->n_shape; ++i) {
         clast_shape_free(&source->shape[i]);
     }
-    clx_free(source->shape);
-    clx_free(source->hull);
+    CLX_FREE(source->shape, source->hull);
     clast_mesh_free(&source->container);
     clast_mesh_free(&source->container_closed);
     clast_assembly_free(&source->start);

@@ -11,8 +11,7 @@ void clx_parts_free(clx_parts *parts)
     for (int32_t s = 0; parts->surface != NULL && s < parts->assembly->n_shape; ++s) {
         clast_mesh_free(&parts->surface[s]);
     }
-    clx_free(parts->surface);
-    clx_free(parts->vert);
+    CLX_FREE(parts->surface, parts->vert);
     *parts = (clx_parts){0};
 }
 

@@ -25,8 +25,7 @@ void clast_state_free(clast_state *state)
     for (int32_t i = 0; i < state->n_table; ++i) {
         clast_table_free(&state->table[i]);
     }
-    clx_free(state->table);
-    clx_free(state->config);
+    CLX_FREE(state->table, state->config);
     *state = (clast_state){0};
 }
 

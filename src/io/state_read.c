@@ -258,8 +258,7 @@ static clast_status take_rigid(clx_h5 *h5, const char *folder, clast_shape *shap
         CLX_TRY(check_part(p, &shape->mesh, folder));
     }
 done:
-    clx_free(id);
-    clx_free(number);
+    CLX_FREE(id, number);
     return status;
 }
 
@@ -417,8 +416,7 @@ static clast_status take_texts(clx_h5 *h5, const char *folder, const char *name,
     CLX_CHECK(begin != NULL && bytes != NULL, CLAST_E_FORMAT, "column %s is not there", name);
     CLX_TRY(fill_texts(table, table->n_column - 1, bytes, begin, n_byte));
 done:
-    clx_free(bytes);
-    clx_free(begin);
+    CLX_FREE(bytes, begin);
     return status;
 }
 
@@ -451,9 +449,7 @@ static clast_status take_column(clx_h5 *h5, const char *folder, int32_t c, clast
     }
 done:
     status = status == CLAST_E_USAGE ? CLAST_E_FORMAT : status; // two columns of one name
-    clx_free(title);
-    clx_free(unit);
-    clx_free(from);
+    CLX_FREE(title, unit, from);
     return status;
 }
 

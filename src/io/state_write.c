@@ -70,8 +70,7 @@ static clast_status put_rigid(clx_h5 *h5, const char *folder, const clast_parts 
     CLX_TRY(write_array((clx_place){h5, folder}, "part_id", CLX_H5_I32, parts->n, 5, id));
     CLX_TRY(write_array((clx_place){h5, folder}, "part", CLX_H5_F64, parts->n, 10, number));
 done:
-    clx_free(id);
-    clx_free(number);
+    CLX_FREE(id, number);
     return status;
 }
 
@@ -178,8 +177,7 @@ static clast_status put_text_column(clx_h5 *h5, const char *folder, const char *
     (void)snprintf(begin_name, sizeof begin_name, "%s_begin", name);
     CLX_TRY(write_array((clx_place){h5, folder}, begin_name, CLX_H5_I64, n_row + 1, 1, begin));
 done:
-    clx_free(begin);
-    clx_free(bytes);
+    CLX_FREE(begin, bytes);
     return status;
 }
 

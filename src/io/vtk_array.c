@@ -12,9 +12,7 @@
 
 void clx_vtk_free(clx_vtk_array *array)
 {
-    clx_free(array->block);
-    clx_free(array->packed);
-    clx_free(array->size);
+    CLX_FREE(array->block, array->packed, array->size);
     *array = (clx_vtk_array){0};
 }
 

@@ -11,8 +11,7 @@ void clx_walls_unload(int32_t n, clast_pack_wall *wall)
 {
     for (int32_t i = 0; wall != NULL && i < n; ++i) {
         clast_mesh_free(&wall[i].mesh);
-        clx_free(wall[i].motion.time);
-        clx_free(wall[i].motion.place);
+        CLX_FREE(wall[i].motion.time, wall[i].motion.place);
     }
     clx_free(wall);
 }

@@ -133,7 +133,6 @@ clast_status clx_yade_clumps(const clast_spheres *spheres, const double *clump, 
         }
     }
 done:
-    clx_free(rows);
-    clx_free(first);
+    CLX_FREE(rows, first);
     return status;
 }

@@ -107,7 +107,6 @@ clast_status clx_bootstrap_moments(const clast_bootstrap *bootstrap, const doubl
     CLX_TRY(interval(bootstrap, w.mean, &summary->mean_low, &summary->mean_high));
     CLX_TRY(interval(bootstrap, w.deviation, &summary->deviation_low, &summary->deviation_high));
 done:
-    clx_free(w.mean);
-    clx_free(w.deviation);
+    CLX_FREE(w.mean, w.deviation);
     return status;
 }

@@ -114,9 +114,7 @@ void clast_histogram_free(clast_histogram *histogram)
     if (histogram == NULL) {
         return;
     }
-    clx_free(histogram->edge);
-    clx_free(histogram->count);
-    clx_free(histogram->density);
+    CLX_FREE(histogram->edge, histogram->count, histogram->density);
     *histogram = (clast_histogram){0};
 }
 

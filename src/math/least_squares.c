@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "math/rng.h"
+#include "math/sort.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,11 +23,7 @@ typedef struct {
 
 static void free_scratch(scratch *w)
 {
-    clx_free(w->a);
-    clx_free(w->s);
-    clx_free(w->vt);
-    clx_free(w->length);
-    clx_free(w->uty);
+    CLX_FREE(w->a, w->s, w->vt, w->length, w->uty);
     *w = (scratch){0};
 }
 
@@ -135,10 +132,7 @@ static void measure_fit(const double *x, const double *y, const scratch *w, clx_
 
 void clx_least_squares_free(clx_least_squares *fit)
 {
-    clx_free(fit->b);
-    clx_free(fit->covariance);
-    clx_free(fit->fitted);
-    clx_free(fit->leverage);
+    CLX_FREE(fit->b, fit->covariance, fit->fitted, fit->leverage);
     *fit = (clx_least_squares){0};
 }
 
@@ -218,9 +212,7 @@ clast_status clx_cross_validate(const clx_regression *data, const int32_t *fold,
         }
     }
 done:
-    clx_free(t.x);
-    clx_free(t.y);
-    clx_free(t.b);
+    CLX_FREE(t.x, t.y, t.b);
     return status;
 }
 
@@ -229,13 +221,7 @@ typedef struct {
     int64_t row;
 } ticket;
 
-static int by_draw(const void *a, const void *b)
-{
-    const ticket *p = a;
-    const ticket *q = b;
-    return p->draw != q->draw ? (p->draw < q->draw ? -1 : 1)
-                              : (p->row > q->row) - (p->row < q->row);
-}
+CLX_RISING_BY_TWO(by_draw, ticket, draw, row)
 
 clast_status clx_folds(uint64_t seed, int32_t repeat, int64_t n, int32_t n_fold, int32_t *fold)
 {

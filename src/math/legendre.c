@@ -36,9 +36,7 @@ done:
 
 void clx_legendre_free(clx_legendre *legendre)
 {
-    clx_free(legendre->up);
-    clx_free(legendre->down);
-    clx_free(legendre->slope);
+    CLX_FREE(legendre->up, legendre->down, legendre->slope);
     *legendre = (clx_legendre){0};
 }
 

@@ -41,7 +41,6 @@ clast_status clx_symmetric_eigen(const double *matrix, int32_t n, double *value,
         orient(vector + (size_t)k * (size_t)n, n);
     }
 done:
-    clx_free(a);
-    clx_free(w);
+    CLX_FREE(a, w);
     return status;
 }

@@ -11,7 +11,6 @@
 #include "base/status.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 static const double unit_roundoff = 0x1p-53;
 static const double splitter = 0x1p27 + 1.0;

@@ -130,7 +130,6 @@ clast_status clast_shapiro_wilk(const double *x, int64_t n, double *w, double *p
     *w = fmin(fmax(1.0 - one_minus_w(sorted, n, a, &m), 0.0), 1.0);
     *p = p_value(*w, n);
 done:
-    clx_free(sorted);
-    clx_free(a);
+    CLX_FREE(sorted, a);
     return status;
 }

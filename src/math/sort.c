@@ -224,8 +224,7 @@ static clast_status sort_entries(uint64_t *entry, int64_t n, int words)
         sort_many(&s);
     }
 done:
-    clx_free(s.scratch);
-    clx_free(s.at);
+    CLX_FREE(s.scratch, s.at);
     return status;
 }
 

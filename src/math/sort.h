@@ -26,6 +26,45 @@ static inline int clx_by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/// The order of n numbers: of the first that differ.
+static inline int clx_compare_doubles(const double *a, const double *b, int32_t n)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        if (a[k] != b[k]) {
+            return a[k] < b[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static inline int clx_compare_ints(const int32_t *a, const int32_t *b, int32_t n)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        if (a[k] != b[k]) {
+            return a[k] < b[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/// Defines a comparison for qsort: items of a type in rising order of one member, or of a second
+/// where the first is equal.
+#define CLX_RISING(name, type, member)                                                             \
+    static int name(const void *a, const void *b)                                                  \
+    {                                                                                              \
+        const type *x = a;                                                                         \
+        const type *y = b;                                                                         \
+        return (x->member > y->member) - (x->member < y->member);                                  \
+    }
+#define CLX_RISING_BY_TWO(name, type, first, second)                                               \
+    static int name(const void *a, const void *b)                                                  \
+    {                                                                                              \
+        const type *x = a;                                                                         \
+        const type *y = b;                                                                         \
+        return x->first != y->first ? (x->first > y->first) - (x->first < y->first)                \
+                                    : (x->second > y->second) - (x->second < y->second);           \
+    }
+
 /// Whether n doubles never fall.
 static inline bool clx_is_rising(const double *value, int64_t n)
 {

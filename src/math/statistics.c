@@ -91,14 +91,9 @@ void clast_statistics_free(clast_statistics *statistics)
     for (int32_t k = 0; statistics->name != NULL && k < statistics->n; ++k) {
         clx_free(statistics->name[k]);
     }
-    clx_free(statistics->name);
-    clx_free(statistics->summary);
-    clx_free(statistics->r);
-    clx_free(statistics->r_p);
-    clx_free(statistics->pca_column);
-    clx_free(statistics->variance);
-    clx_free(statistics->explained);
-    clx_free(statistics->loading);
+    CLX_FREE(statistics->name, statistics->summary, statistics->r, statistics->r_p,
+             statistics->pca_column, statistics->variance, statistics->explained,
+             statistics->loading);
     *statistics = (clast_statistics){0};
 }
 

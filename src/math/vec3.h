@@ -185,6 +185,22 @@ static inline void q_from_matrix(double q[4], double m[3][3])
     }
 }
 
+/// Three axes in the order of their lengths, greatest first; equal ones stay as they are.
+static inline void v3_sort_axes(double length[3], double axis[3][3])
+{
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i; j > 0 && length[j] > length[j - 1]; --j) {
+            double last[3];
+            const double l = length[j];
+            length[j] = length[j - 1];
+            length[j - 1] = l;
+            v3_copy(last, axis[j]);
+            v3_copy(axis[j], axis[j - 1]);
+            v3_copy(axis[j - 1], last);
+        }
+    }
+}
+
 /// out = a b: first b, then a.
 static inline void q_mul(double out[4], const double a[4], const double b[4])
 {

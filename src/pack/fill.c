@@ -399,9 +399,6 @@ clast_status clx_pack_fill(clast_pack *p)
         p->fill_step = clast_dem_n_step(p->dem);
     }
 done:
-    clx_free(f.grain);
-    clx_free(f.radius);
-    clx_free(f.wide);
-    clx_free(f.taken);
+    CLX_FREE(f.grain, f.radius, f.wide, f.taken);
     return status;
 }

@@ -293,8 +293,6 @@ clast_status clx_pack_materials_begin(clast_pack *p)
     }
     CLX_TRY(apply(p, &m, of_shape));
 done:
-    clx_free(m.name);
-    clx_free(m.table);
-    clx_free(of_shape);
+    CLX_FREE(m.name, m.table, of_shape);
     return status;
 }

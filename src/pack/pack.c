@@ -198,12 +198,7 @@ void clast_pack_destroy(clast_pack *pack)
     clast_table_free(&pack->series);
     clast_table_free(&pack->load.table);
     clast_table_free(&pack->walls);
-    clx_free(pack->wall);
-    clx_free(pack->outlet);
-    clx_free(pack->unit_size);
-    clx_free(pack->weight);
-    clx_free(pack->waiting);
-    clx_free(pack);
+    CLX_FREE(pack->wall, pack->outlet, pack->unit_size, pack->weight, pack->waiting, pack);
 }
 
 static int64_t steps_of(const clast_pack *p, double time)

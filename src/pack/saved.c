@@ -12,8 +12,7 @@
 void clx_pack_saved_free(clx_pack_saved *saved)
 {
     clx_dem_saved_free(&saved->dem);
-    clx_free(saved->waiting);
-    clx_free(saved->wall);
+    CLX_FREE(saved->waiting, saved->wall);
     *saved = (clx_pack_saved){0};
 }
 

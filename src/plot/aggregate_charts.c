@@ -7,8 +7,10 @@
 
 #include "aggregate/history.h"
 #include "base/alloc.h"
+#include "base/path.h"
 #include "base/status.h"
 #include "math/sort.h"
+#include "plot/series.h"
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
@@ -100,10 +102,7 @@ bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const clast_table *
 
 static void free_line(line *l)
 {
-    clx_free(l->x);
-    clx_free(l->y);
-    clx_free(l->low);
-    clx_free(l->high);
+    CLX_FREE(l->x, l->y, l->low, l->high);
     *l = (line){0};
 }
 
@@ -147,12 +146,7 @@ typedef struct {
     double x, y;
 } pair;
 
-static int by_x(const void *a, const void *b)
-{
-    const pair *p = a;
-    const pair *q = b;
-    return p->x != q->x ? (p->x < q->x ? -1 : 1) : (p->y > q->y) - (p->y < q->y);
-}
+CLX_RISING_BY_TWO(by_x, pair, x, y)
 
 /// Mean and one standard deviation to either side of pairs of equal x; of what has no negative
 /// values the band begins at 0.
@@ -275,13 +269,7 @@ typedef struct {
     double low, high, count;
 } size_bin;
 
-static int by_bin(const void *a, const void *b)
-{
-    const size_bin *p = a;
-    const size_bin *q = b;
-    return p->low != q->low ? (p->low > q->low) - (p->low < q->low)
-                            : (p->high > q->high) - (p->high < q->high);
-}
+CLX_RISING_BY_TWO(by_bin, size_bin, low, high)
 
 /// Share of the wanted grains that are finer, straight within each bin; a list comes in any order.
 static clast_status wanted_line(const clast_table *wanted, line *out)
@@ -380,14 +368,8 @@ static void make_series(drawing *d)
     for (int32_t i = 0; i < d->n_line; ++i) {
         const line *l = &d->lines[i];
         if (l->has_band) {
-            d->series[d->n_series++] =
-                (clast_series){.kind = CLAST_SERIES_BAND,
-                               .label = i == 0 ? "\302\261 1 s.d. of the repeats" : NULL,
-                               .x = l->x,
-                               .low = l->low,
-                               .high = l->high,
-                               .n = l->n,
-                               .colour = i % 8};
+            d->series[d->n_series++] = clx_band(i == 0 ? "\302\261 1 s.d. of the repeats" : NULL,
+                                                l->x, l->low, l->high, l->n, i % 8);
         }
     }
     for (int32_t i = 0; i < d->n_line; ++i) {
@@ -470,7 +452,7 @@ clast_status clast_aggregate_charts_write(const clast_table *history, const clas
         CLX_WHOLE(table, wanted);
     }
     clast_status status = CLAST_OK;
-    char path[4096];
+    char path[CLX_PATH_LIMIT];
     for (int32_t k = 0; k < CLAST_AGGREGATE_CHART_RADIAL; ++k) {
         const clast_aggregate_chart chart = (clast_aggregate_chart)k;
         const int length =

@@ -91,8 +91,7 @@ clast_status clast_chart_chains(const clast_table *chains, const char *unit, con
     CLX_TRY(clast_chart_write(&chart, path));
 done:
     for (int s = 0; s <= N_STEP; ++s) {
-        clx_free(all[s].x);
-        clx_free(all[s].y);
+        CLX_FREE(all[s].x, all[s].y);
     }
     return status;
 }

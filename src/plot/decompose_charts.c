@@ -6,6 +6,7 @@
 #include "cloud/contract.h"
 #include "cloud/whole.h"
 #include "math/sort.h"
+#include "plot/series.h"
 #include <clast/cloud.h>
 #include <math.h>
 #include <stdio.h>
@@ -61,12 +62,7 @@ static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells
             y[n++] = cloud->x[i * cloud->dimension + 1];
         }
     }
-    return (clast_series){.kind = CLAST_SERIES_POINTS,
-                          .label = legend[group],
-                          .x = x,
-                          .y = y,
-                          .n = n,
-                          .colour = colour[group]};
+    return clx_series(CLAST_SERIES_POINTS, legend[group], x, y, n, colour[group]);
 }
 
 /// Points coloured by the density of their cell, where cells have no labels; x, y and value hold
@@ -117,12 +113,8 @@ static clast_status draw_points(const clast_cloud *cloud, const clast_decomposit
     CLX_TRY(clx_alloc(&buffer, 2 * (N_GROUP * n_most + n_edge), sizeof *buffer));
     if (has_edges) {
         double *x = buffer + (int64_t)2 * N_GROUP * n_most;
-        series[n_series++] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                            .label = "cells",
-                                            .x = x,
-                                            .y = x + n_edge,
-                                            .n = outline(&r->cells, x, x + n_edge),
-                                            .colour = -1};
+        series[n_series++] = clx_series(CLAST_SERIES_LINE, "cells", x, x + n_edge,
+                                        outline(&r->cells, x, x + n_edge), -1);
     }
     const bool has_labels = clast_cells_are_labelled(&r->cells);
     if (!has_labels) {
@@ -176,8 +168,7 @@ static clast_status draw_density(const clast_decomposition *r, const char *path)
             y[n++] = (double)(b + 1) / (double)n_bin;
         }
     }
-    series[n_series++] = (clast_series){
-        .kind = CLAST_SERIES_STEP, .label = "share of bins", .x = x, .y = y, .n = n, .colour = 0};
+    series[n_series++] = clx_series(CLAST_SERIES_STEP, "share of bins", x, y, n, 0);
     for (int32_t k = 0; k < 2 * r->n_pass && k < 2 * MAX_PASS_DRAWN; ++k) {
         const bool is_lower = k % 2 == 1;
         static const char *const legend[2] = {"threshold", "lower threshold"};
@@ -198,8 +189,7 @@ static clast_status draw_density(const clast_decomposition *r, const char *path)
                                .n_series = n_series};
     CLX_TRY(clast_chart_write(&chart, path));
 done:
-    clx_free(sorted);
-    clx_free(buffer);
+    CLX_FREE(sorted, buffer);
     return status;
 }
 
@@ -288,19 +278,9 @@ static clast_status draw_events(const clast_decomposition *r, const char *path)
     }
     const double cap_x[2] = {0.0, most};
     const double cap_y[2] = {0.0, 0.5 * most};
-    const clast_series series[2] = {{.kind = CLAST_SERIES_POINTS,
-                                     .label = "cells",
-                                     .x = x,
-                                     .y = r->cells.events,
-                                     .n = n,
-                                     .colour = 0},
-                                    {.kind = CLAST_SERIES_LINE,
-                                     .label = "cap n/2",
-                                     .x = cap_x,
-                                     .y = cap_y,
-                                     .n = r->n_capped > 0 ? 2 : 0,
-                                     .colour = 1,
-                                     .dashed = true}};
+    const clast_series series[2] = {
+        clx_series(CLAST_SERIES_POINTS, "cells", x, r->cells.events, n, 0),
+        clx_dashed_line("cap n/2", cap_x, cap_y, r->n_capped > 0 ? 2 : 0, 1)};
     char label[LABEL_SIZE] = "events of a cell (-)";
     if (r->beta_dt == 0.0) {
         (void)snprintf(label, sizeof label, "pair integral of a cell (1/m^%d)", r->dimension);

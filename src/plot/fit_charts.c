@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/status.h"
 #include "math/least_squares.h"
+#include "plot/series.h"
 #include "porosity/whole.h"
 #include <clast/porosity_model.h>
 #include <clast/table.h>
@@ -60,9 +61,8 @@ static clast_status draw_feature(const clast_fit_data *data, const clast_porosit
     (void)(unit != NULL && strcmp(unit, "-") == 0
                ? snprintf(axis, sizeof axis, "%s", name)
                : snprintf(axis, sizeof axis, "%s (%s)", name, unit != NULL ? unit : "-"));
-    const clast_series series[2] = {
-        {.kind = CLAST_SERIES_POINTS, .label = "beds", .x = x, .y = y, .n = n},
-        {.kind = CLAST_SERIES_LINE, .label = label, .x = span, .y = line, .n = 2, .colour = 1}};
+    const clast_series series[2] = {clx_series(CLAST_SERIES_POINTS, "beds", x, y, n, 0),
+                                    clx_series(CLAST_SERIES_LINE, label, span, line, 2, 1)};
     const clast_chart chart = {.title = "Porosity and the first feature",
                                .x = {.label = axis},
                                .y = {.label = "porosity (-)"},
@@ -92,19 +92,9 @@ static clast_status draw_predicted(const clast_porosity_fit *fit, const char *pa
     (void)clx_number_print(title, sizeof title, "R\302\262 = %.3f, held-out mean error %.2g",
                            fit->model.r2, fit->model.cv_mean_error);
     const clast_series series[3] = {
-        {.kind = CLAST_SERIES_LINE, .label = "equal", .x = span, .y = span, .n = 2, .colour = 6},
-        {.kind = CLAST_SERIES_POINTS,
-         .label = "fitted",
-         .x = y,
-         .y = fitted,
-         .n = t->n_row,
-         .colour = 0},
-        {.kind = CLAST_SERIES_POINTS,
-         .label = "held out",
-         .x = y,
-         .y = held_out,
-         .n = t->n_row,
-         .colour = 4}};
+        clx_series(CLAST_SERIES_LINE, "equal", span, span, 2, 6),
+        clx_series(CLAST_SERIES_POINTS, "fitted", y, fitted, t->n_row, 0),
+        clx_series(CLAST_SERIES_POINTS, "held out", y, held_out, t->n_row, 4)};
     const clast_chart chart = {
         .title = title,
         .x = {.label = "measured porosity (-)", .low = span[0], .high = span[1]},
@@ -130,14 +120,8 @@ static clast_status draw_residuals(const clast_porosity_fit *fit, bool is_levera
     const double high_x[2] = {twice, twice};
     const double high_y[2] = {span[0], span[1]};
     const clast_series series[2] = {
-        {.kind = CLAST_SERIES_POINTS, .label = "beds", .x = x, .y = studentised, .n = t->n_row},
-        {.kind = CLAST_SERIES_LINE,
-         .label = "twice the mean leverage",
-         .x = high_x,
-         .y = high_y,
-         .n = 2,
-         .colour = 1,
-         .dashed = true}};
+        clx_series(CLAST_SERIES_POINTS, "beds", x, studentised, t->n_row, 0),
+        clx_dashed_line("twice the mean leverage", high_x, high_y, 2, 1)};
     const clast_chart chart = {.title = is_leverage ? "Influence of single beds" : "Residuals",
                                .x = {.label = is_leverage ? "leverage (-)" : "fitted porosity (-)"},
                                .y = {.label = "studentised residual (-)"},

@@ -77,7 +77,6 @@ clast_status clast_chart_grading(const clast_table *classes, const char *path)
                                .n_series = n_series};
     CLX_TRY(clast_chart_write(&chart, path));
 done:
-    clx_free(size);
-    clx_free(passing);
+    CLX_FREE(size, passing);
     return status;
 }

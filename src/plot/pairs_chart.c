@@ -2,6 +2,7 @@
 #include <clast/chart.h>
 
 #include "base/alloc.h"
+#include "plot/series.h"
 #include <clast/pairs.h>
 #include <clast/table.h>
 #include <math.h>
@@ -35,19 +36,11 @@ clast_status clast_chart_pairs(const clast_pairs *pairs, const char *path)
     for (int64_t k = from; k < t->n_row; ++k) {
         most = fmax(most, g_high[k]);
     }
-    const clast_series series[2] = {{.kind = CLAST_SERIES_BAND,
-                                     .label = "95 %",
-                                     .x = r + from,
-                                     .low = clast_table_numbers(t, "g_low") + from,
-                                     .high = g_high + from,
-                                     .n = t->n_row - from,
-                                     .colour = 0},
-                                    {.kind = CLAST_SERIES_LINE,
-                                     .label = "g(r)",
-                                     .x = r + from,
-                                     .y = clast_table_numbers(t, "g") + from,
-                                     .n = t->n_row - from,
-                                     .colour = 0}};
+    const clast_series series[2] = {
+        clx_band("95 %", r + from, clast_table_numbers(t, "g_low") + from, g_high + from,
+                 t->n_row - from, 0),
+        clx_series(CLAST_SERIES_LINE, "g(r)", r + from, clast_table_numbers(t, "g") + from,
+                   t->n_row - from, 0)};
     const clast_chart chart = {
         .x = {.label = "distance r (m)", .log = true},
         .y = {.label = "pair correlation g (-)", .high = 1.05 * fmax(most, 1.0)},

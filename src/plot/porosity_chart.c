@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "plot/series.h"
 #include <clast/porosity.h>
 #include <clast/table.h>
 #include <stdio.h>
@@ -68,26 +69,9 @@ clast_status clast_chart_porosity(const clast_table *profile, const clast_porosi
     const double one[2] = {1.0, 1.0};
     const double value[2] = {bulk->porosity, bulk->porosity};
     (void)clx_number_print(bulk_label, sizeof bulk_label, "bulk: %.4f", bulk->porosity);
-    const clast_series series[] = {{.kind = CLAST_SERIES_BAND,
-                                    .label = "evaluated",
-                                    .x = span,
-                                    .low = zero,
-                                    .high = one,
-                                    .n = 2,
-                                    .colour = -1},
-                                   {.kind = CLAST_SERIES_LINE,
-                                    .label = "porosity",
-                                    .x = o.x,
-                                    .y = porosity,
-                                    .n = o.n,
-                                    .colour = 0},
-                                   {.kind = CLAST_SERIES_LINE,
-                                    .label = bulk_label,
-                                    .x = span,
-                                    .y = value,
-                                    .n = 2,
-                                    .colour = 1,
-                                    .dashed = true}};
+    const clast_series series[] = {clx_band("evaluated", span, zero, one, 2, -1),
+                                   clx_series(CLAST_SERIES_LINE, "porosity", o.x, porosity, o.n, 0),
+                                   clx_dashed_line(bulk_label, span, value, 2, 1)};
     CLX_TRY(draw("Porosity over height", &o, &porosity_axis, 3, series, path));
 done:
     clx_free(o.x);
@@ -108,19 +92,9 @@ clast_status clast_chart_porosity_band(const clast_table *band, const char *unit
     const bool is_radial = clast_table_numbers(band, "r_low_m") != NULL;
     CLX_TRY(is_radial ? over_make(band, "r_low_m", "r_high_m", "distance from the axis", unit, &o)
                       : over_make(band, "z_low_m", "z_high_m", "height", unit, &o));
-    const clast_series series[] = {{.kind = CLAST_SERIES_BAND,
-                                    .label = "95 % of the mean",
-                                    .x = o.x,
-                                    .low = low,
-                                    .high = high,
-                                    .n = o.n,
-                                    .colour = -1},
-                                   {.kind = CLAST_SERIES_LINE,
-                                    .label = "mean of the runs",
-                                    .x = o.x,
-                                    .y = mean,
-                                    .n = o.n,
-                                    .colour = 0}};
+    const clast_series series[] = {
+        clx_band("95 % of the mean", o.x, low, high, o.n, -1),
+        clx_series(CLAST_SERIES_LINE, "mean of the runs", o.x, mean, o.n, 0)};
     CLX_TRY(
         draw(is_radial ? "Porosity over the radius, all runs" : "Porosity over height, all runs",
              &o, &porosity_axis, 2, series, path));
@@ -141,12 +115,8 @@ clast_status clast_chart_stress(const clast_table *profile, const char *unit, co
     clast_series series[3];
     CLX_TRY(over_make(profile, "z_low_m", "z_high_m", "height", unit, &o));
     for (int k = 0; k < 3; ++k) {
-        series[k] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                   .label = label[k],
-                                   .x = o.x,
-                                   .y = clast_table_numbers(profile, name[k]),
-                                   .n = o.n,
-                                   .colour = k};
+        series[k] = clx_series(CLAST_SERIES_LINE, label[k], o.x,
+                               clast_table_numbers(profile, name[k]), o.n, k);
         CLX_CHECK(series[k].y != NULL, CLAST_E_USAGE, "the table is no stress profile");
     }
     CLX_TRY(draw("Contact stress over height", &o, &axis, 3, series, path));
@@ -172,20 +142,18 @@ clast_status clast_chart_radial(const clast_table *radial, const char *unit, con
         bar[k] = porosity[k] - error[k];
         bar[n + k] = porosity[k] + error[k];
     }
-    const clast_series series[] = {
-        {.kind = CLAST_SERIES_LINE, .x = o.x, .y = porosity, .n = n, .colour = 0},
-        {.kind = CLAST_SERIES_POINTS,
-         .label = "rings, error of their volume",
-         .x = o.x,
-         .y = porosity,
-         .low = bar,
-         .high = bar + n,
-         .n = n,
-         .colour = 0}};
+    const clast_series series[] = {clx_series(CLAST_SERIES_LINE, NULL, o.x, porosity, n, 0),
+                                   {.kind = CLAST_SERIES_POINTS,
+                                    .label = "rings, error of their volume",
+                                    .x = o.x,
+                                    .y = porosity,
+                                    .low = bar,
+                                    .high = bar + n,
+                                    .n = n,
+                                    .colour = 0}};
     CLX_TRY(draw("Porosity over the radius", &o, &porosity_axis, 2, series, path));
 done:
-    clx_free(bar);
-    clx_free(o.x);
+    CLX_FREE(bar, o.x);
     return status;
 }
 
@@ -200,7 +168,7 @@ clast_status clast_chart_pores(const clast_table *pores, const char *unit, const
     const double *share = clast_table_numbers(pores, "share_smaller");
     CLX_CHECK(share != NULL, CLAST_E_USAGE, "the table holds no pores");
     CLX_TRY(over_make(pores, NULL, "delta_high_m", "distance to the nearest grain", unit, &o));
-    const clast_series series = {.kind = CLAST_SERIES_LINE, .x = o.x, .y = share, .n = o.n};
+    const clast_series series = clx_series(CLAST_SERIES_LINE, NULL, o.x, share, o.n, 0);
     CLX_TRY(draw("Sizes of the pores", &o, &axis, 1, &series, path));
 done:
     clx_free(o.x);

@@ -4,7 +4,6 @@
 
 #include "math/colour.h"
 #include <math.h>
-#include <stdio.h>
 
 static bool is_there(const clast_series *e, int64_t i)
 {

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "math/sort.h"
 #include "math/whole.h"
+#include "plot/series.h"
 #include "shape/whole.h"
 #include <clast/form.h>
 #include <clast/statistics.h>
@@ -71,18 +72,8 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
             size[i] = factor * set->size[i];
         }
     }
-    const clast_series series[3] = {{.kind = CLAST_SERIES_LINE,
-                                     .x = border,
-                                     .y = border + 2,
-                                     .n = 2,
-                                     .colour = -1,
-                                     .dashed = true},
-                                    {.kind = CLAST_SERIES_LINE,
-                                     .x = border + 2,
-                                     .y = border,
-                                     .n = 2,
-                                     .colour = -1,
-                                     .dashed = true},
+    const clast_series series[3] = {clx_dashed_line(NULL, border, border + 2, 2, -1),
+                                    clx_dashed_line(NULL, border + 2, border, 2, -1),
                                     {.kind = CLAST_SERIES_POINTS,
                                      .x = set->flatness,
                                      .y = set->elongation,
@@ -142,13 +133,8 @@ static clast_status draw_histogram(const clast_histogram *h, const char *label, 
         normal_curve(h, x, y);
     }
     const clast_series series[2] = {
-        {.kind = CLAST_SERIES_BARS,
-         .label = "grains",
-         .x = h->edge,
-         .y = h->density,
-         .n = h->n_bin,
-         .colour = 5},
-        {.kind = CLAST_SERIES_LINE, .label = law, .x = x, .y = y, .n = N_CURVE, .colour = 1}};
+        clx_series(CLAST_SERIES_BARS, "grains", h->edge, h->density, h->n_bin, 5),
+        clx_series(CLAST_SERIES_LINE, law, x, y, N_CURVE, 1)};
     const clast_chart chart = {.title = title,
                                .x = {.label = x_axis},
                                .y = {.label = y_axis},
@@ -254,8 +240,7 @@ clast_status clast_chart_correlation(const clast_statistics *statistics, const c
         .height = side + 90.0};
     CLX_TRY(clast_chart_write(&chart, path));
 done:
-    clx_free((void *)name);
-    clx_free(value);
+    CLX_FREE((void *)name, value);
     return status;
 }
 
@@ -278,14 +263,9 @@ clast_status clast_chart_pca(const clast_statistics *statistics, const char *pat
         share[2 * n + k] = statistics->explained[k];
     }
     const clast_series series[3] = {
-        {.kind = CLAST_SERIES_BARS, .label = "component", .x = v, .y = share, .n = n, .colour = 5},
-        {.kind = CLAST_SERIES_LINE, .x = share + n, .y = share + 2 * n, .n = n, .colour = 1},
-        {.kind = CLAST_SERIES_POINTS,
-         .label = "sum of the first",
-         .x = share + n,
-         .y = share + 2 * n,
-         .n = n,
-         .colour = 1}};
+        clx_series(CLAST_SERIES_BARS, "component", v, share, n, 5),
+        clx_series(CLAST_SERIES_LINE, NULL, share + n, share + 2 * n, n, 1),
+        clx_series(CLAST_SERIES_POINTS, "sum of the first", share + n, share + 2 * n, n, 1)};
     const clast_chart chart = {
         .title = "Principal components",
         .x = {.label = "component (-)", .low = 0.0, .high = n + 1.0},

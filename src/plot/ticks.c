@@ -5,7 +5,6 @@
 #include "base/status.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static double round_step(double rough)

@@ -1,7 +1,6 @@
 #pragma once
 // Where an axis puts its ticks and how it writes them.
 #include <stdbool.h>
-#include <stddef.h>
 
 enum { CLX_MAX_TICK = 24, CLX_MAX_MINOR = 216, CLX_AXIS_SIZE = 256 };
 

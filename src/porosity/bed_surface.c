@@ -4,7 +4,6 @@
 #include "base/status.h"
 #include "geom/check.h"
 #include "geom/whole.h"
-#include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
 #include <clast/mesh.h>

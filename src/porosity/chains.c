@@ -227,10 +227,6 @@ clast_status clast_bed_chains(const clast_bed *bed, const clast_assembly *assemb
     link_grains(&b, find_pressures(&b));
     CLX_TRY(make_table(&b, table));
 done:
-    clx_free(b.grain);
-    clx_free(b.chain_of);
-    clx_free(b.n_in);
-    clx_free(b.is_linked);
-    clx_free(b.force_norm);
+    CLX_FREE(b.grain, b.chain_of, b.n_in, b.is_linked, b.force_norm);
     return status;
 }

@@ -12,11 +12,11 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
-#include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
 #include <clast/mesh.h>
 #include <clast/shape.h>
+#include <math.h>
 
 enum { POINTS = 512, BLOCK = 32, BED_POINTS = 20000 };
 
@@ -194,8 +194,7 @@ clast_status clast_bed_beyond_measure(const clast_bed *bed, const clast_assembly
     }
     *beyond = made;
 done:
-    clx_free(s.share);
-    clx_free(s.depth);
+    CLX_FREE(s.share, s.depth);
     return status;
 }
 
@@ -380,11 +379,10 @@ clast_status clast_porosity_core_measure(const clast_assembly *assembly, const c
     const double volume = core_area(bed, depth, walls.size) * (bulk->z_high - bulk->z_low);
     CLX_CHECK(n_size >= 0.5, CLAST_E_USAGE,
               "a core begins at least half a grain size from the side walls, not %g", n_size);
-    CLX_CHECK(
-        volume > 0.0, CLAST_E_GEOMETRY,
-        "core %g: it counts in full from half a grain size farther on, %g, and the side walls "
-        "are %.3g grain sizes from the bed's axis",
-        n_size, n_size + 0.5, walls.ratio);
+    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY,
+              "core %g: it counts in full from half a grain size farther on, %g, and the side "
+              "walls are %.3g grain sizes from the bed's axis",
+              n_size, n_size + 0.5, walls.ratio);
     CLX_TRY(clx_touch_set_init(assembly, &set));
     core_sum c = {
         .assembly = assembly,

@@ -4,6 +4,7 @@
 #include "porosity/discs.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,12 +13,7 @@ typedef struct {
     double from, to;
 } arc;
 
-static int by_from(const void *a, const void *b)
-{
-    const double x = ((const arc *)a)->from;
-    const double y = ((const arc *)b)->from;
-    return (x > y) - (x < y);
-}
+CLX_RISING(by_from, arc, from)
 
 static double arc_area(const clx_disc *d, double a, double b)
 {

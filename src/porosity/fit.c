@@ -13,16 +13,8 @@
 
 void clx_fit_end(clx_fit *fit)
 {
-    clx_free(fit->r);
-    clx_free(fit->p);
-    clx_free(fit->state);
-    clx_free(fit->against);
-    clx_free(fit->rank);
-    clx_free(fit->chosen);
-    clx_free(fit->fold);
-    clx_free(fit->x);
-    clx_free(fit->held_out);
-    clx_free(fit->error);
+    CLX_FREE(fit->r, fit->p, fit->state, fit->against, fit->rank, fit->chosen, fit->fold, fit->x,
+             fit->held_out, fit->error);
     *fit = (clx_fit){0};
 }
 
@@ -226,8 +218,7 @@ static clast_status choose_named(clx_fit *f)
         CLX_CHECK(found >= 0, CLAST_E_FORMAT, "fit: there is no feature '%.*s'", (int)length, at);
         CLX_CHECK(f->state[found] == CLX_CANDIDATE_KEPT || f->state[found] == CLX_CANDIDATE_REMOVED,
                   CLAST_E_FORMAT,
-                  "fit: feature '%.*s' is constant, not finite in some row or twice "
-                  "in the list",
+                  "fit: feature '%.*s' is constant, not finite in some row or twice in the list",
                   (int)length, at);
         double score = 0.0;
         CLX_TRY(try_candidate(f, found, &score));

@@ -108,8 +108,7 @@ static clast_status inflation(const clx_fit *f, int32_t p, int32_t j, double *vi
     *vif = 1.0 / fmax(1.0 - ls.r2, 1e-300);
 done:
     clx_least_squares_free(&ls);
-    clx_free(x);
-    clx_free(y);
+    CLX_FREE(x, y);
     return status;
 }
 

@@ -25,9 +25,7 @@ typedef struct {
 
 static void free_part(part *p)
 {
-    clx_free(p->block);
-    clx_free(p->candidate);
-    clx_free(p->index);
+    CLX_FREE(p->block, p->candidate, p->index);
     *p = (part){0};
 }
 
@@ -213,8 +211,7 @@ static clast_status validate_nested(validation *v)
     CLX_TRY(clx_parallel_try((int64_t)c->n_fold * c->n_repeat, 1, predict_folds, v));
     CLX_TRY(score(v));
 done:
-    clx_free(v->held_out);
-    clx_free(v->mean);
+    CLX_FREE(v->held_out, v->mean);
     v->held_out = v->mean = NULL;
     return status;
 }
@@ -242,9 +239,7 @@ done:
 
 void clx_fit_validity_free(clx_fit_validity *validity)
 {
-    clx_free(validity->held_out);
-    clx_free(validity->r2);
-    clx_free(validity->greatest);
+    CLX_FREE(validity->held_out, validity->r2, validity->greatest);
     *validity = (clx_fit_validity){0};
 }
 

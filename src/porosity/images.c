@@ -197,8 +197,6 @@ clast_status clx_images_measure(const clast_bed *bed, const clast_assembly *asse
     made.solid = fmax(made.solid - own.solid, 0.0);
     *beyond = made;
 done:
-    clx_free(wrapped.position);
-    clx_free(s.moved);
-    clx_free(s.share);
+    CLX_FREE(wrapped.position, s.moved, s.share);
     return status;
 }

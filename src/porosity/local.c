@@ -7,6 +7,7 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/parallel.h"
 #include "base/status.h"
 #include "geom/convex_cell.h"
@@ -41,11 +42,7 @@ typedef struct {
 
 static void diagram_free(diagram *d)
 {
-    clx_free(d->grain);
-    clx_free(d->centre);
-    clx_free(d->radius);
-    clx_free(d->first);
-    clx_free(d->item);
+    CLX_FREE(d->grain, d->centre, d->radius, d->first, d->item);
 }
 
 static bool is_inside(const diagram *d, const double x[3])
@@ -357,9 +354,7 @@ static clast_status make_columns(const clast_assembly *assembly, diagram *d, cla
                                             {"volume_m3", "m^3"}, {"porosity", "-"},
                                             {"n_face", "-"},      {"border", "-"}};
     clast_status status = CLAST_OK;
-    for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
-        CLX_TRY(clast_table_add_number(table, column[k][0], column[k][1], NULL));
-    }
+    CLX_TRY(CLX_ADD_COLUMNS(table, column));
     for (int32_t i = 0; i < d->n; ++i) {
         const int32_t grain = d->grain[i];
         const double s = assembly->scale[grain];

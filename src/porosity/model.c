@@ -64,17 +64,12 @@ void clast_porosity_model_free(clast_porosity_model *model)
         return;
     }
     for (int32_t k = 0; model->term != NULL && k < model->n_term; ++k) {
-        clx_free(model->term[k].feature);
-        clx_free(model->term[k].unit);
+        CLX_FREE(model->term[k].feature, model->term[k].unit);
     }
     for (int32_t k = 0; model->range != NULL && k < model->n_range; ++k) {
         clx_free(model->range[k].feature);
     }
-    clx_free(model->name);
-    clx_free(model->source);
-    clx_free(model->term);
-    clx_free(model->range);
-    clx_free(model->covariance);
+    CLX_FREE(model->name, model->source, model->term, model->range, model->covariance);
     *model = (clast_porosity_model){0};
 }
 

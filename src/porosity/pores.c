@@ -5,6 +5,7 @@
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/parallel.h"
 #include "base/status.h"
 #include "math/sort.h"
@@ -139,9 +140,7 @@ static clast_status histogram(const double *delta, int64_t n, int32_t n_bin, cla
     clast_status status = CLAST_OK;
     const double step = delta[n - 1] > 0.0 ? delta[n - 1] / n_bin : 1.0;
     int64_t below = 0;
-    for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
-        CLX_TRY(clast_table_add_number(table, column[k][0], column[k][1], NULL));
-    }
+    CLX_TRY(CLX_ADD_COLUMNS(table, column));
     for (int32_t k = 0; k < n_bin; ++k) {
         const int64_t before = below;
         while (below < n && (delta[below] <= (k + 1) * step || k + 1 == n_bin)) {

@@ -197,9 +197,7 @@ static clast_status resample(const clast_porosity_model *model, const clast_form
     const clx_moments m = clx_sample_moments(porosity, n);
     *deviation = n > 1 && !m.is_constant ? m.deviation : 0.0;
 done:
-    clx_free(pick);
-    clx_free(row);
-    clx_free(porosity);
+    CLX_FREE(pick, row, porosity);
     return status;
 }
 

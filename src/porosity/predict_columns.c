@@ -128,7 +128,6 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
 done:
     clast_table_free(&t);
     clx_unit_columns_free(&columns);
-    clx_free((void *)column);
-    clx_free(value);
+    CLX_FREE((void *)column, value);
     return status;
 }

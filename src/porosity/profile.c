@@ -5,12 +5,12 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
-#include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
 #include <clast/assembly.h>
 #include <clast/mesh.h>
 #include <clast/shape.h>
+#include <math.h>
 #include <string.h>
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
@@ -155,8 +155,7 @@ static void add_blocks(gathering *g, double *solid)
         for (int64_t k = 0; k < block->n && solid != NULL; ++k) {
             solid[block->slice[k]] += block->solid[k];
         }
-        clx_free(block->slice);
-        clx_free(block->solid);
+        CLX_FREE(block->slice, block->solid);
         *block = (reached){0};
     }
 }
@@ -196,13 +195,9 @@ done:
         add_blocks(&g, NULL);
     }
     for (int32_t k = 0; k < n_bench && g.bench != NULL; ++k) {
-        clx_free(g.bench[k].solid);
-        clx_free(g.bench[k].shifted);
-        clx_free(g.bench[k].whole);
+        CLX_FREE(g.bench[k].solid, g.bench[k].shifted, g.bench[k].whole);
     }
-    clx_free(g.beyond);
-    clx_free(g.bench);
-    clx_free(g.block);
+    CLX_FREE(g.beyond, g.bench, g.block);
     return status;
 }
 
@@ -244,8 +239,7 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
         porosity[k] = volume[k] > 0.0 ? 1.0 - solid[k] / volume[k] : 1.0;
     }
 done:
-    clx_free(volume);
-    clx_free(edge);
+    CLX_FREE(volume, edge);
     return status;
 }
 

@@ -4,6 +4,7 @@
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
+#include "base/column_unit.h"
 #include "base/status.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"
@@ -71,19 +72,6 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set,
     }
 }
 
-static clast_status make_columns(clast_table *table)
-{
-    static const char *const column[][2] = {{"r_low_m", "m"},    {"r_high_m", "m"},
-                                            {"solid_m3", "m^3"}, {"solid_error_m3", "m^3"},
-                                            {"porosity", "-"},   {"porosity_error", "-"}};
-    clast_status status = CLAST_OK;
-    for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
-        CLX_TRY(clast_table_add_number(table, column[k][0], column[k][1], NULL));
-    }
-done:
-    return status;
-}
-
 clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_bed *bed,
                                    const double z[2], const clast_radial_options *options,
                                    clast_table *table)
@@ -91,6 +79,9 @@ clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_b
     CLX_ARGUMENTS(assembly, bed, z, options, table);
     CLX_WHOLE(assembly, assembly);
     CLX_WHOLE(bed, bed);
+    static const char *const column[][2] = {{"r_low_m", "m"},    {"r_high_m", "m"},
+                                            {"solid_m3", "m^3"}, {"solid_error_m3", "m^3"},
+                                            {"porosity", "-"},   {"porosity_error", "-"}};
     clast_status status = CLAST_OK;
     clast_table made = {0};
     clx_touch_set set = {0};
@@ -105,7 +96,7 @@ clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_b
               "radial profile of %d rings", n_ring);
     CLX_TRY(clx_touch_set_init(assembly, &set));
     CLX_TRY(clast_table_init(&made, "radial", n_ring));
-    CLX_TRY(make_columns(&made));
+    CLX_TRY(CLX_ADD_COLUMNS(&made, column));
     const rings r = {.bed = bed,
                      .z_low = z[0],
                      .z_high = z[1],

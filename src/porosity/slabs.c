@@ -261,10 +261,7 @@ static clast_status add_clump(const slices *s, const clast_spheres *spheres,
         s->solid[k] += volume;
     }
 done:
-    clx_free(c.centre);
-    clx_free(c.radius);
-    clx_free(c.knot);
-    clx_free(c.disc);
+    CLX_FREE(c.centre, c.radius, c.knot, c.disc);
     return status;
 }
 

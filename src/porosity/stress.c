@@ -217,8 +217,6 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
     made = (clast_table){0};
 done:
     clast_table_free(&made);
-    clx_free(sum);
-    clx_free(edge);
-    clx_free(volume);
+    CLX_FREE(sum, edge, volume);
     return status;
 }

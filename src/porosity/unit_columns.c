@@ -106,8 +106,7 @@ void clx_unit_columns_free(clx_unit_columns *columns)
 {
     for (int32_t c = 0; columns->from != NULL && c < columns->table.n_column; ++c) {
         if (columns->from->column[c].text != NULL && columns->table.column[c].text == NULL) {
-            clx_free(columns->table.column[c].number);
-            clx_free(columns->table.column[c].unit);
+            CLX_FREE(columns->table.column[c].number, columns->table.column[c].unit);
         }
     }
     if (columns->from != NULL) {

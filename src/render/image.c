@@ -86,7 +86,6 @@ clast_status clast_image_write_png(const clast_image *image, const char *path)
 done:
     png_image_free(&png);
     clx_file_abandon(&file);
-    clx_free(rgb);
-    clx_free(bytes);
+    CLX_FREE(rgb, bytes);
     return status;
 }

@@ -113,10 +113,6 @@ clast_status clx_corner_normals(const clast_bvh *bvh, float (**normal)[3][3])
     *normal = s.normal;
     s.normal = NULL;
 done:
-    clx_free(s.first);
-    clx_free(s.face);
-    clx_free(s.unit);
-    clx_free(s.angle);
-    clx_free(s.normal);
+    CLX_FREE(s.first, s.face, s.unit, s.angle, s.normal);
     return status;
 }

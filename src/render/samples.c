@@ -103,8 +103,7 @@ done:
 
 void clx_samples_free(clx_samples *samples)
 {
-    clx_free(samples->kept);
-    clx_free(samples->kept_sky);
+    CLX_FREE(samples->kept, samples->kept_sky);
     samples->kept = NULL;
     samples->kept_sky = NULL;
 }

@@ -281,8 +281,7 @@ void clx_scene_free(clx_scene *scene)
         clx_wide_free(&scene->shape[s].wide);
         clx_free(scene->shape[s].block);
     }
-    clx_free(scene->shape);
-    clx_free(scene->grain);
+    CLX_FREE(scene->shape, scene->grain);
     clx_tree_free(&scene->tree);
     clx_wide_free(&scene->wide);
     *scene = (clx_scene){0};

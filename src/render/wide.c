@@ -137,7 +137,6 @@ done:
 
 void clx_wide_free(clx_wide *wide)
 {
-    clx_free(wide->node);
-    clx_free(wide->leaf);
+    CLX_FREE(wide->node, wide->leaf);
     *wide = (clx_wide){0};
 }

@@ -5,10 +5,10 @@
 #include "base/number.h"
 #include "base/path.h"
 #include "io/points.h"
+#include "math/sort.h"
 #include "report/run.h"
 #include <clast/shape.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -33,11 +33,7 @@ typedef struct {
 
 static void frame_free(clx_frame *frame)
 {
-    clx_free(frame->grain);
-    clx_free(frame->shape);
-    clx_free(frame->position);
-    clx_free(frame->orientation);
-    clx_free(frame->scale);
+    CLX_FREE(frame->grain, frame->shape, frame->position, frame->orientation, frame->scale);
     *frame = (clx_frame){0};
 }
 
@@ -103,12 +99,7 @@ done:
     return status;
 }
 
-static int by_id(const void *a, const void *b)
-{
-    const named *p = a;
-    const named *q = b;
-    return (p->id > q->id) - (p->id < q->id);
-}
+CLX_RISING(by_id, named, id)
 
 static clast_status names_of(const clast_assembly *a, named **list)
 {

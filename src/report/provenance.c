@@ -96,10 +96,9 @@ static void put_facts(clx_file *file, const json_t *manifest)
 static void put_inputs(clx_file *file, const json_t *inputs)
 {
     (void)clx_file_print(
-        file, "<div class=\"card wide\"><h4>Inputs</h4><div class=\"scroll\" tabindex=\"0\">"
-              "<table class=\"inputs\">\n"
-              "<tr><th>Role</th>"
-              "<th>File</th><th class=\"n\">Bytes</th><th>SHA-256</th></tr>\n");
+        file, "<div class=\"card wide\"><h4>Inputs</h4><div class=\"scroll\" tabindex=\"0\"><table "
+              "class=\"inputs\">\n"
+              "<tr><th>Role</th><th>File</th><th class=\"n\">Bytes</th><th>SHA-256</th></tr>\n");
     for (size_t i = 0; i < json_array_size(inputs); ++i) {
         const json_t *input = json_array_get(inputs, i);
         (void)clx_file_print(file, "<tr><td>");
@@ -157,12 +156,12 @@ static void put_config(clx_file *file, const json_t *manifest, const json_t *con
     const char *command = json_string_value(json_object_get(manifest, "command"));
     const char *key = NULL;
     json_t *value = NULL;
-    (void)clx_file_print(file,
-                         "<details class=\"card wide\"><summary>Configuration "
-                         "<small>%zu keys</small></summary>"
-                         "<div class=\"scroll\" tabindex=\"0\"><table class=\"keys\">\n"
-                         "<tr><th>Key</th><th>Value</th><th>Meaning</th></tr>\n",
-                         json_object_size(config));
+    (void)clx_file_print(
+        file,
+        "<details class=\"card wide\"><summary>Configuration <small>%zu keys</small></summary><div "
+        "class=\"scroll\" tabindex=\"0\"><table class=\"keys\">\n"
+        "<tr><th>Key</th><th>Value</th><th>Meaning</th></tr>\n",
+        json_object_size(config));
     json_object_foreach((json_t *)config, key, value)
     {
         const clast_field *field = field_of(command, key);

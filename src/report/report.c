@@ -232,12 +232,11 @@ static void put_outcomes(clx_file *file, const clx_run *run)
                              n.n_unconverged, n.n_run);
     }
     if (is_open || o.is_under_way) {
-        (void)clx_file_print(file, "<p class=\"note\">%s: %" PRId64 " of %" PRId64 " runs %s</p>\n",
-                             o.is_under_way ? "under way" : "stopped", n.n_done - n.n_unconverged,
-                             n.n_run,
-                             o.is_under_way ? "were done when results.csv was written"
-                                            : "are done; the same clast study command goes on "
-                                              "with the rest");
+        (void)clx_file_print(
+            file, "<p class=\"note\">%s: %" PRId64 " of %" PRId64 " runs %s</p>\n",
+            o.is_under_way ? "under way" : "stopped", n.n_done - n.n_unconverged, n.n_run,
+            o.is_under_way ? "were done when results.csv was written"
+                           : "are done; the same clast study command goes on with the rest");
     }
 }
 

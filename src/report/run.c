@@ -22,9 +22,7 @@ void clx_run_free(clx_run *run)
     for (int32_t i = 0; i < run->n_table; ++i) {
         clast_table_free(&run->table[i]);
     }
-    clx_free(run->table);
-    clx_free(run->path);
-    clx_free(run->place);
+    CLX_FREE(run->table, run->path, run->place);
     *run = (clx_run){0};
 }
 

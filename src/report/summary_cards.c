@@ -10,7 +10,6 @@
 #include <clast/assembly.h>
 #include <clast/table.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static bool is_scalar(const json_t *value)

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "io/json.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include "render/legend.h"
 #include "report/frames.h"
@@ -64,13 +65,7 @@ typedef struct {
     int32_t vertex;
 } place;
 
-static int by_cell(const void *a, const void *b)
-{
-    const place *p = a;
-    const place *q = b;
-    return p->cell != q->cell ? (p->cell < q->cell ? -1 : 1)
-                              : (p->vertex > q->vertex) - (p->vertex < q->vertex);
-}
+CLX_RISING_BY_TWO(by_cell, place, cell, vertex)
 
 /// New vertices, one for each occupied cell of an n^3 grid, and each old vertex's new number.
 static clast_status join_vertices(const clast_mesh *mesh, int32_t n, clast_mesh *simple,
@@ -242,8 +237,7 @@ static clast_status put_grains(clx_file *file, const view *v, int32_t shape)
     clx_page_base64(file, pose, 4 * POSE * n);
     (void)clx_file_print(file, "\"");
 done:
-    clx_free(grain);
-    clx_free(pose);
+    CLX_FREE(grain, pose);
     return status;
 }
 
@@ -295,9 +289,7 @@ done:
 
 static void view_free(view *v)
 {
-    clx_free(v->order);
-    clx_free(v->first);
-    clx_free(v->is_used);
+    CLX_FREE(v->order, v->first, v->is_used);
 }
 
 /// Sorts the grains by shape, and finds which shapes are shown at all.
@@ -421,9 +413,7 @@ typedef struct {
 
 static void contacts_free(contacts *c)
 {
-    clx_free(c->pair);
-    clx_free(c->branch);
-    clx_free(c->force);
+    CLX_FREE(c->pair, c->branch, c->force);
     *c = (contacts){0};
 }
 

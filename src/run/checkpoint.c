@@ -94,8 +94,7 @@ static clast_status prune(const char *folder, int64_t keep)
         path = NULL;
     }
 done:
-    clx_free(path);
-    clx_free(list.step);
+    CLX_FREE(path, list.step);
     return status;
 }
 
@@ -147,8 +146,7 @@ clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *ste
         clx_fail(CLAST_E_IO, "%s holds %" PRId64 " checkpoints, all damaged: begin the run anew",
                  folder, list.n);
 done:
-    clx_free(found);
-    clx_free(list.step);
+    CLX_FREE(found, list.step);
     return status;
 }
 

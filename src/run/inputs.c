@@ -56,11 +56,10 @@ static clast_status name_option(const char *own, const char *first)
             break;
         }
     }
-    const clast_status status =
-        clx_fail(CLAST_E_FORMAT,
-                 "reads another configuration than rank 0 (%s differs); put it on a disk that all "
-                 "ranks see",
-                 name);
+    const clast_status status = clx_fail(
+        CLAST_E_FORMAT,
+        "reads another configuration than rank 0 (%s differs); put it on a disk that all ranks see",
+        name);
     json_decref(here);
     json_decref(there);
     return status;

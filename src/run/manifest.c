@@ -66,23 +66,16 @@ void clast_manifest_destroy(clast_manifest *manifest)
         clx_free(manifest->argv[i]);
     }
     for (int32_t i = 0; i < manifest->n_input; ++i) {
-        clx_free(manifest->input[i].role);
-        clx_free(manifest->input[i].path);
+        CLX_FREE(manifest->input[i].role, manifest->input[i].path);
     }
     for (int32_t i = 0; i < manifest->n_note; ++i) {
-        clx_free(manifest->notes[i].key);
-        clx_free(manifest->notes[i].text);
+        CLX_FREE(manifest->notes[i].key, manifest->notes[i].text);
     }
     for (int32_t i = 0; i < manifest->n_output; ++i) {
         clx_free(manifest->output[i]);
     }
-    clx_free(manifest->output);
-    clx_free(manifest->argv);
-    clx_free(manifest->input);
-    clx_free(manifest->notes);
-    clx_free(manifest->command);
-    clx_free(manifest->config);
-    clx_free(manifest);
+    CLX_FREE(manifest->output, manifest->argv, manifest->input, manifest->notes, manifest->command,
+             manifest->config, manifest);
 }
 
 clast_status clast_manifest_create(const char *command, int argc, char *const *argv,
@@ -173,8 +166,7 @@ clast_status clast_manifest_input(clast_manifest *manifest, const char *role, co
     manifest->input[manifest->n_input++] = made;
     made = (input_file){0};
 done:
-    clx_free(made.role);
-    clx_free(made.path);
+    CLX_FREE(made.role, made.path);
     return status;
 }
 
@@ -223,8 +215,7 @@ clast_status clast_manifest_note(clast_manifest *manifest, const char *key, cons
     manifest->notes[manifest->n_note++] = made;
     made = (note){0};
 done:
-    clx_free(made.key);
-    clx_free(made.text);
+    CLX_FREE(made.key, made.text);
     return status;
 }
 

@@ -168,8 +168,7 @@ done:
 
 void clx_pack_checkpoint_free(clx_pack_checkpoint *found)
 {
-    clx_free(found->path);
-    clx_free(found->config);
+    CLX_FREE(found->path, found->config);
     *found = (clx_pack_checkpoint){0};
 }
 

@@ -48,10 +48,7 @@ void clast_run_folder_destroy(clast_run_folder *run)
     clast_manifest_destroy(run->manifest);
     json_decref(run->earlier);
     clx_folder_free(&run->others);
-    clx_free(run->folder);
-    clx_free(run->path);
-    clx_free(run->command);
-    clx_free(run);
+    CLX_FREE(run->folder, run->path, run->command, run);
 }
 
 clast_manifest *clast_run_folder_manifest(clast_run_folder *run)

@@ -107,8 +107,7 @@ void clast_curve_free(clast_curve *curve)
     if (curve == NULL) {
         return;
     }
-    clx_free(curve->sieve);
-    clx_free(curve->mass);
+    CLX_FREE(curve->sieve, curve->mass);
     *curve = (clast_curve){0};
 }
 

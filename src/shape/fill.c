@@ -10,7 +10,6 @@
 #include "geom/whole.h"
 #include "shape/shape.h"
 #include <float.h>
-#include <stdio.h>
 
 #define FIELD(type, name) #name, .offset = offsetof(clast_fill_config, name), CLAST_FIELD_##type
 #define COUNT(type, name, value, low, high, ...)                                                   \

@@ -4,7 +4,6 @@
 #include <clast/fill.h>
 
 #include "base/status.h"
-#include "math/vec3.h"
 #include "shape/fill_balls.h"
 #include "shape/fill_field.h"
 #include "shape/fill_solid.h"

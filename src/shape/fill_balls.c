@@ -17,8 +17,7 @@ static const double FRAME_ERROR = 1e-5;
 
 void clx_ball_set_free(clx_ball_set *set)
 {
-    clx_free(set->ball);
-    clx_free(set->group);
+    CLX_FREE(set->ball, set->group);
     *set = (clx_ball_set){.scale = set->scale};
 }
 

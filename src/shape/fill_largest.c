@@ -492,11 +492,7 @@ static void destroy(void *state)
 {
     search *s = state;
     if (s != NULL) {
-        clx_free(s->cubes);
-        clx_free(s->blocks);
-        clx_free(s->samples);
-        clx_free(s->heap);
-        clx_free(s);
+        CLX_FREE(s->cubes, s->blocks, s->samples, s->heap, s);
     }
 }
 

@@ -10,7 +10,6 @@
 #include "shape/shape.h"
 #include "shape/whole.h"
 #include <clast/table.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 /// Spheres that overlap by less than this share of the smaller radius count as apart.
@@ -81,13 +80,7 @@ typedef struct {
     int32_t ball;
 } extent;
 
-static int compare_extents(const void *a, const void *b)
-{
-    const extent *p = a;
-    const extent *q = b;
-    return p->low != q->low ? (p->low > q->low) - (p->low < q->low)
-                            : (p->ball > q->ball) - (p->ball < q->ball);
-}
+CLX_RISING_BY_TWO(compare_extents, extent, low, ball)
 
 /// Greatest overlap of two spheres as a share of the smaller radius, by a sweep along x.
 static clast_status greatest_overlap(const clast_spheres *s, double *overlap)

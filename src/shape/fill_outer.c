@@ -99,8 +99,7 @@ clast_status clx_fill_outer(const clast_spheres *spheres, double shrink, bool *k
     CLX_TRY(clx_alloc(&is_met, spheres->n, sizeof *is_met));
     CLX_TRY(mark_boundary(&c, choose(&c, critical(&c, spheres->n, is_met, root), shrink), keep));
 done:
-    clx_free(is_met);
-    clx_free(root);
+    CLX_FREE(is_met, root);
     clx_delaunay_free(&c);
     return status;
 }

@@ -36,9 +36,7 @@ static void destroy(void *state)
     work *w = state;
     if (w != NULL) {
         clx_fill_spread_free(&w->spread);
-        clx_free(w->heap);
-        clx_free(w->open);
-        clx_free(w);
+        CLX_FREE(w->heap, w->open, w);
     }
 }
 

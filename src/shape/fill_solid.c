@@ -39,11 +39,7 @@ typedef struct {
 
 static void free_work(work *w)
 {
-    clx_free(w->first);
-    clx_free(w->item);
-    clx_free(w->edge);
-    clx_free(w->path);
-    clx_free(w->at);
+    CLX_FREE(w->first, w->item, w->edge, w->path, w->at);
     *w = (work){0};
 }
 

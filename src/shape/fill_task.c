@@ -86,12 +86,11 @@ static clast_status check_thickness(const clx_fill *fill)
         return CLAST_OK;
     }
     CLX_TRY(find_stray(mesh, &at));
-    status = clx_fail(
-        CLAST_E_GEOMETRY,
-        "the solid is %.3g long and %.3g thick on average (3 V / A); its walls are told apart "
-        "down to %g of its length; is vertex %d at (%g, %g, %g) an error?",
-        fill->extent, thickness, THICKNESS_LIMIT, at, mesh->vert[at][0], mesh->vert[at][1],
-        mesh->vert[at][2]);
+    status = clx_fail(CLAST_E_GEOMETRY,
+                      "the solid is %.3g long and %.3g thick on average (3 V / A); its walls are "
+                      "told apart down to %g of its length; is vertex %d at (%g, %g, %g) an error?",
+                      fill->extent, thickness, THICKNESS_LIMIT, at, mesh->vert[at][0],
+                      mesh->vert[at][1], mesh->vert[at][2]);
 done:
     return status;
 }

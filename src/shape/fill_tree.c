@@ -431,10 +431,6 @@ done:
 
 void clx_fill_field_free(clx_fill_field *field)
 {
-    clx_free(field->node);
-    clx_free(field->leaf);
-    clx_free(field->item);
-    clx_free(field->tri);
-    clx_free(field->size);
+    CLX_FREE(field->node, field->leaf, field->item, field->tri, field->size);
     *field = (clx_fill_field){0};
 }

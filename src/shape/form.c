@@ -5,7 +5,6 @@
 #include <clast/form.h>
 
 #include <ctype.h>
-#include <string.h>
 
 /// Share of L below which a difference of lengths is what rounding left of it: coordinates of
 /// surface files have 24 bits.

@@ -305,11 +305,7 @@ void clast_form_set_free(clast_form_set *set)
     if (set == NULL) {
         return;
     }
-    clx_free(set->row);
-    clx_free(set->flatness);
-    clx_free(set->elongation);
-    clx_free(set->size);
-    clx_free(set->left_out);
+    CLX_FREE(set->row, set->flatness, set->elongation, set->size, set->left_out);
     *set = (clast_form_set){0};
 }
 

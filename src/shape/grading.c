@@ -51,10 +51,7 @@ struct clast_grading {
 void clast_grading_destroy(clast_grading *grading)
 {
     if (grading != NULL) {
-        clx_free(grading->item);
-        clx_free(grading->column);
-        clx_free(grading->ignored);
-        clx_free(grading);
+        CLX_FREE(grading->item, grading->column, grading->ignored, grading);
     }
 }
 

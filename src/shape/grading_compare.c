@@ -2,6 +2,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "shape/curve.h"
 #include <clast/table.h>
 #include <math.h>
@@ -11,13 +12,7 @@ typedef struct {
     double size, volume;
 } grain;
 
-static int by_size(const void *a, const void *b)
-{
-    const grain *x = a;
-    const grain *y = b;
-    return x->size != y->size ? (x->size > y->size) - (x->size < y->size)
-                              : (x->volume > y->volume) - (x->volume < y->volume);
-}
+CLX_RISING_BY_TWO(by_size, grain, size, volume)
 
 static double volume_of(const clast_grading_sample *sample, int64_t i)
 {

@@ -81,21 +81,6 @@ clast_status clx_grain_inertia(clast_grain *grain)
     return status;
 }
 
-void clx_grain_sort_axes(clast_axes *axes)
-{
-    for (int i = 1; i < 3; ++i) {
-        for (int j = i; j > 0 && axes->lis[j] > axes->lis[j - 1]; --j) {
-            double keep[3];
-            const double width = axes->lis[j];
-            axes->lis[j] = axes->lis[j - 1];
-            axes->lis[j - 1] = width;
-            v3_copy(keep, axes->direction[j]);
-            v3_copy(axes->direction[j], axes->direction[j - 1]);
-            v3_copy(axes->direction[j - 1], keep);
-        }
-    }
-}
-
 static void take_box(const clx_box *box, clast_axes *axes)
 {
     v3_copy(axes->lis, box->edge);
@@ -130,7 +115,7 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
         v3_copy(principal->direction[k], frame[k]);
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
-    clx_grain_sort_axes(principal);
+    v3_sort_axes(principal->lis, principal->direction);
     CLX_TRY(clx_shadow_extremes(&body, &faces, frame, &grain->projected_least,
                                 &grain->projected_greatest, lying));
     grain->longest = feret.longest;
@@ -222,8 +207,7 @@ static clast_status find_paired(const clast_mesh *mesh, bool *is_paired)
         }
     }
 done:
-    clx_free(begin);
-    clx_free(to);
+    CLX_FREE(begin, to);
     return status;
 }
 

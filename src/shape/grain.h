@@ -14,9 +14,6 @@ clast_status clx_grain_inertia(clast_grain *grain);
 /// needs clx_grain_inertia before.
 clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double lying[3]);
 
-/// Puts the lengths in falling order, with their directions.
-void clx_grain_sort_axes(clast_axes *axes);
-
 /// Sphericity, convexity: the ratios of what is in the grain.
 void clx_grain_ratios(clast_grain *grain);
 

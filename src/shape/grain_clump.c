@@ -3,6 +3,7 @@
 
 #include "base/status.h"
 #include "geom/smooth_hull.h"
+#include "math/vec3.h"
 #include "shape/shape.h"
 #include "shape/whole.h"
 #include <clast/grain.h>
@@ -87,7 +88,7 @@ clast_status clast_grain_measure_clump(const clast_spheres *spheres, clast_grain
         v3_copy(principal->direction[k], frame[k]);
         principal->lis[k] = width_along(spheres, frame[k]);
     }
-    clx_grain_sort_axes(principal);
+    v3_sort_axes(principal->lis, principal->direction);
     CLX_TRY(hull_volume(spheres, &made.hull_volume));
     made.longest = clx_spheres_length(spheres);
     leave_out(&made);

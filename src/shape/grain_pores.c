@@ -186,8 +186,6 @@ clast_status clx_grain_outer(const clast_mesh *mesh, clast_mesh *outer)
         CLX_TRY(copy_outer(mesh, piece_of, list, set, outer));
     }
 done:
-    clx_free(set);
-    clx_free(piece_of);
-    clx_free(list);
+    CLX_FREE(set, piece_of, list);
     return status;
 }

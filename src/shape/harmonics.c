@@ -39,6 +39,12 @@ void clast_harmonics_free(clast_harmonics *series)
     *series = (clast_harmonics){0};
 }
 
+static clast_status check_series(const char *function, const clast_harmonics *series)
+{
+    const char *fault = clx_harmonics_fault(series);
+    return fault == NULL ? CLAST_OK : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", function, fault);
+}
+
 double clast_harmonics_power(const clast_harmonics *series, int32_t low, int32_t high)
 {
     if (clx_harmonics_fault(series) != NULL) {
@@ -69,12 +75,7 @@ typedef struct {
 static void evaluator_free(evaluator *e)
 {
     clx_legendre_free(&e->legendre);
-    clx_free(e->p);
-    clx_free(e->slope);
-    clx_free(e->radius);
-    clx_free(e->tilt);
-    clx_free(e->node);
-    clx_free(e->weight);
+    CLX_FREE(e->p, e->slope, e->radius, e->tilt, e->node, e->weight);
     *e = (evaluator){0};
 }
 
@@ -149,10 +150,7 @@ clast_status clast_harmonics_mesh(const clast_harmonics *series, int32_t degree,
                                   clast_mesh *mesh)
 {
     CLX_ARGUMENTS(series, mesh);
-    CLX_GUARD(
-        clx_harmonics_fault(series) == NULL
-            ? CLAST_OK
-            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
+    CLX_GUARD(check_series(__func__, series));
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     evaluator e = {0};
@@ -232,10 +230,7 @@ clast_status clast_harmonics_mass(const clast_harmonics *series, int32_t degree,
                                   double *area)
 {
     CLX_ARGUMENTS(series, mass);
-    CLX_GUARD(
-        clx_harmonics_fault(series) == NULL
-            ? CLAST_OK
-            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
+    CLX_GUARD(check_series(__func__, series));
     clast_status status = CLAST_OK;
     evaluator e = {0};
     star_sums sums = {0};
@@ -269,10 +264,7 @@ clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degr
                                      clast_grain *grain)
 {
     CLX_ARGUMENTS(series, grain);
-    CLX_GUARD(
-        clx_harmonics_fault(series) == NULL
-            ? CLAST_OK
-            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
+    CLX_GUARD(check_series(__func__, series));
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     clast_grain made = {0};

@@ -17,7 +17,6 @@
 #include <clast/grain.h>
 #include <clast/mesh.h>
 #include <math.h>
-#include <stdlib.h>
 
 enum { N_POINT = CLX_OUTLINE_POINTS, LEAST_RUN = 3, N_START = 8 };
 

@@ -189,11 +189,10 @@ clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh, clast_sh
     clast_status status = CLAST_OK;
     clast_shape made = {.kind = CLAST_SHAPE_MESH};
     clast_mass mass = {0};
-    CLX_CHECK(
-        mesh->n_tri >= 4, CLAST_E_GEOMETRY,
-        "a surface of %d triangles is open, a solid has at least 4; run clast mesh repair, or "
-        "take its hull (clast mesh hull, or hull: yes)",
-        mesh->n_tri);
+    CLX_CHECK(mesh->n_tri >= 4, CLAST_E_GEOMETRY,
+              "a surface of %d triangles is open, a solid has at least 4; run clast mesh repair, "
+              "or take its hull (clast mesh hull, or hull: yes)",
+              mesh->n_tri);
     CLX_TRY(clast_mesh_mass(mesh, &mass));
     CLX_CHECK(isfinite(mass.volume), CLAST_E_GEOMETRY,
               "the surface has coordinates that are not finite");

@@ -25,9 +25,6 @@ void clast_sizes_free(clast_sizes *sizes)
     if (sizes == NULL) {
         return;
     }
-    clx_free(sizes->low);
-    clx_free(sizes->high);
-    clx_free(sizes->count);
-    clx_free(sizes->density);
+    CLX_FREE(sizes->low, sizes->high, sizes->count, sizes->density);
     *sizes = (clast_sizes){0};
 }

@@ -11,8 +11,7 @@ void clast_spheres_free(clast_spheres *spheres)
     if (spheres == NULL) {
         return;
     }
-    clx_free(spheres->centre);
-    clx_free(spheres->radius);
+    CLX_FREE(spheres->centre, spheres->radius);
     *spheres = (clast_spheres){0};
 }
 

@@ -36,22 +36,21 @@ const clast_field clast_synthesize_fields[] = {
      NULL},
     {FORM("form_high", high), CLAST_FIELD_F64, 1.0, 1e-3, 1.0, "-", "greatest", NULL},
     {FIELD(size), CLAST_FIELD_F64, 1.0, 1e-12, 1e12, "-",
-     "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", NULL, .common = true,
-     .group = "size"},
+     "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", .common = true, .group = "size"},
     {FIELD(measure), CLAST_FIELD_CHOICE, CLAST_ROUGH_ANGULARITY, 0, 2, "-",
      "what `rough` is: the amplitude of ln r, or the finished grain's measured normal roundness or "
      "angularity",
      "amplitude|normal_roundness|angularity", .common = true, .group = "roughness"},
-    {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", NULL, .common = true},
-    {FIELD(tolerance), CLAST_FIELD_F64, 1e-3, 1e-6, 1.0, "-", "of the measured one", NULL},
+    {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", .common = true},
+    {FIELD(tolerance), CLAST_FIELD_F64, 1e-3, 1e-6, 1.0, "-", "of the measured one"},
     {FIELD(decay), CLAST_FIELD_F64, 3.0, 0.0, 10.0, "-",
-     "coefficients of degree n fall as n^-decay: larger is smoother", NULL},
+     "coefficients of degree n fall as n^-decay: larger is smoother"},
     {FIELD(degrees), CLAST_FIELD_I32, 12, LEAST_DEGREE, CLX_FIELD_DEGREES, "-",
-     "greatest degree of the spherical harmonics", NULL},
-    {FIELD(faces), CLAST_FIELD_I32, 300, 8, 100000, "-", "at most so many triangles", NULL,
+     "greatest degree of the spherical harmonics"},
+    {FIELD(faces), CLAST_FIELD_I32, 300, 8, 100000, "-", "at most so many triangles",
      .common = true},
     {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8446744073709552e19, "-", "seed of form and roughness",
-     NULL, .common = true},
+     .common = true},
     {0}};
 #undef FIELD
 #undef FORM
@@ -170,11 +169,10 @@ static clast_status bracket(maker *m, double wanted, double *low, double *high)
         now = roughness(m);
         roughest = fmax(roughest, now);
     }
-    CLX_CHECK(
-        now >= wanted, CLAST_E_CONVERGE,
-        "grain of flatness %.4g and elongation %.4g: %.5g is rougher than a hull of this seed "
-        "can be, %.5g",
-        m->lis[2] / m->lis[1], m->lis[1] / m->lis[0], shown(m, wanted), shown(m, roughest));
+    CLX_CHECK(now >= wanted, CLAST_E_CONVERGE,
+              "grain of flatness %.4g and elongation %.4g: %.5g is rougher than a hull of this "
+              "seed can be, %.5g",
+              m->lis[2] / m->lis[1], m->lis[1] / m->lis[0], shown(m, wanted), shown(m, roughest));
 done:
     return status;
 }

@@ -11,6 +11,7 @@
 #include "shape/shape.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
 #include <clast/shape.h>
@@ -167,12 +168,7 @@ static double angle_on(const circle *c, const double p[3])
     return atan2(v3_dot(p, c->b), v3_dot(p, c->a));
 }
 
-static int by_begin(const void *a, const void *b)
-{
-    const double x = ((const stretch *)a)->begin;
-    const double y = ((const stretch *)b)->begin;
-    return x < y ? -1 : x > y ? 1 : 0;
-}
+CLX_RISING(by_begin, stretch, begin)
 
 /// Fills s->hidden with what the other caps hide of circle k; true when they hide all of it.
 static bool hide(scratch *s, int32_t k, const circle *c)
@@ -442,9 +438,7 @@ clast_status clx_spheres_union_measure(const clast_spheres *spheres, clast_mass 
     mass_of(&sum, s.origin, mass);
     *area = exposed;
 done:
-    clx_free(s.radius);
-    clx_free(s.caps);
-    clx_free(s.hidden);
+    CLX_FREE(s.radius, s.caps, s.hidden);
     return status;
 }
 

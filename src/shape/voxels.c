@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "geom/isosurface.h"
 #include "geom/whole.h"
+#include "math/sort.h"
 #include "math/vec3.h"
 #include "shape/whole.h"
 #include <clast/mesh.h>
@@ -15,8 +16,7 @@ void clast_voxels_free(clast_voxels *voxels)
     if (voxels == NULL) {
         return;
     }
-    clx_free(voxels->label);
-    clx_free(voxels->grey);
+    CLX_FREE(voxels->label, voxels->grey);
     *voxels = (clast_voxels){0};
 }
 
@@ -39,12 +39,7 @@ done:
     return status;
 }
 
-static int compare_labels(const void *a, const void *b)
-{
-    const int32_t x = ((const clast_voxel_label *)a)->label;
-    const int32_t y = ((const clast_voxel_label *)b)->label;
-    return x < y ? -1 : x > y;
-}
+CLX_RISING(compare_labels, clast_voxel_label, label)
 
 /// Open addressing: slot of a label in a table of `room` (a power of two) slots, 0 = free.
 static int64_t slot_of(const clast_voxel_label *slot, int64_t capacity, int32_t label)
@@ -256,11 +251,10 @@ clast_status clast_voxels_surface(const clast_voxels *voxels, const clast_voxel_
         mesh->vert[i / 3][i % 3] *= voxels->edge[i % 3];
     }
     if (status == CLAST_E_GEOMETRY) {
-        status =
-            clx_fail(CLAST_E_GEOMETRY,
-                     "label %d has %lld voxels, too few or too thin for a surface; measure its "
-                     "convex hull with --hull, or scan finer",
-                     label->label, (long long)label->n_voxel);
+        status = clx_fail(CLAST_E_GEOMETRY,
+                          "label %d has %lld voxels, too few or too thin for a surface; measure "
+                          "its convex hull with --hull, or scan finer",
+                          label->label, (long long)label->n_voxel);
     }
 done:
     clx_free(grid.value);

@@ -11,8 +11,6 @@
 #include <clast/table.h>
 #include <jansson.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static json_t *estimate_json(const clast_fit_estimate *e)
@@ -69,8 +67,6 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     json_t *root = json_object();
     json_t *best = json_object();
     json_t *spread = json_object();
-    char *made = NULL;
-    char *copy = NULL;
     (void)json_object_set_new(root, "verdict", json_string(clast_fit_verdict_name(fit->verdict)));
     (void)json_object_set_new(root, "words", json_string(fit->words));
     clx_json_set_number(root, "chi2", fit->chi2);
@@ -94,13 +90,9 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     }
     (void)json_object_set_new(spread, "porosity", estimate_json(&fit->porosity));
     (void)json_object_set_new(root, "spread", spread);
-    made = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    CLX_CHECK(made != NULL, CLAST_E_MEMORY, "no memory for the fit's summary");
-    CLX_TRY(clx_alloc_text(&copy, made));
-    *text = copy;
+    CLX_TRY(clx_json_dump(root, text));
 done:
     json_decref(root);
-    free(made); // Jansson's own allocator
     return status;
 }
 

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "plot/series.h"
 #include <clast/chart.h>
 #include <clast/table.h>
 #include <math.h>
@@ -26,8 +27,7 @@ typedef struct {
 static void drawing_free(drawing *d)
 {
     for (int k = 0; k < MAX_PACKING; ++k) {
-        clx_free(d->x[k]);
-        clx_free(d->y[k]);
+        CLX_FREE(d->x[k], d->y[k]);
     }
 }
 
@@ -78,8 +78,7 @@ static int32_t add_observation(const clast_aggregate_fit *fit, drawing *d, int32
     }
     d->seen_low[0] = density - fit->error[CLAST_FIT_DENSITY];
     d->seen_high[0] = density + fit->error[CLAST_FIT_DENSITY];
-    d->series[n] = (clast_series){
-        .kind = CLAST_SERIES_LINE, .x = d->seen_x, .y = d->seen_y, .n = 3, .colour = -1};
+    d->series[n] = clx_series(CLAST_SERIES_LINE, NULL, d->seen_x, d->seen_y, 3, -1);
     d->series[n + 1] = (clast_series){.kind = CLAST_SERIES_POINTS,
                                       .label = "observed",
                                       .x = &d->seen_x[1],
@@ -99,12 +98,8 @@ clast_status clx_fit_chart_write(const char *folder, const clast_aggregate_fit *
     drawing d = {0};
     CLX_TRY(take_nodes(nodes, &d));
     for (int32_t k = 0; k < d.n_packing; ++k) {
-        d.series[k] = (clast_series){.kind = CLAST_SERIES_POINTS,
-                                     .label = d.label[k],
-                                     .x = d.x[k],
-                                     .y = d.y[k],
-                                     .n = d.n[k],
-                                     .colour = k % COLOURS};
+        d.series[k] =
+            clx_series(CLAST_SERIES_POINTS, d.label[k], d.x[k], d.y[k], d.n[k], k % COLOURS);
     }
     static const char *const title[] = {
         [CLAST_FIT_INSIDE] = "Grown aggregates: the best is inside the observed interval",

@@ -60,8 +60,7 @@ clast_status clx_folder_largest(const clast_assembly *all, const clast_table *me
     }
     *n_cluster = n;
 done:
-    clx_free(cluster);
-    clx_free(count);
+    CLX_FREE(cluster, count);
     return status;
 }
 
@@ -126,11 +125,10 @@ static clast_status announce(const clast_assembly *body, const clast_printable_c
     char text[200];
     CLX_TRY(clast_assembly_printable_plan(body, config, &plan));
     const char *unit = clast_unit_for(plan.spacing, "m", &factor);
-    (void)clx_number_print(text, sizeof text,
-                           "printable.stl: about %.0f triangles, %.3g MB, at a spacing of %.3g %s "
-                           "(--spacing)",
-                           plan.n_triangle_expected, 50e-6 * plan.n_triangle_expected,
-                           factor * plan.spacing, unit);
+    (void)clx_number_print(
+        text, sizeof text,
+        "printable.stl: about %.0f triangles, %.3g MB, at a spacing of %.3g %s (--spacing)",
+        plan.n_triangle_expected, 50e-6 * plan.n_triangle_expected, factor * plan.spacing, unit);
     note(monitor, text);
 done:
     return status;
@@ -220,11 +218,10 @@ static void note_unresolved(const clast_monitor *monitor, const clast_printable_
     double factor = 1.0;
     const char *unit = clast_unit_for(r->smallest_feature, "m", &factor);
     if (r->lost > 0.0) {
-        (void)clx_number_print(
-            text, sizeof text,
-            "printable.stl: not resolved: %.2g %% of the grains' volume is lost, "
-            "thin walls of them; take a finer --spacing",
-            100.0 * r->lost);
+        (void)clx_number_print(text, sizeof text,
+                               "printable.stl: not resolved: %.2g %% of the grains' volume is "
+                               "lost, thin walls of them; take a finer --spacing",
+                               100.0 * r->lost);
         note(monitor, text);
     } else if (!r->resolved) {
         (void)clx_number_print(text, sizeof text,

@@ -5,6 +5,7 @@
 #include "study/aggregate_repeats.h"
 
 #include "base/alloc.h"
+#include "math/sort.h"
 #include <clast/machine.h>
 #include <clast/table.h>
 #include <stdlib.h>
@@ -169,12 +170,7 @@ done:
     return status;
 }
 
-static int by_index(const void *a, const void *b)
-{
-    const clx_repeat *x = a;
-    const clx_repeat *y = b;
-    return x->index < y->index ? -1 : x->index > y->index;
-}
+CLX_RISING(by_index, clx_repeat, index)
 
 static clast_status append_rows(clast_table *all, clast_table *rows)
 {

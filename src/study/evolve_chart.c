@@ -2,6 +2,7 @@
 #include "study/evolve_folder.h"
 
 #include "base/alloc.h"
+#include "plot/series.h"
 #include <clast/chart.h>
 #include <math.h>
 
@@ -33,12 +34,8 @@ static clast_status draw_evolution(const char *folder, const clast_table *balanc
                                         "grains of an aggregate (mean by mass)"};
     clast_series series[4];
     for (int k = 0; k < 4; ++k) {
-        series[k] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                   .label = label[k],
-                                   .x = clast_table_numbers(balance, "time_s"),
-                                   .y = clast_table_numbers(balance, column[k]),
-                                   .n = balance->n_row,
-                                   .colour = k};
+        series[k] = clx_series(CLAST_SERIES_LINE, label[k], clast_table_numbers(balance, "time_s"),
+                               clast_table_numbers(balance, column[k]), balance->n_row, k);
     }
     const clast_chart chart = {.title = "Evolution of the cloud",
                                .x = {.label = "time (s)"},
@@ -57,18 +54,13 @@ static clast_status draw_spectrum(const char *folder, const clast_table *spectru
         --first;
     }
     const int64_t n = spectrum->n_row - first;
-    const clast_series series[] = {{.kind = CLAST_SERIES_POINTS,
-                                    .label = "in the fluid",
-                                    .x = clast_table_numbers(spectrum, "grains_low") + first,
-                                    .y = clast_table_numbers(spectrum, "n_particle") + first,
-                                    .n = n,
-                                    .colour = 0},
-                                   {.kind = CLAST_SERIES_POINTS,
-                                    .label = "on the floor",
-                                    .x = clast_table_numbers(spectrum, "grains_low") + first,
-                                    .y = clast_table_numbers(spectrum, "n_deposit") + first,
-                                    .n = n,
-                                    .colour = 1}};
+    const clast_series series[] = {
+        clx_series(CLAST_SERIES_POINTS, "in the fluid",
+                   clast_table_numbers(spectrum, "grains_low") + first,
+                   clast_table_numbers(spectrum, "n_particle") + first, n, 0),
+        clx_series(CLAST_SERIES_POINTS, "on the floor",
+                   clast_table_numbers(spectrum, "grains_low") + first,
+                   clast_table_numbers(spectrum, "n_deposit") + first, n, 1)};
     const clast_chart chart = {.title = "Aggregates by their grains, at the end",
                                .x = {.label = "grains, from here to twice (-)", .log = true},
                                .y = {.label = "number (-)", .log = true},

@@ -133,9 +133,9 @@ static span span_of(const clast_domain *d, int axis)
     return (span){d->low[axis], d->high[axis]};
 }
 
-/// Where landing places go in a bed of this width: the domain is cut across into the whole number
-/// of strips that comes nearest to the bed's width, which lie upon each other, stretched onto what
-/// a body's centre can reach between the walls.
+/// Where places of arrival go in a bed of this width: the domain is cut across into the whole
+/// number of strips that comes nearest to the bed's width, which lie upon each other, stretched
+/// onto what a body's centre can reach between the walls.
 static double across(span domain, double width, double x, double radius)
 {
     const double extent = domain.high - domain.low;
@@ -222,9 +222,7 @@ static clast_status drop_all(double width, clast_assembly *bed, double *height)
         *cell = i;
     }
 done:
-    clx_free(c.newest);
-    clx_free(c.older);
-    clx_free(c.crest);
+    CLX_FREE(c.newest, c.older, c.crest);
     return status;
 }
 

@@ -213,8 +213,7 @@ done:
     for (int32_t k = 0; file != NULL && k < n; ++k) {
         clx_free(file[k]);
     }
-    clx_free(file);
-    clx_free(time);
+    CLX_FREE(file, time);
     clast_table_free(&balance);
     return status;
 }

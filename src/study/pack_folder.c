@@ -2,8 +2,10 @@
 #include "study/pack_folder.h"
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "plot/series.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
 #include "run/run.h"
@@ -52,12 +54,8 @@ static clast_status draw_energy(const char *folder, const clast_table *series)
     bool is_any = false;
     for (int k = 0; k < 3; ++k) {
         const double *y = clast_table_numbers(series, name[k]);
-        line[k] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                 .label = label[k],
-                                 .x = clast_table_numbers(series, "time_s"),
-                                 .y = y,
-                                 .n = series->n_row,
-                                 .colour = k};
+        line[k] = clx_series(CLAST_SERIES_LINE, label[k], clast_table_numbers(series, "time_s"), y,
+                             series->n_row, k);
         for (int64_t i = 0; i < series->n_row; ++i) {
             is_any = is_any || y[i] > 0.0;
         }
@@ -83,12 +81,8 @@ static clast_status draw_lines(const char *path, const clast_table *load, const 
     clast_series line[8];
     CLAST_ASSERT(n >= 1 && n <= 8);
     for (int k = 0; k < n; ++k) {
-        line[k] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                 .label = name[k][1],
-                                 .x = clast_table_numbers(load, "time_s"),
-                                 .y = clast_table_numbers(load, name[k][0]),
-                                 .n = load->n_row,
-                                 .colour = k};
+        line[k] = clx_series(CLAST_SERIES_LINE, name[k][1], clast_table_numbers(load, "time_s"),
+                             clast_table_numbers(load, name[k][0]), load->n_row, k);
     }
     const clast_chart chart = {.title = title,
                                .x = {.label = "time (s)"},
@@ -298,8 +292,17 @@ static void put_pose(const clast_assembly *a, int32_t i, clast_table *table, int
 /// them, then its pose.
 static clast_status write_grains(const char *folder, const clast_pack *pack)
 {
-    static const char *const pose[][2] = {{"x_m", "m"}, {"y_m", "m"}, {"z_m", "m"}, {"qw", "-"},
-                                          {"qx", "-"},  {"qy", "-"},  {"qz", "-"}};
+    static const char *const column[][2] = {{"flatness", "-"},
+                                            {"elongation", "-"},
+                                            {"sieve_size_m", "m"},
+                                            {"density_kg/m^3", "kg/m^3"},
+                                            {"x_m", "m"},
+                                            {"y_m", "m"},
+                                            {"z_m", "m"},
+                                            {"qw", "-"},
+                                            {"qx", "-"},
+                                            {"qy", "-"},
+                                            {"qz", "-"}};
     clast_status status = CLAST_OK;
     clast_assembly a = {0};
     clast_table table = {0};
@@ -310,13 +313,7 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_table_init(&table, "grains", a.n_grain));
     CLX_TRY(clast_table_add_text(&table, "shape"));
-    CLX_TRY(clast_table_add_number(&table, "flatness", "-", NULL));
-    CLX_TRY(clast_table_add_number(&table, "elongation", "-", NULL));
-    CLX_TRY(clast_table_add_number(&table, "sieve_size_m", "m", NULL));
-    CLX_TRY(clast_table_add_number(&table, "density_kg/m^3", "kg/m^3", NULL));
-    for (size_t k = 0; k < sizeof pose / sizeof *pose; ++k) {
-        CLX_TRY(clast_table_add_number(&table, pose[k][0], pose[k][1], NULL));
-    }
+    CLX_TRY(CLX_ADD_COLUMNS(&table, column));
     flatness = clast_table_numbers(&table, "flatness");
     elongation = clast_table_numbers(&table, "elongation");
     size = clast_table_numbers(&table, "sieve_size_m");
@@ -443,7 +440,6 @@ done:
     for (int64_t i = 0; file != NULL && i < n; ++i) {
         clx_free(file[i]);
     }
-    clx_free(file);
-    clx_free(time);
+    CLX_FREE(file, time);
     return status;
 }

@@ -12,7 +12,6 @@
 #include <clast/run_folder.h>
 #include <clast/table.h>
 #include <jansson.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -58,9 +58,7 @@ void clx_touch_scene_expect(clx_touch_scene *scene, int64_t n_walk)
 void clx_touch_scene_destroy(clx_touch_scene *scene)
 {
     if (scene != NULL) {
-        clx_free(scene->body);
-        clx_free(scene->block);
-        clx_free(scene);
+        CLX_FREE(scene->body, scene->block, scene);
     }
 }
 

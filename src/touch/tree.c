@@ -379,8 +379,7 @@ clast_status clx_touch_tree_mesh(const clast_mesh *mesh, clx_touch_tree **tree)
     *tree = made;
     made = NULL;
 done:
-    clx_free(box);
-    clx_free(corner);
+    CLX_FREE(box, corner);
     clx_touch_tree_destroy(made);
     return status;
 }
@@ -425,8 +424,7 @@ clast_status clx_touch_tree_spheres(int32_t n, double (*centre)[3], const double
     *tree = made;
     made = NULL;
 done:
-    clx_free(box);
-    clx_free(ball);
+    CLX_FREE(box, ball);
     clx_touch_tree_destroy(made);
     return status;
 }
@@ -434,10 +432,6 @@ done:
 void clx_touch_tree_destroy(clx_touch_tree *tree)
 {
     if (tree != NULL) {
-        clx_free(tree->node);
-        clx_free(tree->corner);
-        clx_free(tree->ball);
-        clx_free(tree->probe);
-        clx_free(tree);
+        CLX_FREE(tree->node, tree->corner, tree->ball, tree->probe, tree);
     }
 }

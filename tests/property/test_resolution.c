@@ -3,7 +3,7 @@
  * docs/validation/d2sd.md with seeds of its own. */
 #include "support.h"
 
-#include "cloud/ladder.h"
+#include "cloud/pair_levels.h"
 #include "densities.h"
 #include <clast/decompose.h>
 #include <math.h>
@@ -272,7 +272,7 @@ static double side_of(double u, double shift, double width, int64_t *number)
 }
 
 /* All pairs by the definition, in five shifted grids. */
-static void rungs_are_sums_over_pairs(void **state)
+static void levels_are_sums_over_pairs(void **state)
 {
     (void)state;
     enum { N = 150, D = 3 };
@@ -280,7 +280,7 @@ static void rungs_are_sums_over_pairs(void **state)
     static double weight[N];
     static int64_t number[N];
     clast_domain domain;
-    clx_ladder ladder;
+    clx_pair_levels levels;
     for (int i = 0; i < N; ++i) {
         clx_rng rng = clx_rng_at(8, CLX_STREAM_TEST, (uint64_t)i);
         for (int j = 0; j < D; ++j) {
@@ -297,9 +297,9 @@ static void rungs_are_sums_over_pairs(void **state)
                                .n_real = N,
                                .u = u,
                                .number = number};
-    CHECK_OK(clx_ladder_count(clast_comm_one(), &sample, weight, &ladder));
-    assert_true(ladder.first == 0 && ladder.n >= 4);
-    for (int32_t r = 0; r < ladder.n; ++r) {
+    CHECK_OK(clx_pair_levels_count(clast_comm_one(), &sample, weight, &levels));
+    assert_true(levels.first == 0 && levels.n >= 4);
+    for (int32_t r = 0; r < levels.n; ++r) {
         const double width = ldexp(1.0, -r);
         double sum = 0.0;
         for (int m = 0; m < 5; ++m) {
@@ -319,14 +319,14 @@ static void rungs_are_sums_over_pairs(void **state)
                 sum += same ? weight[i] * weight[k] / volume / 5.0 : 0.0;
             }
         }
-        CHECK_REL(ladder.pairs[r], sum, 1e-11);
+        CHECK_REL(levels.pairs[r], sum, 1e-11);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rungs_are_sums_over_pairs),
+        cmocka_unit_test(levels_are_sums_over_pairs),
         cmocka_unit_test(boxes_tell_their_bias_and_votes_do_not_move_the_number),
         cmocka_unit_test(points_that_keep_apart_are_not_resolved),
         cmocka_unit_test(what_is_not_resolved_says_so_and_its_lower_bound_holds),

@@ -29,14 +29,14 @@ static void use_scan(support_aggregate *s)
 static void insert(const clx_search *s, const double centre[3], const double orientation[4],
                    clx_touch_scene *scene)
 {
-    clx_kit_part placed;
-    clx_kit_pose(s->group, 0, centre, orientation, s->scale, &placed);
-    clx_touch_body body = s->kit->shape[placed.shape].body;
+    clx_template_part placed;
+    clx_template_pose(s->group, 0, centre, orientation, s->scale, &placed);
+    clx_touch_body body = s->templates->shape[placed.shape].body;
     clx_touch_body_place(&body, placed.position, placed.orientation, placed.scale);
     CHECK_OK(clx_touch_scene_insert(scene, &body));
 }
 
-static void same_landing(const clx_landing *a, const clx_landing *b)
+static void same_landing(const clx_placement *a, const clx_placement *b)
 {
     assert_int_equal(a->found, b->found);
     assert_int_equal(a->trial, b->trial);
@@ -49,7 +49,7 @@ static void same_landing(const clx_landing *a, const clx_landing *b)
 static void grow_both_ways(int32_t contact, double start)
 {
     support_aggregate s;
-    clx_kit kit = {0};
+    clx_templates templates = {0};
     clx_touch_scene *scene = NULL;
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
@@ -58,13 +58,13 @@ static void grow_both_ways(int32_t contact, double start)
     if (contact == CLAST_CONTACT_EXACT) {
         use_scan(&s);
     }
-    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
+    CHECK_OK(clx_templates_make(&s.config.params, &s.input, &templates));
     CHECK_OK(clx_touch_scene_create(&scene));
     for (int32_t i = 0; i < 40; ++i) {
-        clx_landing plain;
-        clx_landing scouted;
-        clx_kit_group group = kit.group[1 + i % 2];
-        clx_search search = {.kit = &kit,
+        clx_placement plain;
+        clx_placement scouted;
+        clx_template group = templates.group[1 + i % 2];
+        clx_search search = {.templates = &templates,
                              .group = &group,
                              .scene = scene,
                              .n_body = clx_touch_scene_count(scene),
@@ -92,7 +92,7 @@ static void grow_both_ways(int32_t contact, double start)
         }
     }
     clx_touch_scene_destroy(scene);
-    clx_kit_free(&kit);
+    clx_templates_free(&templates);
     support_aggregate_free(&s);
 }
 
@@ -109,18 +109,18 @@ static void the_inner_ball_lies_within(void **state)
 {
     (void)state;
     support_aggregate s;
-    clx_kit kit = {0};
+    clx_templates templates = {0};
     support_aggregate_make(&s, axes, 2, "size=1");
     use_scan(&s);
-    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
-    CHECK_REL(kit.group[1].inner, 0.15, 1e-8);
-    const clx_kit_group *scan = &kit.group[2];
+    CHECK_OK(clx_templates_make(&s.config.params, &s.input, &templates));
+    CHECK_REL(templates.group[1].inner, 0.15, 1e-8);
+    const clx_template *scan = &templates.group[2];
     const clast_mesh *mesh = &s.coat[1].shape[0].mesh;
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
         assert_true(v3_norm(mesh->vert[v]) >= scan->inner);
     }
     assert_true(4.0 / 3.0 * CLAST_PI * pow(scan->inner, 3) > 0.05 * scan->volume);
-    clx_kit_free(&kit);
+    clx_templates_free(&templates);
     support_aggregate_free(&s);
 }
 

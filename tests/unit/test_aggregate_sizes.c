@@ -271,20 +271,20 @@ static void form_of_groups_is_exact(void **state)
 {
     (void)state;
     support_aggregate s;
-    clx_kit kit = {0};
+    clx_templates templates = {0};
     double form[3];
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
     const double at[3] = {1.0, 2.0, 2.0};
     support_aggregate_make(&s, NULL, 1, "size_meaning=mean_diameter");
     CHECK_OK(clast_assembly_add_grain(&s.core, 0, at, unturned, 2.0, 2500.0));
-    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
-    CHECK_OK(clx_form_dimensions(&kit, &kit.group[0], form));
+    CHECK_OK(clx_templates_make(&s.config.params, &s.input, &templates));
+    CHECK_OK(clx_form_dimensions(&templates, &templates.group[0], form));
     CHECK_REL(form[0], 3.0 + 0.5 + 1.0, 1e-12); // radii 0.5 and 1, centres 3 apart
     CHECK_REL(form[1], 2.0, 1e-2);              // of points on the spheres
     CHECK_REL(form[2], 2.0, 1e-2);
-    CHECK_REL(kit.group[0].length, 4.5, 1e-12);
-    CHECK_REL(kit.group[1].mean_diameter, 1.0, 1e-15);
-    clx_kit_free(&kit);
+    CHECK_REL(templates.group[0].length, 4.5, 1e-12);
+    CHECK_REL(templates.group[1].mean_diameter, 1.0, 1e-15);
+    clx_templates_free(&templates);
     support_aggregate_free(&s);
 }
 
@@ -294,13 +294,13 @@ static void meanings_of_size_agree_for_an_ellipsoid(void **state)
     const double axes[1][3] = {{4.0, 2.0, 1.0}};
     const double wanted[] = {4.0, 2.0, 2.0}; // length, volume-equivalent, (L I S)^(1/3)
     support_aggregate s;
-    clx_kit kit = {0};
+    clx_templates templates = {0};
     support_aggregate_make(&s, axes, 1, "size_meaning=mean_diameter");
-    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
+    CHECK_OK(clx_templates_make(&s.config.params, &s.input, &templates));
     for (int32_t meaning = 0; meaning < 3; ++meaning) {
-        CHECK_REL(clx_kit_size(&kit.group[1], meaning), wanted[meaning], 1e-14);
+        CHECK_REL(clx_template_size(&templates.group[1], meaning), wanted[meaning], 1e-14);
     }
-    clx_kit_free(&kit);
+    clx_templates_free(&templates);
     support_aggregate_free(&s);
 }
 
@@ -316,7 +316,7 @@ static void mean_diameters_are_of_the_fitted_axes(void **state)
     clast_shape rock = {0};
     clast_assembly grain = {0};
     clast_grain measured;
-    clx_kit kit = {0};
+    clx_templates templates = {0};
     support_aggregate s;
     support_aggregate_make(&s, NULL, 1, "size_meaning=mean_diameter");
     CHECK_OK(clast_mesh_hull(&points, &hull));
@@ -326,13 +326,13 @@ static void mean_diameters_are_of_the_fitted_axes(void **state)
     CHECK_OK(clast_assembly_add_grain(&grain, 0, (double[3]){0.0, 0.0, 0.0},
                                       (double[4]){1.0, 0.0, 0.0, 0.0}, 1.0, 2500.0));
     s.input.coat = &grain;
-    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
+    CHECK_OK(clx_templates_make(&s.config.params, &s.input, &templates));
     const double *fitted = measured.axes[CLAST_AXES_FITTED].lis;
     const double *equal = measured.axes[CLAST_AXES_ELLIPSOID].lis;
-    const double mean = clx_kit_size(&kit.group[1], CLAST_SIZE_MEAN);
+    const double mean = clx_template_size(&templates.group[1], CLAST_SIZE_MEAN);
     CHECK_REL(mean, cbrt(fitted[0] * fitted[1] * fitted[2]), 1e-12);
     assert_true(fabs(mean / cbrt(equal[0] * equal[1] * equal[2]) - 1.0) > 0.05);
-    clx_kit_free(&kit);
+    clx_templates_free(&templates);
     support_aggregate_free(&s);
     clast_assembly_free(&grain);
     clast_shape_free(&rock);

@@ -278,7 +278,7 @@ static void the_interval_knows_that_a_blobs_width_varies(void **state)
     assert_true(covered >= 35);
 }
 
-/* Pairs in shells as this autocorrelation A(r) has them in the mean, and a ladder that objects to
+/* Pairs in shells as this autocorrelation A(r) has them in the mean, and levels that object to
  * nothing: its errors are as large as it. */
 static clast_estimate estimate_of(double (*autocorrelation)(double), double n)
 {
@@ -286,7 +286,7 @@ static clast_estimate estimate_of(double (*autocorrelation)(double), double n)
     static double covariance[N_SHELL * N_SHELL];
     double radius[N_SHELL];
     double pairs[N_SHELL] = {0};
-    clx_ladder ladder = {.d = 3, .n = 3};
+    clx_pair_levels levels = {.d = 3, .n = 3};
     clast_pair_integral found = {0};
     double inner = 0.0;
     memset(covariance, 0, sizeof covariance);
@@ -301,15 +301,15 @@ static clast_estimate estimate_of(double (*autocorrelation)(double), double n)
         inner = radius[k];
     }
     for (int r = 0; r < 3; ++r) {
-        ladder.pairs[r] = 1.0;
-        ladder.n_pair[r] = 1000.0;
-        ladder.covariance[r][r] = 1.0;
+        levels.pairs[r] = 1.0;
+        levels.n_pair[r] = 1000.0;
+        levels.covariance[r][r] = 1.0;
     }
     CHECK_OK(clx_pair_integral(&(clx_pair_shells){.d = 3,
                                                   .n_shell = N_SHELL,
                                                   .n = n,
                                                   .volume = 1.0,
-                                                  .ladder = &ladder,
+                                                  .levels = &levels,
                                                   .radius = radius,
                                                   .pairs = pairs,
                                                   .spread = pairs,
@@ -474,7 +474,7 @@ static void a_pole_is_not_resolved(void **state)
         clast_pairs_free(&pairs);
         clast_cloud_free(&cloud);
     }
-    assert_true(resolved <= 2); // 12 without the ladder
+    assert_true(resolved <= 2); // 12 without the levels
 }
 
 /* A cylinder that lies anywhere has the pairs of one that stands at the origin. */

@@ -1,5 +1,5 @@
 // Shapes and groups made ready to be thrown.
-#include "aggregate/kit.h"
+#include "aggregate/template.h"
 
 #include "aggregate/form.h"
 #include "assembly/pieces.h"
@@ -12,22 +12,20 @@
 #include <clast/shape.h>
 #include <string.h>
 
-void clx_kit_free(clx_kit *kit)
+void clx_templates_free(clx_templates *templates)
 {
-    for (int32_t i = 0; i < kit->n_shape; ++i) {
-        clx_touch_tree_destroy(kit->shape[i].tree);
+    for (int32_t i = 0; i < templates->n_shape; ++i) {
+        clx_touch_tree_destroy(templates->shape[i].tree);
     }
-    for (int32_t g = 0; g < kit->n_group; ++g) {
-        clx_free(kit->group[g].part);
-        clx_free(kit->group[g].contact);
-        clx_free(kit->group[g].contact_point);
+    for (int32_t g = 0; g < templates->n_group; ++g) {
+        CLX_FREE(templates->group[g].part, templates->group[g].contact,
+                 templates->group[g].contact_point);
     }
-    clx_free(kit->shape);
-    clx_free(kit->group);
-    *kit = (clx_kit){0};
+    CLX_FREE(templates->shape, templates->group);
+    *templates = (clx_templates){0};
 }
 
-static clast_status composite(const clast_shape *shape, clx_kit_shape *made)
+static clast_status composite(const clast_shape *shape, clx_template_shape *made)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(shape->spheres.n > 0, CLAST_E_GEOMETRY,
@@ -39,7 +37,7 @@ done:
     return status;
 }
 
-static clast_status true_surface(const clast_shape *shape, clx_kit_shape *made)
+static clast_status true_surface(const clast_shape *shape, clx_template_shape *made)
 {
     clast_status status = CLAST_OK;
     if (shape->kind == CLAST_SHAPE_SPHERE) {
@@ -56,7 +54,7 @@ done:
     return status;
 }
 
-static clast_status make_shape(int32_t contact, clx_kit_shape *made)
+static clast_status make_shape(int32_t contact, clx_template_shape *made)
 {
     const clast_shape *shape = made->shape;
     double trace = 0.0;
@@ -69,15 +67,15 @@ static clast_status make_shape(int32_t contact, clx_kit_shape *made)
                                                    : composite(shape, made);
 }
 
-static clast_status make_parts(const clx_kit *kit, const clast_assembly *assembly,
-                               int32_t first_shape, clx_kit_group *group)
+static clast_status make_parts(const clx_templates *templates, const clast_assembly *assembly,
+                               int32_t first_shape, clx_template *group)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&group->part, assembly->n_grain, sizeof *group->part));
     group->n_part = assembly->n_grain;
     clast_assembly_centre(assembly, group->centre);
     for (int32_t i = 0; i < group->n_part; ++i) {
-        clx_kit_part *part = &group->part[i];
+        clx_template_part *part = &group->part[i];
         const double s = assembly->scale[i];
         part->shape = first_shape + assembly->shape_id[i];
         v3_sub(part->position, assembly->position[i], group->centre);
@@ -86,7 +84,7 @@ static clast_status make_parts(const clx_kit *kit, const clast_assembly *assembl
         }
         part->scale = s;
         part->density = assembly->density[i];
-        const clast_shape *shape = kit->shape[part->shape].shape;
+        const clast_shape *shape = templates->shape[part->shape].shape;
         const double volume = shape->volume * s * s * s;
         group->volume += volume;
         group->mass += volume * part->density;
@@ -97,7 +95,7 @@ done:
 }
 
 /// Distance of a point in a closed surface to its triangles; 0 when it is outside.
-static double depth_in_mesh(const clx_kit_shape *shape, const double p[3])
+static double depth_in_mesh(const clx_template_shape *shape, const double p[3])
 {
     double least = INFINITY;
     if (!clx_bvh_is_closed(&shape->shape->mesh) || !clx_touch_tree_inside(shape->tree, p)) {
@@ -113,7 +111,7 @@ static double depth_in_mesh(const clx_kit_shape *shape, const double p[3])
 }
 
 /// Radius of a ball about p within a shape at scale 1, not always the largest; may be negative.
-static double depth_in_shape(const clx_kit_shape *shape, const double p[3])
+static double depth_in_shape(const clx_template_shape *shape, const double p[3])
 {
     const clx_touch_body *body = &shape->body;
     double most = 0.0;
@@ -133,21 +131,21 @@ static double depth_in_shape(const clx_kit_shape *shape, const double p[3])
 }
 
 /// A ball about the centre of mass that lies within a part lies within the group.
-static void measure_inner(const clx_kit *kit, clx_kit_group *group)
+static void measure_inner(const clx_templates *templates, clx_template *group)
 {
     for (int32_t i = 0; i < group->n_part; ++i) {
-        const clx_kit_part *part = &group->part[i];
+        const clx_template_part *part = &group->part[i];
         const double *q = part->orientation;
         const double back[4] = {q[0], -q[1], -q[2], -q[3]};
         double arm[3];
         v3_scale(arm, -1.0 / part->scale, part->position);
         q_rotate(arm, back, arm);
-        const double depth = part->scale * depth_in_shape(&kit->shape[part->shape], arm);
+        const double depth = part->scale * depth_in_shape(&templates->shape[part->shape], arm);
         group->inner = fmax(group->inner, depth * (1.0 - 1e-9));
     }
 }
 
-static clast_status copy_contacts(const clast_assembly *assembly, clx_kit_group *group)
+static clast_status copy_contacts(const clast_assembly *assembly, clx_template *group)
 {
     clast_status status = CLAST_OK;
     const int32_t n = assembly->n_contact;
@@ -164,14 +162,15 @@ done:
 }
 
 /// The length of a single shape is known; width and thickness take a search, made only if needed.
-static clast_status measure_form(const clx_kit *kit, bool need_mean, clx_kit_group *group)
+static clast_status measure_form(const clx_templates *templates, bool need_mean,
+                                 clx_template *group)
 {
     clast_status status = CLAST_OK;
     double form[3];
-    const clx_kit_part *part = &group->part[0];
-    group->length = part->scale * kit->shape[part->shape].shape->length;
+    const clx_template_part *part = &group->part[0];
+    group->length = part->scale * templates->shape[part->shape].shape->length;
     if (group->n_part > 1 || need_mean) {
-        CLX_TRY(clx_form_dimensions(kit, group, form));
+        CLX_TRY(clx_form_dimensions(templates, group, form));
         group->length = form[0];
         group->mean_diameter = cbrt(form[0] * form[1] * form[2]);
     }
@@ -192,21 +191,20 @@ static clast_status check_one_piece(const clast_assembly *assembly, int32_t g)
     if (assembly->n_contact > 0) {
         CLX_TRY(clx_assembly_pieces(assembly, piece, &n_piece));
     }
-    CLX_CHECK(
-        n_piece == 1, CLAST_E_GEOMETRY,
-        "%s: its %d grains are %d pieces that do not touch, no one rigid body; of clusters, let "
-        "the run that made them end in one (n_final 1)",
-        g == 0 ? "core" : "coat", assembly->n_grain, n_piece);
+    CLX_CHECK(n_piece == 1, CLAST_E_GEOMETRY,
+              "%s: its %d grains are %d pieces that do not touch, no one rigid body; of clusters, "
+              "let the run that made them end in one (n_final 1)",
+              g == 0 ? "core" : "coat", assembly->n_grain, n_piece);
 done:
     clx_free(piece);
     return status;
 }
 
-static clast_status make_group(const clx_kit *kit, const clast_assembly *assembly,
-                               int32_t first_shape, clx_kit_group *group)
+static clast_status make_group(const clx_templates *templates, const clast_assembly *assembly,
+                               int32_t first_shape, clx_template *group)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(make_parts(kit, assembly, first_shape, group));
+    CLX_TRY(make_parts(templates, assembly, first_shape, group));
     CLX_TRY(copy_contacts(assembly, group));
 done:
     return status;
@@ -215,35 +213,36 @@ done:
 /// What takes long is made ready side by side: a tree for each shape, then the form of each group.
 typedef struct {
     const clast_aggregate_params *params;
-    clx_kit *kit;
-} kit_job;
+    clx_templates *templates;
+} template_job;
 
-static clast_status make_group_form(const kit_job *job, int32_t g)
+static clast_status make_group_form(const template_job *job, int32_t g)
 {
-    CLAST_ASSERT(g >= 0 && g < job->kit->n_group);
-    clx_kit_group *group = &job->kit->group[g];
+    CLAST_ASSERT(g >= 0 && g < job->templates->n_group);
+    clx_template *group = &job->templates->group[g];
     const int32_t meaning = g == 0 ? job->params->core_meaning : job->params->size_meaning;
-    return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
+    return group->n_part > 0 ? measure_form(job->templates, meaning == CLAST_SIZE_MEAN, group)
+                             : CLAST_OK;
 }
 
 static clast_status make_some(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_status status = CLAST_OK;
-    const kit_job *job = context;
-    const int64_t n_shape = job->kit->n_shape;
+    const template_job *job = context;
+    const int64_t n_shape = job->templates->n_shape;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        CLX_TRY(i < n_shape ? make_shape(job->params->contact, &job->kit->shape[i])
+        CLX_TRY(i < n_shape ? make_shape(job->params->contact, &job->templates->shape[i])
                             : make_group_form(job, (int32_t)(i - n_shape)));
     }
 done:
     return status;
 }
 
-static clast_status make_all(const clast_aggregate_params *params, clx_kit *kit)
+static clast_status make_all(const clast_aggregate_params *params, clx_templates *templates)
 {
-    kit_job job = {.params = params, .kit = kit};
-    return clx_parallel_try((int64_t)kit->n_shape + kit->n_group, 1, make_some, &job);
+    template_job job = {.params = params, .templates = templates};
+    return clx_parallel_try((int64_t)templates->n_shape + templates->n_group, 1, make_some, &job);
 }
 
 /// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.
@@ -254,7 +253,7 @@ static const clast_assembly *assembly_of(const clast_aggregate_input *input, int
 }
 
 /// One assembly's shapes come after those before it.
-static clast_status name_shapes(const clast_aggregate_input *input, clx_kit *kit)
+static clast_status name_shapes(const clast_aggregate_input *input, clx_templates *templates)
 {
     clast_status status = CLAST_OK;
     int32_t n_all = 0;
@@ -262,12 +261,12 @@ static clast_status name_shapes(const clast_aggregate_input *input, clx_kit *kit
         const clast_assembly *from = assembly_of(input, g);
         n_all += from != NULL ? from->n_shape : 0;
     }
-    CLX_TRY(clx_alloc(&kit->shape, n_all, sizeof *kit->shape));
+    CLX_TRY(clx_alloc(&templates->shape, n_all, sizeof *templates->shape));
     for (int32_t g = 0; g <= input->n_coat; ++g) {
         const clast_assembly *from = assembly_of(input, g);
         for (int32_t i = 0; from != NULL && i < from->n_shape; ++i) {
-            kit->shape[kit->n_shape].group = g;
-            kit->shape[kit->n_shape++].shape = &from->shape[i];
+            templates->shape[templates->n_shape].group = g;
+            templates->shape[templates->n_shape++].shape = &from->shape[i];
         }
     }
 done:
@@ -275,17 +274,17 @@ done:
 }
 
 /// The parts of every group; an absent assembly leaves its group empty.
-static clast_status name_groups(const clast_aggregate_input *input, clx_kit *kit)
+static clast_status name_groups(const clast_aggregate_input *input, clx_templates *templates)
 {
     clast_status status = CLAST_OK;
     int32_t first = 0;
-    CLX_TRY(clx_alloc(&kit->group, 1 + input->n_coat, sizeof *kit->group));
-    kit->n_group = 1 + input->n_coat;
-    for (int32_t g = 0; g < kit->n_group; ++g) {
+    CLX_TRY(clx_alloc(&templates->group, 1 + input->n_coat, sizeof *templates->group));
+    templates->n_group = 1 + input->n_coat;
+    for (int32_t g = 0; g < templates->n_group; ++g) {
         const clast_assembly *from = assembly_of(input, g);
         if (from != NULL) {
             CLX_TRY(check_one_piece(from, g));
-            CLX_TRY(make_group(kit, from, first, &kit->group[g]));
+            CLX_TRY(make_group(templates, from, first, &templates->group[g]));
             first += from->n_shape;
         }
     }
@@ -293,28 +292,28 @@ done:
     return status;
 }
 
-clast_status clx_kit_make(const clast_aggregate_params *params, const clast_aggregate_input *input,
-                          clx_kit *kit)
+clast_status clx_templates_make(const clast_aggregate_params *params,
+                                const clast_aggregate_input *input, clx_templates *templates)
 {
     clast_status status = CLAST_OK;
-    clx_kit made = {0};
+    clx_templates made = {0};
     CLX_TRY(name_shapes(input, &made));
     CLX_TRY(name_groups(input, &made));
     CLX_TRY(make_all(params, &made));
     for (int32_t g = 0; g < made.n_group; ++g) {
-        clx_kit_group *group = &made.group[g];
+        clx_template *group = &made.group[g];
         measure_inner(&made, group);
         group->is_round =
             group->n_part == 1 && made.shape[group->part[0].shape].body.kind == CLX_TOUCH_SPHERE;
     }
-    *kit = made;
-    made = (clx_kit){0};
+    *templates = made;
+    made = (clx_templates){0};
 done:
-    clx_kit_free(&made);
+    clx_templates_free(&made);
     return status;
 }
 
-double clx_kit_size(const clx_kit_group *group, int32_t meaning)
+double clx_template_size(const clx_template *group, int32_t meaning)
 {
     switch (meaning) {
     case CLAST_SIZE_LENGTH:
@@ -326,11 +325,11 @@ double clx_kit_size(const clx_kit_group *group, int32_t meaning)
     }
 }
 
-void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
-                  const double orientation[4], double scale, clx_kit_part *placed)
+void clx_template_pose(const clx_template *group, int32_t part, const double centre[3],
+                       const double orientation[4], double scale, clx_template_part *placed)
 {
     CLAST_ASSERT(part >= 0 && part < group->n_part && scale > 0.0);
-    const clx_kit_part *p = &group->part[part];
+    const clx_template_part *p = &group->part[part];
     double arm[3];
     q_rotate(arm, orientation, p->position);
     v3_axpy(placed->position, centre, scale, arm);

@@ -1,5 +1,5 @@
 // A walk down the tree of each shifted grid, whose points are Morton codes in order, adds every
-// cell's pairs to its rung, and to some points (a stratified sample) their own sums over pairs.
+// cell's pairs to its level, and to some points (a stratified sample) their own sums over pairs.
 // With kernels K = sum a_r (mean over shifts of [same cell] / V_r) the sum over pairs of K_ij w_i
 // w_j has, for Poisson points, the variance 4 sum K_ij K_ik w_i^2 w_j w_k + 2 sum K_ij^2 w_i^2
 // w_j^2 over distinct points: a quadratic form in a.
@@ -11,7 +11,7 @@
 // Sums over cells know no order (math/exact_sum.h). Each rank walks the cells of its stretch of the
 // codes; of a cell that a border between two ranks cuts, all know the number of points beforehand,
 // and the last of them counts it. [docs/theory/cloud-ranks.md]
-#include "cloud/ladder.h"
+#include "cloud/pair_levels.h"
 
 #include "base/alloc.h"
 #include "base/parallel.h"
@@ -27,7 +27,7 @@
 
 enum { N_SHIFT = 5, DEEPEST = 18, POINTS_A_BLOCK = 16384, AHEAD = 16 };
 
-/// A rung needs so many pairs beside those of repeated points: less say nothing.
+/// A level needs so many pairs beside those of repeated points: less say nothing.
 static const double least_pairs = 4.0;
 
 /// Cells that the border cuts to less than this part are taken as so large: a pair in a corner's
@@ -71,17 +71,17 @@ typedef struct {
     bool sorts_once;  ///< all points are sampled, here, each with a code of its own: one order for
                       ///< both
     int64_t next;     ///< of in_grid: those before have been met or passed
-    double *met;      ///< [n_some][rungs] weight of its neighbours over volume, summed over shifts
+    double *met;      ///< [n_some][levels] weight of its neighbours over volume, summed over shifts
     double *met_here; ///< the same of one grid, NULL on a single rank
-    clx_ladder *ladder;
-    double sum[CLX_LADDER_RUNGS], inverse[CLX_LADDER_RUNGS]; ///< weight and 1 / volume of the cells
-                                                             ///< of the branch that is walked
-    int64_t tally[DEEPEST + 1];                              ///< pairs in grid 0
-    int64_t n_pair[CLX_LADDER_RUNGS];                        ///< pairs in all grids
-    clx_exact_sum pairs[CLX_LADDER_RUNGS];
-    clx_exact_sum nested[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< [r][q] w_i^2 w_j^2 / (V V') of
-                                                              ///< the cells of two rungs, q <= r
-} ladder_walk;
+    clx_pair_levels *levels;
+    double sum[CLX_PAIR_LEVELS], inverse[CLX_PAIR_LEVELS]; ///< weight and 1 / volume of the cells
+                                                           ///< of the branch that is walked
+    int64_t tally[DEEPEST + 1];                            ///< pairs in grid 0
+    int64_t n_pair[CLX_PAIR_LEVELS];                       ///< pairs in all grids
+    clx_exact_sum pairs[CLX_PAIR_LEVELS];
+    clx_exact_sum nested[CLX_PAIR_LEVELS][CLX_PAIR_LEVELS]; ///< [r][q] w_i^2 w_j^2 / (V V') of
+                                                            ///< the cells of two levels, q <= r
+} level_walk;
 
 typedef struct {
     int64_t begin, end; ///< points here
@@ -92,13 +92,13 @@ typedef struct {
     int64_t at[3];      ///< its number along each axis
     bool is_cut;        ///< the domain's surface may cross it
     bool is_counted;    ///< by this rank
-} ladder_cell;
+} level_cell;
 
 /// Volume of the cell's part in the domain; is_cut is set back where the surface is out of reach.
-static double cell_volume(const ladder_walk *w, ladder_cell *cell)
+static double cell_volume(const level_walk *w, level_cell *cell)
 {
     const clast_domain *domain = w->sample->domain;
-    const int32_t d = w->ladder->d;
+    const int32_t d = w->levels->d;
     const double width = w->width[cell->depth];
     const double least = w->least[cell->depth];
     double u[2][3] = {{0}, {0}};
@@ -122,7 +122,7 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
 }
 
 /// Of the points [begin, end) of this rank.
-static totals totals_between(const ladder_walk *w, int64_t begin, int64_t end)
+static totals totals_between(const level_walk *w, int64_t begin, int64_t end)
 {
     totals sum = {.n = end - begin};
     for (int k = 0; k < 3 && w->before != NULL; ++k) {
@@ -134,8 +134,8 @@ static totals totals_between(const ladder_walk *w, int64_t begin, int64_t end)
     return sum;
 }
 
-/// Adds a cell to its rung r.
-static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
+/// Adds a cell to its level r.
+static void add_cell(level_walk *w, level_cell *cell, int32_t r)
 {
     CLAST_ASSERT(cell->begin <= cell->end && r >= 0);
     const double n = (double)cell->n;
@@ -162,13 +162,13 @@ static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
 }
 
 /// Bits of a code below this depth.
-static int bits_below(const ladder_walk *w, int depth)
+static int bits_below(const level_walk *w, int depth)
 {
-    return w->ladder->d * (CLX_MORTON_LEVELS - depth);
+    return w->levels->d * (CLX_MORTON_LEVELS - depth);
 }
 
 /// First of the sampled codes in this grid that is at least `code`.
-static int64_t sampled_from(const ladder_walk *w, uint64_t code)
+static int64_t sampled_from(const level_walk *w, uint64_t code)
 {
     int64_t begin = 0;
     int64_t end = w->n_some;
@@ -183,8 +183,8 @@ static int64_t sampled_from(const ladder_walk *w, uint64_t code)
     return begin;
 }
 
-/// Adds to each sampled point of a cell that is not divided further what it met down to rung r.
-static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
+/// Adds to each sampled point of a cell that is not divided further what it met down to level r.
+static void add_met(level_walk *w, const level_cell *cell, int32_t r)
 {
     const uint64_t end = cell->low + (UINT64_C(1) << bits_below(w, cell->depth));
     if (cell->n > cell->end - cell->begin) { // sampled points of other ranks too
@@ -194,7 +194,7 @@ static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
         ++w->next;
     }
     double *all = w->met_here != NULL ? w->met_here : w->met;
-    const int32_t n = w->ladder->n;
+    const int32_t n = w->levels->n;
     for (; w->next < w->n_some && w->in_grid[w->next].key < end; ++w->next) {
         const int64_t item = (int64_t)w->in_grid[w->next].item;
         const int64_t later = w->next + AHEAD < w->n_some ? w->next + AHEAD : w->next;
@@ -208,7 +208,7 @@ static void add_met(ladder_walk *w, const ladder_cell *cell, int32_t r)
 }
 
 /// Rank whose stretch is the last that begins inside the cell; 0: none does.
-static int32_t last_border(const ladder_walk *w, const ladder_cell *cell)
+static int32_t last_border(const level_walk *w, const level_cell *cell)
 {
     const uint64_t end = cell->low + (UINT64_C(1) << bits_below(w, cell->depth));
     int32_t k = w->comm->n_rank - 1;
@@ -219,7 +219,7 @@ static int32_t last_border(const ladder_walk *w, const ladder_cell *cell)
 }
 
 /// How many points a cell has on all ranks, and which of them counts it.
-static void set_owner(const ladder_walk *w, ladder_cell *cell)
+static void set_owner(const level_walk *w, level_cell *cell)
 {
     cell->n = cell->end - cell->begin;
     cell->all = NULL;
@@ -235,10 +235,9 @@ static void set_owner(const ladder_walk *w, ladder_cell *cell)
 }
 
 /// The next part of a cell, which begins at *begin; false after the last.
-static bool next_part(const ladder_walk *w, const ladder_cell *cell, int64_t *begin,
-                      ladder_cell *part)
+static bool next_part(const level_walk *w, const level_cell *cell, int64_t *begin, level_cell *part)
 {
-    const int32_t d = w->ladder->d;
+    const int32_t d = w->levels->d;
     const int shift = bits_below(w, cell->depth + 1);
     if (*begin >= cell->end) {
         return false;
@@ -257,9 +256,9 @@ static bool next_part(const ladder_walk *w, const ladder_cell *cell, int64_t *be
 }
 
 /// Counts the pairs of all cells that hold any.
-static void tally(ladder_walk *w, const ladder_cell *cell)
+static void tally(level_walk *w, const level_cell *cell)
 {
-    ladder_cell part;
+    level_cell part;
     if (cell->depth > 0 && cell->is_counted) {
         w->tally[cell->depth - 1] += cell->n * (cell->n - 1) / 2;
     }
@@ -271,17 +270,17 @@ static void tally(ladder_walk *w, const ladder_cell *cell)
     }
 }
 
-static void visit(ladder_walk *w, ladder_cell *cell)
+static void visit(level_walk *w, level_cell *cell)
 {
-    const int32_t r = cell->depth - 1 - w->ladder->first;
+    const int32_t r = cell->depth - 1 - w->levels->first;
     if (r >= 0) {
         add_cell(w, cell, r);
     }
-    if (r + 1 >= w->ladder->n) {
+    if (r + 1 >= w->levels->n) {
         add_met(w, cell, r);
         return;
     }
-    ladder_cell part;
+    level_cell part;
     for (int64_t begin = cell->begin; next_part(w, cell, &begin, &part);) {
         if (part.n > 1) {
             visit(w, &part);
@@ -292,17 +291,17 @@ static void visit(ladder_walk *w, ladder_cell *cell)
 }
 
 /// Code of a point of the unit cube in the grid.
-static uint64_t code_of(const ladder_walk *w, const double *u)
+static uint64_t code_of(const level_walk *w, const double *u)
 {
     double v[3] = {0};
-    for (int32_t j = 0; j < w->ladder->d; ++j) {
+    for (int32_t j = 0; j < w->levels->d; ++j) {
         v[j] = 0.5 * (u[j] + w->shift[j]);
     }
-    return clx_morton_of(v, w->ladder->d);
+    return clx_morton_of(v, w->levels->d);
 }
 
 typedef struct {
-    const ladder_walk *w;
+    const level_walk *w;
     uint64_t *code;
     uint64_t *weight; ///< bits, where points have weights
     int shift;        ///< bits of codes that are left out
@@ -339,7 +338,7 @@ static int64_t leave_out_ghosts(const code_context *c, int64_t n_all)
 }
 
 /// Totals of the points before each, whose weights came with the codes.
-static clast_status add_weights(ladder_walk *w)
+static clast_status add_weights(level_walk *w)
 {
     clast_status status = CLAST_OK;
     clx_ranked *p = &w->point;
@@ -367,7 +366,7 @@ done:
 }
 
 /// Totals, on all ranks, of the cells that borders between ranks cut.
-static clast_status count_shared(ladder_walk *w)
+static clast_status count_shared(level_walk *w)
 {
     clast_status status = CLAST_OK;
     const int32_t n_rank = w->comm->n_rank;
@@ -389,30 +388,30 @@ done:
     return status;
 }
 
-static void set_shift(ladder_walk *w, int m)
+static void set_shift(level_walk *w, int m)
 {
-    for (int32_t j = 0; j < w->ladder->d; ++j) {
+    for (int32_t j = 0; j < w->levels->d; ++j) {
         w->shift[j] = (double)(m * (j + 1) % N_SHIFT) / N_SHIFT;
     }
 }
 
 /// All points of a grid as a cell.
-static ladder_cell cell_of_all(const ladder_walk *w)
+static level_cell cell_of_all(const level_walk *w)
 {
-    ladder_cell all = {.end = w->point.n,
-                       .is_cut = w->sample->domain->kind == CLAST_DOMAIN_MESH,
-                       .is_counted = true};
+    level_cell all = {.end = w->point.n,
+                      .is_cut = w->sample->domain->kind == CLAST_DOMAIN_MESH,
+                      .is_counted = true};
     set_owner(w, &all);
     return all;
 }
 
 /// Points of grid m, whose shift is set, in order: all bits of the first, which is looked at to the
-/// deepest cells, of the others those of the deepest rung.
-static clast_status order_points(ladder_walk *w, int m)
+/// deepest cells, of the others those of the deepest level.
+static clast_status order_points(level_walk *w, int m)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    code_context c = {w, NULL, NULL, m == 0 ? 0 : bits_below(w, w->ladder->first + w->ladder->n)};
+    code_context c = {w, NULL, NULL, m == 0 ? 0 : bits_below(w, w->levels->first + w->levels->n)};
     const uint64_t limit = UINT64_C(1) << bits_below(w, 0);
     clx_ranked_free(&w->point);
     status = clx_alloc(&c.code, s->n, sizeof *c.code);
@@ -432,22 +431,21 @@ static clast_status order_points(ladder_walk *w, int m)
     }
     CLX_TRY(count_shared(w));
 done:
-    clx_free(c.code);
-    clx_free(c.weight);
+    CLX_FREE(c.code, c.weight);
     return status;
 }
 
-/// The rungs that have pairs enough: the last CLX_LADDER_RUNGS of them.
-static void choose_rungs(const ladder_walk *w, clx_ladder *ladder)
+/// The levels that have pairs enough: the last CLX_PAIR_LEVELS of them.
+static void choose_levels(const level_walk *w, clx_pair_levels *levels)
 {
     int32_t last = 0;
-    ladder->n_repeated = (double)w->tally[DEEPEST];
+    levels->n_repeated = (double)w->tally[DEEPEST];
     while (last < DEEPEST - 1 && (double)(w->tally[last + 1] - w->tally[DEEPEST]) >= least_pairs) {
         ++last;
     }
-    ladder->first = last < CLX_LADDER_RUNGS ? 0 : last + 1 - CLX_LADDER_RUNGS;
-    ladder->n = last + 1 - ladder->first;
-    ladder->is_deepest = last == DEEPEST - 1;
+    levels->first = last < CLX_PAIR_LEVELS ? 0 : last + 1 - CLX_PAIR_LEVELS;
+    levels->n = last + 1 - levels->first;
+    levels->is_deepest = last == DEEPEST - 1;
 }
 
 /// Whether a comes before b, both with one code.
@@ -462,13 +460,13 @@ static bool is_before(const sampled *a, const sampled *b, int32_t d)
 }
 
 /// Gives codes that some points share the first of these points.
-static void merge_repeated(ladder_walk *w)
+static void merge_repeated(level_walk *w)
 {
     w->sorts_once = true;
     for (int64_t i = 0, next = 0; i < w->n_some; i = next) {
         sampled first = w->some[i];
         for (next = i + 1; next < w->n_some && w->some[next].code == first.code; ++next) {
-            first = is_before(&w->some[next], &first, w->ladder->d) ? w->some[next] : first;
+            first = is_before(&w->some[next], &first, w->levels->d) ? w->some[next] : first;
             w->sorts_once = false;
         }
         for (; i < next; ++i) {
@@ -478,11 +476,11 @@ static void merge_repeated(ladder_walk *w)
 }
 
 /// Points of grid 0 in order, of a single rank that samples them all: each is found by its number.
-static clast_status order_whole(ladder_walk *w)
+static clast_status order_whole(level_walk *w)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    const int32_t d = w->ladder->d;
+    const int32_t d = w->levels->d;
     uint64_t *code = NULL;
     double held[3];
     CLX_TRY(clx_alloc(&w->in_grid, s->n, sizeof *w->in_grid));
@@ -510,7 +508,7 @@ done:
 }
 
 /// First sampled point with each value of the leading bits of a code; first [2^LOOK_UP_BITS + 1].
-static void index_sampled(const ladder_walk *w, int shift, int64_t *first)
+static void index_sampled(const level_walk *w, int shift, int64_t *first)
 {
     int64_t at = 0;
     for (int64_t b = 0; b <= INT64_C(1) << LOOK_UP_BITS; ++b) {
@@ -523,11 +521,11 @@ static void index_sampled(const ladder_walk *w, int shift, int64_t *first)
 
 /// Gives sampled codes the first of this rank's points with them; codes none of whose points are
 /// here keep u = 2.
-static clast_status find_sampled(ladder_walk *w)
+static clast_status find_sampled(level_walk *w)
 {
     clast_status status = CLAST_OK;
     const clx_sample *s = w->sample;
-    const int32_t d = w->ladder->d;
+    const int32_t d = w->levels->d;
     const int bits = bits_below(w, 0);
     const int shift = bits > LOOK_UP_BITS ? bits - LOOK_UP_BITS : 0;
     int64_t *first = NULL;
@@ -564,11 +562,11 @@ done:
 }
 
 /// The first of all ranks' finds, for every sampled place.
-static clast_status merge_sampled(ladder_walk *w)
+static clast_status merge_sampled(level_walk *w)
 {
     clast_status status = CLAST_OK;
     clx_gathered all = {0};
-    const int32_t d = w->ladder->d;
+    const int32_t d = w->levels->d;
     const int64_t size = (int64_t)sizeof *w->some;
     if (w->comm->n_rank > 1) {
         CLX_TRY(clx_comm_share(w->comm, w->some, w->n_some * size, &all));
@@ -589,7 +587,7 @@ done:
 
 /// Each 2^thin-th point along the curve of grid 0, which is started: it stands for all in sums over
 /// triples.
-static clast_status take_sample(ladder_walk *w)
+static clast_status take_sample(level_walk *w)
 {
     clast_status status = CLAST_OK;
     int thin = 0;
@@ -619,9 +617,9 @@ done:
     return status;
 }
 
-static clast_status alloc_met(ladder_walk *w)
+static clast_status alloc_met(level_walk *w)
 {
-    const int64_t size = w->n_some * w->ladder->n;
+    const int64_t size = w->n_some * w->levels->n;
     clast_status status = clx_alloc(&w->met, size, sizeof *w->met);
     if (status == CLAST_OK && w->comm->n_rank > 1) {
         status = clx_alloc(&w->met_here, size, sizeof *w->met_here);
@@ -631,10 +629,10 @@ static clast_status alloc_met(ladder_walk *w)
 
 /// Sampled points of the grid whose shift is set, in the order of the deepest cells. They are along
 /// the curve of grid 0.
-static clast_status order_sampled(ladder_walk *w, int m)
+static clast_status order_sampled(level_walk *w, int m)
 {
     clast_status status = CLAST_OK;
-    const int shift = bits_below(w, w->ladder->first + w->ladder->n);
+    const int shift = bits_below(w, w->levels->first + w->levels->n);
     for (int64_t i = 0; i < w->n_some; ++i) {
         const uint64_t code = m == 0 ? w->some[i].code : code_of(w, w->some[i].u);
         w->in_grid[i] = (clx_keyed){code >> shift, (uint64_t)i};
@@ -649,10 +647,10 @@ static clast_status order_sampled(ladder_walk *w, int m)
 }
 
 /// Adds what sampled points have met on all ranks in this grid; each was met on one of them.
-static clast_status share_met(ladder_walk *w)
+static clast_status share_met(level_walk *w)
 {
     clast_status status = CLAST_OK;
-    const int64_t size = w->n_some * w->ladder->n;
+    const int64_t size = w->n_some * w->levels->n;
     int64_t *bits = NULL;
     if (w->met_here == NULL || size == 0) {
         return CLAST_OK;
@@ -671,7 +669,7 @@ done:
 }
 
 /// Grid m, whose points are in order for m = 0.
-static clast_status walk_grid(ladder_walk *w, int m)
+static clast_status walk_grid(level_walk *w, int m)
 {
     clast_status status = CLAST_OK;
     set_shift(w, m);
@@ -683,21 +681,21 @@ static clast_status walk_grid(ladder_walk *w, int m)
         w->point.key[i] = w->in_grid[i].key;
     }
     w->next = 0;
-    ladder_cell all = cell_of_all(w);
+    level_cell all = cell_of_all(w);
     visit(w, &all);
     CLX_TRY(share_met(w));
 done:
     return status;
 }
 
-/// Sum over points of what they met in two rungs.
-static void add_thrice(const ladder_walk *w, double thrice[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS])
+/// Sum over points of what they met in two levels.
+static void add_thrice(const level_walk *w, double thrice[CLX_PAIR_LEVELS][CLX_PAIR_LEVELS])
 {
     const double weight = w->n_some > 0 ? (double)w->n_all / (double)w->n_some : 0.0;
     for (int64_t i = 0; i < w->n_some; ++i) {
         const double square = weight * w->some[i].own * w->some[i].own;
-        const double *met = w->met + i * w->ladder->n;
-        for (int32_t r = 0; r < w->ladder->n && met[r] > 0.0; ++r) {
+        const double *met = w->met + i * w->levels->n;
+        for (int32_t r = 0; r < w->levels->n && met[r] > 0.0; ++r) {
             const double own = square * met[r];
             for (int32_t q = 0; q <= r; ++q) {
                 thrice[r][q] += own * met[q];
@@ -707,29 +705,29 @@ static void add_thrice(const ladder_walk *w, double thrice[CLX_LADDER_RUNGS][CLX
 }
 
 /// Sums over shifts to means, and the covariance.
-static void finish(ladder_walk *w, clx_ladder *ladder)
+static void finish(level_walk *w, clx_pair_levels *levels)
 {
-    double thrice[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS] = {{0}};
-    clx_exact_over(w->comm, w->pairs, CLX_LADDER_RUNGS);
-    clx_exact_over(w->comm, w->nested[0], CLX_LADDER_RUNGS * CLX_LADDER_RUNGS);
-    clx_comm_sum(w->comm, w->n_pair, CLX_LADDER_RUNGS);
+    double thrice[CLX_PAIR_LEVELS][CLX_PAIR_LEVELS] = {{0}};
+    clx_exact_over(w->comm, w->pairs, CLX_PAIR_LEVELS);
+    clx_exact_over(w->comm, w->nested[0], CLX_PAIR_LEVELS * CLX_PAIR_LEVELS);
+    clx_comm_sum(w->comm, w->n_pair, CLX_PAIR_LEVELS);
     add_thrice(w, thrice);
-    for (int32_t r = 0; r < ladder->n; ++r) {
-        ladder->pairs[r] = clx_exact_value(&w->pairs[r]) / N_SHIFT;
-        ladder->n_pair[r] = (double)w->n_pair[r] / N_SHIFT;
+    for (int32_t r = 0; r < levels->n; ++r) {
+        levels->pairs[r] = clx_exact_value(&w->pairs[r]) / N_SHIFT;
+        levels->n_pair[r] = (double)w->n_pair[r] / N_SHIFT;
         for (int32_t q = 0; q <= r; ++q) {
             // chance that a pair in one cell of the finer grid shares one of another shift's
             // coarser
-            const double shared = pow(1.0 - ldexp(1.0, q - r) / 3.0, ladder->d);
+            const double shared = pow(1.0 - ldexp(1.0, q - r) / 3.0, levels->d);
             const double twice = clx_exact_value(&w->nested[r][q]) / N_SHIFT *
                                  (1.0 / N_SHIFT + (1.0 - 1.0 / N_SHIFT) * shared);
-            ladder->covariance[q][r] = ladder->covariance[r][q] =
+            levels->covariance[q][r] = levels->covariance[r][q] =
                 4.0 * thrice[r][q] / (N_SHIFT * N_SHIFT) - 2.0 * twice;
         }
     }
 }
 
-static void set_sizes(ladder_walk *w)
+static void set_sizes(level_walk *w)
 {
     const clast_domain *domain = w->sample->domain;
     w->volume = 1.0;
@@ -739,11 +737,11 @@ static void set_sizes(ladder_walk *w)
     w->volume = domain->kind == CLAST_DOMAIN_MESH ? w->volume : clast_domain_volume(domain);
     for (int depth = 0; depth <= DEEPEST + 1; ++depth) {
         w->width[depth] = ldexp(2.0, -depth);
-        w->least[depth] = least_part * w->volume * pow(w->width[depth], w->ladder->d);
+        w->least[depth] = least_part * w->volume * pow(w->width[depth], w->levels->d);
     }
 }
 
-static clast_status count(ladder_walk *w)
+static clast_status count(level_walk *w)
 {
     clast_status status = CLAST_OK;
     const bool is_whole =
@@ -751,43 +749,38 @@ static clast_status count(ladder_walk *w)
     set_shift(w, 0);
     w->scale = clx_sample_scale(w->sample, w->weight);
     CLX_TRY(is_whole ? order_whole(w) : order_points(w, 0));
-    ladder_cell all = cell_of_all(w);
+    level_cell all = cell_of_all(w);
     w->n_all = w->point.n_all;
     tally(w, &all);
     clx_comm_sum(w->comm, w->tally, DEEPEST + 1);
-    choose_rungs(w, w->ladder);
+    choose_levels(w, w->levels);
     CLX_TRY(is_whole ? CLAST_OK : take_sample(w));
     CLX_TRY(alloc_met(w));
     for (int m = 0; m < N_SHIFT && w->n_all > 1; ++m) {
         CLX_TRY(walk_grid(w, m));
     }
-    finish(w, w->ladder);
+    finish(w, w->levels);
 done:
     return status;
 }
 
-clast_status clx_ladder_count(const clast_comm *comm, const clx_sample *sample,
-                              const double *weight, clx_ladder *ladder)
+clast_status clx_pair_levels_count(const clast_comm *comm, const clx_sample *sample,
+                                   const double *weight, clx_pair_levels *levels)
 {
     clast_status status = CLAST_OK;
-    ladder_walk *w = NULL;
-    *ladder = (clx_ladder){.d = sample->domain->dimension};
+    level_walk *w = NULL;
+    *levels = (clx_pair_levels){.d = sample->domain->dimension};
     CLX_TRY(clast_comm_agree(comm, clx_alloc(&w, 1, sizeof *w), NULL));
     w->sample = sample;
     w->comm = comm;
     w->weight = weight;
-    w->ladder = ladder;
+    w->levels = levels;
     set_sizes(w);
     CLX_TRY(count(w));
 done:
     if (w != NULL) {
         clx_ranked_free(&w->point);
-        clx_free(w->before);
-        clx_free(w->shared);
-        clx_free(w->some);
-        clx_free(w->in_grid);
-        clx_free(w->met);
-        clx_free(w->met_here);
+        CLX_FREE(w->before, w->shared, w->some, w->in_grid, w->met, w->met_here);
     }
     clx_free(w);
     return status;

@@ -1,5 +1,5 @@
-// A cell of many kinds, dealt at random into blocks again and again, with the few particles that
-// collide most (collectors) meeting the whole cell. [docs/theory/agglomeration.md section 2]
+// A cell of many kinds, partitioned at random into blocks again and again, with the few particles
+// that collide most (collectors) meeting the whole cell. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
 #include "base/status.h"
@@ -7,22 +7,23 @@
 #include "cloud/kernel_range.h"
 #include <math.h>
 
-static const double MIXING = 0.1; ///< collisions a particle makes on average between two deals
-/// Collisions of any one particle between two deals, over the particles of its block: a particle
-/// that used up its block would find no partners while the other blocks are full.
+static const double MIXING = 0.1; ///< collisions a particle makes on average between two partitions
+/// Collisions of any one particle between two partitions, over the particles of its block: a
+/// particle that used up its block would find no partners while the other blocks are full.
 static const double BLOCK_SHARE = 1.0 / 256.0;
 static const double LEAST_SHARE = 0.5; ///< collisions that even in a small block are no reason
 
 enum { IS_COLLECTOR = -2, LEAST_REFRESH = 64 };
 
-/// State of a cell between two deals: members [0, n) are dealt, [n, n + n_collector) are not.
+/// State of a cell between two partitions: members [0, n) are in blocks, [n, n + n_collector) are
+/// not.
 typedef struct {
     clx_block *cell;
     int64_t *n_kind; ///< [n_block] kinds of the blocks
     int64_t n, n_collector, n_block;
     int64_t parity; ///< of the blocks that evolve before the collectors do
     double left;
-} deal;
+} partition;
 
 void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
 {
@@ -35,29 +36,29 @@ void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
     }
 }
 
-/// Block k of the deal: of its m particles each meets m - 1 others at (n - 1) / (m - 1) times the
-/// rate, so that its expected number of collisions stays.
-static clx_block block_of(const deal *d, int64_t k)
+/// Block k of the partition: of its m particles each meets m - 1 others at (n - 1) / (m - 1) times
+/// the rate, so that its expected number of collisions stays.
+static clx_block block_of(const partition *d, int64_t k)
 {
     CLAST_ASSERT(k >= 0 && k < d->n_block);
     const int64_t begin = d->n * k / d->n_block;
     clx_block b = *d->cell;
-    b.flows = false; // between two deals
+    b.flows = false; // between two partitions
     b.member += begin;
     b.frozen += begin;
     b.kind += begin;
     b.n = d->n * (k + 1) / d->n_block - begin;
     b.n_kind = d->n_kind[k];
-    b.deal = b.n > 1 ? (double)(d->n - 1) / (double)(b.n - 1) : 1.0;
-    b.scale *= b.deal;
+    b.rate_factor = b.n > 1 ? (double)(d->n - 1) / (double)(b.n - 1) : 1.0;
+    b.scale *= b.rate_factor;
     b.n_event = 0;
     b.n_real = 0.0;
     b.range = (clast_range_use){0};
     return b;
 }
 
-/// Deals anew and sums all rates; returns the mean rate of a particle and the busiest one's.
-static void deal_out(deal *d, double *mean, double *busiest)
+/// Partitions anew and sums all rates; returns the mean rate of a particle and the busiest one's.
+static void partition_anew(partition *d, double *mean, double *busiest)
 {
     double total = 0.0;
     *busiest = 0.0;
@@ -75,13 +76,13 @@ static void deal_out(deal *d, double *mean, double *busiest)
     *mean = d->n > 0 ? total / (double)d->n : 0.0;
 }
 
-static double most_collisions(const deal *d)
+static double most_collisions(const partition *d)
 {
     return fmax(LEAST_SHARE, BLOCK_SHARE * (double)d->n / (double)d->n_block);
 }
 
 /// Marks the particles of rates above `limit`; returns how many.
-static int64_t mark_collectors(const deal *d, double limit)
+static int64_t mark_collectors(const partition *d, double limit)
 {
     int64_t n = 0;
     for (int64_t k = 0; k < d->n_block; ++k) {
@@ -99,8 +100,8 @@ static int64_t mark_collectors(const deal *d, double limit)
     return n;
 }
 
-/// Takes marked particles out of what is dealt.
-static void move_marked(deal *d)
+/// Takes marked particles out of the blocks.
+static void move_marked(partition *d)
 {
     int64_t *member = d->cell->member;
     for (int64_t m = d->n - 1; m >= 0; --m) {
@@ -113,13 +114,14 @@ static void move_marked(deal *d)
     }
 }
 
-/// Deals until no particle is too busy for its block; returns the time until the next deal.
-static double deal_until_even(deal *d)
+/// Partitions until no particle is too busy for its block; returns the time until the next
+/// partition.
+static double partition_until_even(partition *d)
 {
     for (;;) {
         double mean = 0.0;
         double busiest = 0.0;
-        deal_out(d, &mean, &busiest);
+        partition_anew(d, &mean, &busiest);
         const double delta = mean * d->left > MIXING ? MIXING / mean : d->left;
         const double most = most_collisions(d);
         if (d->n_block < 2 || busiest * delta <= most) {
@@ -129,13 +131,13 @@ static double deal_until_even(deal *d)
             if (mark_collectors(d, most / delta) > 0) {
                 move_marked(d);
             }
-        } else { // the cell has too many: deal more often
+        } else { // the cell has too many: partition more often
             return most / busiest;
         }
     }
 }
 
-static void drop_dead(deal *d)
+static void drop_dead(partition *d)
 {
     const int64_t *monomers = d->cell->population->monomers;
     int64_t *member = d->cell->member;
@@ -151,7 +153,7 @@ static void drop_dead(deal *d)
     d->n_collector = part[1];
 }
 
-static void evolve_blocks(deal *d, int64_t parity, bool is_stale, double delta)
+static void evolve_blocks(partition *d, int64_t parity, bool is_stale, double delta)
 {
     for (int64_t k = 0; k < d->n_block; ++k) {
         clx_block b = block_of(d, k);
@@ -171,7 +173,7 @@ static void evolve_blocks(deal *d, int64_t parity, bool is_stale, double delta)
 }
 
 /// Rate of a collector with all others, over scale: pairs of two collectors count half in each row.
-static double collector_row(const deal *d, int64_t c)
+static double collector_row(const partition *d, int64_t c)
 {
     CLAST_ASSERT(c >= d->n && c < d->n + d->n_collector);
     const clx_block *b = d->cell;
@@ -186,7 +188,7 @@ static double collector_row(const deal *d, int64_t c)
 }
 
 /// Every particle as a kind of its own, and the rows of the collectors.
-static void list_all(deal *d)
+static void list_all(partition *d)
 {
     clx_block *b = d->cell;
     for (int64_t m = 0; m < d->n + d->n_collector; ++m) {
@@ -198,7 +200,7 @@ static void list_all(deal *d)
     }
 }
 
-static double collectors_total(const deal *d)
+static double collectors_total(const partition *d)
 {
     double total = 0.0;
     for (int64_t c = d->n; c < d->n + d->n_collector; ++c) {
@@ -209,7 +211,7 @@ static double collectors_total(const deal *d)
 
 /// The member that a collector meets; its own number for a collision within its parcel, -1 when
 /// rounding left none.
-static int64_t pick_partner(const deal *d, int64_t c)
+static int64_t pick_partner(const partition *d, int64_t c)
 {
     const clx_block *b = d->cell;
     const double within = 0.5 * clx_block_self_rate(b, &b->kind[c]);
@@ -228,7 +230,7 @@ static int64_t pick_partner(const deal *d, int64_t c)
     return last;
 }
 
-static int64_t pick_collector(const deal *d, double total)
+static int64_t pick_collector(const partition *d, double total)
 {
     double at = clx_rng_uniform(d->cell->rng) * total;
     int64_t last = -1;
@@ -245,7 +247,7 @@ static int64_t pick_collector(const deal *d, double total)
 }
 
 /// Adds `sign` times a member to the rows of the collectors, but of `skip` [2].
-static void shift_rows(deal *d, int64_t m, double sign, const int64_t skip[2])
+static void shift_rows(partition *d, int64_t m, double sign, const int64_t skip[2])
 {
     clx_block *b = d->cell;
     const double share = m < d->n ? sign : 0.5 * sign;
@@ -260,7 +262,7 @@ static void shift_rows(deal *d, int64_t m, double sign, const int64_t skip[2])
 
 /// A collision of the collector in slot c with the member in slot m (c itself: within its parcel).
 /// Where the partner is the heavier one, it takes the collector's slot.
-static void meet(deal *d, int64_t c, int64_t m)
+static void meet(partition *d, int64_t c, int64_t m)
 {
     clx_block *b = d->cell;
     clast_population *p = b->population;
@@ -290,7 +292,7 @@ static void meet(deal *d, int64_t c, int64_t m)
 }
 
 /// Collectors meet the whole cell, next event by next event.
-static void evolve_collectors(deal *d, double delta)
+static void evolve_collectors(partition *d, double delta)
 {
     double time = 0.0;
     int64_t since = 0;
@@ -317,8 +319,8 @@ static void evolve_collectors(deal *d, double delta)
     }
 }
 
-/// Shortens the time to the next deal so that collectors take a tenth of the cell at most.
-static double bound_by_collectors(deal *d, double delta)
+/// Shortens the time to the next partition so that collectors take a tenth of the cell at most.
+static double bound_by_collectors(partition *d, double delta)
 {
     list_all(d);
     const double rate = d->cell->scale * collectors_total(d);
@@ -326,9 +328,9 @@ static double bound_by_collectors(deal *d, double delta)
     return rate * delta > most ? most / rate : delta;
 }
 
-/// Collisions for a time after a deal: half of the blocks evolve before the collectors and half
-/// after, so that the error of the splitting is of second order in delta.
-static void evolve_deal(deal *d, bool is_stale, double delta)
+/// Collisions for a time after a partition: half of the blocks evolve before the collectors and
+/// half after, so that the error of the splitting is of second order in delta.
+static void evolve_partition(partition *d, bool is_stale, double delta)
 {
     evolve_blocks(d, d->parity, is_stale, delta);
     if (d->n_collector > 0) {
@@ -339,20 +341,20 @@ static void evolve_deal(deal *d, bool is_stale, double delta)
     d->parity = 1 - d->parity;
 }
 
-/// Deals; returns the time until the next deal.
-static double next_deal(deal *d, bool *is_stale)
+/// Partitions; returns the time until the next partition.
+static double next_partition(partition *d, bool *is_stale)
 {
-    const double delta = deal_until_even(d);
+    const double delta = partition_until_even(d);
     *is_stale = d->n_collector > 0; // they overwrite the kinds of the blocks
     return *is_stale ? bound_by_collectors(d, delta) : delta;
 }
 
-static void collide_only(deal *d)
+static void collide_only(partition *d)
 {
     while (d->left > 0.0 && d->n + d->n_collector > 1) {
         bool is_stale = false;
-        const double delta = next_deal(d, &is_stale);
-        evolve_deal(d, is_stale, delta);
+        const double delta = next_partition(d, &is_stale);
+        evolve_partition(d, is_stale, delta);
         d->left -= delta;
         if (d->cell->box != NULL) {
             d->cell->box->time += delta;
@@ -360,8 +362,8 @@ static void collide_only(deal *d)
     }
 }
 
-/// Particles settle, break and come in between two deals.
-static void flow(deal *d, double delta)
+/// Particles settle, break and come in between two partitions.
+static void flow(partition *d, double delta)
 {
     clx_block *cell = d->cell;
     cell->n = d->n + d->n_collector;
@@ -374,16 +376,16 @@ static void flow(deal *d, double delta)
 
 /// Half of the collisions of a time delta, all else, the other half of the collisions with the
 /// first half of the next delta: the error is of second order.
-static void collide_and_flow(deal *d)
+static void collide_and_flow(partition *d)
 {
     clx_box *box = d->cell->box;
     double owed = 0.0; // collisions still to come
     while (d->left > 0.0 && box->status == CLAST_OK) {
         bool is_stale = false;
-        double delta = next_deal(d, &is_stale);
+        double delta = next_partition(d, &is_stale);
         d->cell->n = d->n + d->n_collector;
         delta = fmin(delta, clx_box_bound(d->cell, MIXING));
-        evolve_deal(d, is_stale, owed + 0.5 * delta);
+        evolve_partition(d, is_stale, owed + 0.5 * delta);
         flow(d, delta);
         owed = 0.5 * delta;
         d->left -= delta;
@@ -393,10 +395,10 @@ static void collide_and_flow(deal *d)
     collide_only(d);
 }
 
-void clx_block_evolve_dealt(clx_block *cell, int64_t *n_kind, double dt)
+void clx_block_evolve_partitioned(clx_block *cell, int64_t *n_kind, double dt)
 {
-    deal d = {.cell = cell, .n_kind = n_kind, .n = cell->n, .left = dt};
-    cell->deal = 1.0;
+    partition d = {.cell = cell, .n_kind = n_kind, .n = cell->n, .left = dt};
+    cell->rate_factor = 1.0;
     if (cell->flows) {
         collide_and_flow(&d);
     } else {

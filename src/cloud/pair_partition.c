@@ -2,7 +2,7 @@
 // its points in the order of their places: the sums of a block, and those of all added block by
 // block, are the bytes of one process. Along the last axis a block is a slab, so what neighbours
 // its points is a stretch of the keys.
-#include "cloud/pair_deal.h"
+#include "cloud/pair_partition.h"
 
 #include "base/alloc.h"
 #include "cloud/part.h"
@@ -35,23 +35,23 @@ static void count_blocks(const clx_ranked *r, int64_t n_cell, int64_t cells_a_bl
 }
 
 /// Blocks of each rank follow one another and have work alike.
-static void deal_blocks(const clast_comm *comm, clx_pair_deal *deal)
+static void share_out_blocks(const clast_comm *comm, clx_pair_partition *partition)
 {
     double before = 0.0;
-    deal->begin = deal->end = 0;
-    for (int32_t b = 0; b < deal->n_block; ++b) {
-        const double middle = (before + 0.5 * deal->candidates[b]) / deal->work;
+    partition->begin = partition->end = 0;
+    for (int32_t b = 0; b < partition->n_block; ++b) {
+        const double middle = (before + 0.5 * partition->candidates[b]) / partition->work;
         const int32_t last = comm->n_rank - 1;
         const int32_t owner =
             middle * comm->n_rank < last ? (int32_t)(middle * comm->n_rank) : last;
-        before += deal->candidates[b];
-        deal->begin += owner < comm->rank ? 1 : 0;
-        deal->end += owner <= comm->rank ? 1 : 0;
+        before += partition->candidates[b];
+        partition->begin += owner < comm->rank ? 1 : 0;
+        partition->end += owner <= comm->rank ? 1 : 0;
     }
 }
 
-clast_status clx_pair_deal_make(const clast_comm *comm, const clx_pair_cells *grid, uint64_t **key,
-                                int64_t n, clx_pair_deal *deal)
+clast_status clx_pair_partition_make(const clast_comm *comm, const clx_pair_cells *grid,
+                                     uint64_t **key, int64_t n, clx_pair_partition *partition)
 {
     clast_status status = CLAST_OK;
     clx_ranked r = {0};
@@ -63,14 +63,15 @@ clast_status clx_pair_deal_make(const clast_comm *comm, const clx_pair_cells *gr
     const int64_t cells_a_block = (n_cell + CLX_PAIR_BLOCKS - 1) / CLX_PAIR_BLOCKS;
     count_blocks(&r, before, cells_a_block, sums[0], sums[1]);
     clx_comm_sum(comm, sums[0], (int64_t)2 * CLX_PAIR_BLOCKS);
-    *deal = (clx_pair_deal){.n_block = (int32_t)((n_cell + cells_a_block - 1) / cells_a_block)};
-    for (int32_t b = 0; b < deal->n_block; ++b) {
-        deal->first[b] = (uint64_t)sums[0][b];
-        deal->candidates[b] = (double)sums[1][b];
-        deal->work += deal->candidates[b];
+    *partition =
+        (clx_pair_partition){.n_block = (int32_t)((n_cell + cells_a_block - 1) / cells_a_block)};
+    for (int32_t b = 0; b < partition->n_block; ++b) {
+        partition->first[b] = (uint64_t)sums[0][b];
+        partition->candidates[b] = (double)sums[1][b];
+        partition->work += partition->candidates[b];
     }
-    deal->first[deal->n_block] = clx_pair_keys(grid);
-    deal_blocks(comm, deal);
+    partition->first[partition->n_block] = clx_pair_keys(grid);
+    share_out_blocks(comm, partition);
 done:
     clx_ranked_free(&r);
     return status;
@@ -92,15 +93,15 @@ static int64_t first_from(const clx_keyed *entry, int64_t n, uint64_t key)
 }
 
 /// Which of the sorted points a rank with the blocks [begin, end) needs: range [2].
-static void find_needed(const clx_pair_cells *grid, const clx_pair_deal *deal,
+static void find_needed(const clx_pair_cells *grid, const clx_pair_partition *partition,
                         const int32_t block[2], const clx_keyed *entry, int64_t n, int64_t range[2])
 {
     const uint64_t offset = clx_pair_offset(grid);
     range[0] = range[1] = 0;
     if (block[0] < block[1]) {
-        const uint64_t low = deal->first[block[0]];
+        const uint64_t low = partition->first[block[0]];
         range[0] = first_from(entry, n, low > offset ? low - offset : 0);
-        range[1] = first_from(entry, n, deal->first[block[1]] + offset);
+        range[1] = first_from(entry, n, partition->first[block[1]] + offset);
     }
 }
 
@@ -122,11 +123,12 @@ done:
 }
 
 /// The blocks of all ranks.
-static clast_status share_blocks(const clast_comm *comm, const clx_pair_deal *deal, parcel *p)
+static clast_status share_blocks(const clast_comm *comm, const clx_pair_partition *partition,
+                                 parcel *p)
 {
     clast_status status = CLAST_OK;
     clx_gathered all = {0};
-    const int32_t own[2] = {deal->begin, deal->end};
+    const int32_t own[2] = {partition->begin, partition->end};
     CLX_TRY(clx_comm_share(comm, own, (int64_t)sizeof own, &all));
     memcpy(p->block, all.bytes, (size_t)all.n);
 done:
@@ -156,9 +158,9 @@ done:
     return status;
 }
 
-clast_status clx_pair_deal_points(const clast_comm *comm, const clx_pair_cells *grid,
-                                  const clx_pair_deal *deal, const clx_pair_points *points,
-                                  double **got, int64_t *n_got)
+clast_status clx_pair_partition_points(const clast_comm *comm, const clx_pair_cells *grid,
+                                       const clx_pair_partition *partition,
+                                       const clx_pair_points *points, double **got, int64_t *n_got)
 {
     clast_status status = CLAST_OK;
     parcel p = {0};
@@ -169,9 +171,9 @@ clast_status clx_pair_deal_points(const clast_comm *comm, const clx_pair_cells *
         status = clx_sort_keyed(points->entry, points->n);
     }
     CLX_TRY(clast_comm_agree(comm, status, NULL));
-    CLX_TRY(share_blocks(comm, deal, &p));
+    CLX_TRY(share_blocks(comm, partition, &p));
     for (int32_t k = 0; k < comm->n_rank; ++k) {
-        find_needed(grid, deal, p.block[k], points->entry, points->n, p.range[k]);
+        find_needed(grid, partition, p.block[k], points->entry, points->n, p.range[k]);
     }
     CLX_TRY(clast_comm_agree(comm, fill_parcel(comm, points, grid->d, &p), NULL));
     CLX_TRY(clx_comm_exchange(comm, p.out, p.n_out, &in));
@@ -185,10 +187,6 @@ clast_status clx_pair_deal_points(const clast_comm *comm, const clx_pair_cells *
     sorted = NULL;
 done:
     clx_gathered_free(&in);
-    clx_free(sorted);
-    clx_free(p.block);
-    clx_free(p.range);
-    clx_free(p.n_out);
-    clx_free(p.out);
+    CLX_FREE(sorted, p.block, p.range, p.n_out, p.out);
     return status;
 }
