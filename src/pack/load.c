@@ -58,6 +58,38 @@ double clx_pack_speed_limit(const clast_pack *p)
     return FASTEST * least;
 }
 
+static bool moves_at_rate(const clx_stage *s, int k)
+{
+    return s->kind[k] == CLX_DRIVE_RATE && s->aim[k] != 0.0;
+}
+
+static bool has_rate(const clx_stage *s)
+{
+    return moves_at_rate(s, 0) || moves_at_rate(s, 1) || moves_at_rate(s, 2);
+}
+
+/// Whether a stress has come to `until`: the shear stress where it shears; else that of a side that
+/// moves at a rate, or, where none does, is held at a pressure. From above where the side extends,
+/// or its own pressure is lower.
+static bool has_come(const clx_stage *s, const clast_dem_load *load)
+{
+    const double shear = fabs(load->stress[4] + load->kinetic_stress[4]);
+    if (s->shear_kind != CLX_DRIVE_NONE && s->shear != 0.0) {
+        return s->shear_kind == CLX_DRIVE_STRESS && fabs(s->shear) < s->until ? shear <= s->until
+                                                                              : shear >= s->until;
+    }
+    const bool is_at_rate = has_rate(s);
+    for (int k = 0; k < 3; ++k) {
+        const double now = load->stress[k] + load->kinetic_stress[k];
+        const bool is_held = !is_at_rate && s->kind[k] == CLX_DRIVE_STRESS;
+        const bool falls = is_held ? s->aim[k] < s->until : s->aim[k] < 0.0;
+        if ((is_held || moves_at_rate(s, k)) && (falls ? now <= s->until : now >= s->until)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 clast_status clx_pack_load_check(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
@@ -77,6 +109,12 @@ clast_status clx_pack_load_check(const clast_pack *p)
                   "smaller cell, or stiffer contacts",
                   i + 1, c->stages.item[i], clx_unit_text(speed, "m/s"),
                   clx_unit_text(limit, "m/s"));
+        const bool is_loose = i == 0 && p->input.start == NULL;
+        CLX_CHECK(!is_loose || s.end != CLX_END_STRESS || s.until == 0.0 ||
+                      !has_come(&s, &(clast_dem_load){0}),
+                  CLAST_E_CONFIG,
+                  "stage 1, '%s': it comes to %s from above, and grains on a lattice carry nothing",
+                  c->stages.item[i], clx_unit_text(s.until, "Pa"));
     }
 done:
     return status;
@@ -97,16 +135,6 @@ static clast_status begin_stage(clast_pack *p, int32_t stage)
 clast_status clx_pack_load_begin(clast_pack *p)
 {
     return begin_stage(p, 0);
-}
-
-static bool moves_at_rate(const clx_stage *s, int k)
-{
-    return s->kind[k] == CLX_DRIVE_RATE && s->aim[k] != 0.0;
-}
-
-static bool has_rate(const clx_stage *s)
-{
-    return moves_at_rate(s, 0) || moves_at_rate(s, 1) || moves_at_rate(s, 2);
 }
 
 static bool shears_at_rate(const clx_stage *s)
@@ -143,28 +171,6 @@ static bool is_reached(const clast_pack *p, const clx_stage *s, const clast_dem_
         }
     }
     return true;
-}
-
-/// Whether a stress has come to `until`: the shear stress where it shears; else that of a side that
-/// moves at a rate, or, where none does, is held at a pressure. From above where the side extends,
-/// or its own pressure is lower.
-static bool has_come(const clx_stage *s, const clast_dem_load *load)
-{
-    const double shear = fabs(load->stress[4] + load->kinetic_stress[4]);
-    if (s->shear_kind != CLX_DRIVE_NONE && s->shear != 0.0) {
-        return s->shear_kind == CLX_DRIVE_STRESS && fabs(s->shear) < s->until ? shear <= s->until
-                                                                              : shear >= s->until;
-    }
-    const bool is_at_rate = has_rate(s);
-    for (int k = 0; k < 3; ++k) {
-        const double now = load->stress[k] + load->kinetic_stress[k];
-        const bool is_held = !is_at_rate && s->kind[k] == CLX_DRIVE_STRESS;
-        const bool falls = is_held ? s->aim[k] < s->until : s->aim[k] < 0.0;
-        if ((is_held || moves_at_rate(s, k)) && (falls ? now <= s->until : now >= s->until)) {
-            return true;
-        }
-    }
-    return false;
 }
 
 /// Since the stage began [s].

@@ -243,7 +243,8 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
     while (row < p->series.n_row && phase[row] < CLAST_PACK_DAMP) {
         ++row;
     }
-    if (row == p->series.n_row || r->dem.n_grain == 0 || p->config.shaking_time == 0.0) {
+    if (row == p->series.n_row || r->dem.n_grain == 0 || p->config.shaking_time == 0.0 ||
+        p->config.dem.domain == CLAST_DEM_CELL) {
         return;
     }
     r->sank = top[row] - r->dem.top;
@@ -323,7 +324,6 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
     const clast_grading_sample sample = {.n = n, .size = size, .volume = volume};
     CLX_TRY(clast_grading_compare(p->input.grading, p->input.curve, &sample, table, &match));
 done:
-    clx_free(size);
-    clx_free(volume);
+    CLX_FREE(size, volume);
     return status;
 }

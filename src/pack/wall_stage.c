@@ -161,6 +161,17 @@ static clast_status check(const clast_pack_config *c, int32_t number, const clas
         return fail(c, number,
                     "no wall has a stress to reach; press one, or move one until stress 10kPa", "");
     }
+    for (int32_t k = 0; k < s->n && number == 0 && input->start == NULL && !is_moved; ++k) {
+        const clx_wall_drive *d = &s->drive[k];
+        const char *name = input->wall[d->wall].name;
+        if (s->end == CLX_UNTIL_STRESS && d->kind == CLX_WALL_PRESSED && !d->is_force &&
+            d->aim < s->until && strcmp(name, "floor") != 0) {
+            return fail(c, number,
+                        "its pressure is below the stress that ends it, and no stage before it "
+                        "presses with more:",
+                        name);
+        }
+    }
     if (s->end == CLX_UNTIL_WAY && !is_moved && !is_pressed) {
         return fail(c, number, "no wall moves", "");
     }

@@ -28,43 +28,70 @@ bool clx_pack_has_walls(const clast_pack_config *c)
     return c->wall.n > 0 || c->outlet.n > 0 || c->wall_forces;
 }
 
+/// Area of a surface seen along a direction; of a closed one, which has two sides, half of it.
+static double area_along(const clast_mesh *mesh, const double direction[3], double top)
+{
+    double sum = 0.0;
+    double flux[3] = {0.0, 0.0, 0.0};
+    for (int32_t i = 0; i < mesh->n_tri; ++i) {
+        const double *const x[3] = {mesh->vert[mesh->tri[i][0]], mesh->vert[mesh->tri[i][1]],
+                                    mesh->vert[mesh->tri[i][2]]};
+        double e[3];
+        double f[3];
+        double n[3];
+        if (fmax(x[0][2], fmax(x[1][2], x[2][2])) > top) {
+            continue;
+        }
+        v3_sub(e, x[1], x[0]);
+        v3_sub(f, x[2], x[0]);
+        v3_cross(n, e, f);
+        v3_axpy(flux, flux, 0.5, n);
+        sum += 0.5 * fabs(v3_dot(n, direction));
+    }
+    return v3_norm(flux) < 1e-6 * sum ? 0.5 * sum : sum;
+}
+
+/// A wall's surface, or NULL of a plane or cylinder of the domain.
+static const clast_mesh *surface_of(const clast_pack *p, const clast_pack_wall *wall)
+{
+    return wall->number < 0                       ? &wall->mesh
+           : strcmp(wall->name, "container") == 0 ? p->input.container
+                                                  : NULL;
+}
+
 /// Area over which a wall's pressure acts, seen along its direction.
 static double area_of(const clast_pack *p, const clast_pack_wall *wall)
 {
     const clast_dem_config *c = &p->config.dem;
     const double depth = c->depth > 0.0 ? c->depth : c->width;
-    double sum = 0.0;
-    double flux[3] = {0.0, 0.0, 0.0};
+    const clast_mesh *surface = surface_of(p, wall);
+    const clast_mesh *closed = p->input.container_closed;
     if (wall->area > 0.0) {
         return wall->area;
     }
-    if (wall->number >= 0) {
-        return wall->press[2] == 0.0 ? c->height * (wall->press[0] != 0.0 ? depth : c->width)
-               : c->domain == CLAST_DEM_CYLINDER ? 0.25 * CLAST_PI * c->width * c->width
-                                                 : c->width * depth;
+    if (surface != NULL) {
+        return area_along(surface, wall->press, INFINITY);
     }
-    for (int32_t i = 0; i < wall->mesh.n_tri; ++i) {
-        const int32_t *t = wall->mesh.tri[i];
-        double e[3];
-        double f[3];
-        double n[3];
-        v3_sub(e, wall->mesh.vert[t[1]], wall->mesh.vert[t[0]]);
-        v3_sub(f, wall->mesh.vert[t[2]], wall->mesh.vert[t[0]]);
-        v3_cross(n, e, f);
-        v3_axpy(flux, flux, 0.5, n);
-        sum += 0.5 * fabs(v3_dot(n, wall->press));
+    if (closed != NULL) { // the floor below a container: its bottom, or the hole there
+        double low[3];
+        double high[3];
+        clast_mesh_bounds(closed, low, high);
+        return area_along(closed, wall->press, low[2] + 1e-9 * (high[2] - low[2]));
     }
-    return v3_norm(flux) < 1e-6 * sum ? 0.5 * sum : sum; // a closed surface has two sides
+    return wall->press[2] == 0.0 ? c->height * (wall->press[0] != 0.0 ? depth : c->width)
+           : c->domain == CLAST_DEM_CYLINDER ? 0.25 * CLAST_PI * c->width * c->width
+                                             : c->width * depth;
 }
 
 /// Speed of a wall's fastest point by its own motion, at most.
-static double speed_of(const clast_pack_wall *wall)
+static double speed_of(const clast_pack *p, const clast_pack_wall *wall)
 {
+    const clast_mesh *surface = surface_of(p, wall);
     const clast_dem_wall_motion *m = &wall->motion;
     double bounding_radius = 0.0;
     double slope[2] = {0.0, 0.0};
-    for (int32_t i = 0; i < wall->mesh.n_vert; ++i) {
-        bounding_radius = fmax(bounding_radius, v3_distance(wall->mesh.vert[i], m->pivot));
+    for (int32_t i = 0; surface != NULL && i < surface->n_vert; ++i) {
+        bounding_radius = fmax(bounding_radius, v3_distance(surface->vert[i], m->pivot));
     }
     for (int32_t i = 1; i < m->n; ++i) {
         const double time = m->time[i] - m->time[i - 1];
@@ -99,7 +126,7 @@ clast_status clx_pack_walls_check(const clast_pack *p)
     const clast_pack_config *c = &p->config;
     const double limit = clx_pack_speed_limit(p);
     for (int32_t i = 0; i < p->input.n_wall; ++i) {
-        const double speed = speed_of(&p->input.wall[i]);
+        const double speed = speed_of(p, &p->input.wall[i]);
         CLX_CHECK(speed <= limit, CLAST_E_CONFIG,
                   "wall %d, '%s', would move at %s, faster than half of what contacts of the "
                   "smallest grains stop (%s); move it slower, or take stiffer contacts",
@@ -274,7 +301,9 @@ static double force_on(const clast_pack *p, const clast_pack_wall *wall, int32_t
 
 /// What a look finds: whether pressures are reached, one has come to `until`, the farthest way.
 typedef struct {
-    bool is_reached, has_come;
+    bool is_reached;
+    bool has_come[2]; ///< of walls that are pressed, of those that move
+    bool moves;       ///< one with a direction, by a speed or its motion
     double displacement;
     double pressure; ///< of the last wall that has a direction
 } look;
@@ -310,6 +339,24 @@ done:
     return status;
 }
 
+/// Whether a wall's stress has come to `until`: from above where the wall moves away, or its own
+/// pressure is lower.
+static void look_at_stress(const clx_wall_stage *s, int32_t k, const clast_pack_wall *wall,
+                           double now, double area, look *out)
+{
+    const clx_wall_drive *d = &s->drive[k];
+    const bool is_pressed = d->kind == CLX_WALL_PRESSED;
+    const bool runs = d->kind == CLX_WALL_RUNS || has_other(s, k, true);
+    const bool moves = runs ? !is_pressed : d->kind == CLX_WALL_SPEED && d->aim != 0.0;
+    const double speed = (d->kind == CLX_WALL_SPEED ? d->aim : 0.0) +
+                         (runs ? v3_dot(wall->motion.velocity, wall->press) : 0.0);
+    const double aim = d->is_force ? d->aim / area : d->aim;
+    const bool falls = is_pressed ? aim < s->until : speed < 0.0;
+    const bool has_come = falls ? now <= s->until : now >= s->until;
+    out->moves = out->moves || moves;
+    out->has_come[moves] = out->has_come[moves] || has_come;
+}
+
 static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k, look *out)
 {
     clast_status status = CLAST_OK;
@@ -331,10 +378,9 @@ static clast_status drive_one(clast_pack *p, const clx_wall_stage *s, int32_t k,
         out->is_reached =
             out->is_reached && fabs(aim - force) <= p->config.load_tolerance * fabs(aim);
     }
-    const bool backs = d->kind == CLX_WALL_SPEED && d->aim < 0.0;
-    out->has_come =
-        out->has_come ||
-        (has_direction && (backs ? force <= s->until * area : force >= s->until * area));
+    if (has_direction) {
+        look_at_stress(s, k, wall, force / area, area, out);
+    }
     v3_scale(velocity, speed, wall->press);
     CLX_TRY(clast_dem_drive_wall(p->dem, number, d->kind == CLX_WALL_RUNS || has_other(s, k, true),
                                  velocity));
@@ -394,7 +440,7 @@ static clast_status is_over(clast_pack *p, const clx_wall_stage *s, const look *
     } else if (s->end == CLX_UNTIL_TIME) {
         *over = time >= s->until * (1.0 - 1e-12);
     } else if (s->end == CLX_UNTIL_STRESS) {
-        *over = time > 0.0 && (s->until > 0.0 ? l->has_come : l->is_reached);
+        *over = time > 0.0 && (s->until > 0.0 ? l->has_come[l->moves] : l->is_reached);
     } else if (s->end == CLX_UNTIL_WAY) {
         *over = l->displacement >= s->until * (1.0 - 1e-12);
     } else if (s->end == CLX_UNTIL_MASS) {

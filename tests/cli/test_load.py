@@ -55,7 +55,7 @@ class Load(Case):
         result = clast(*CELL, *FAST, "--stages", "isotropic 20kPa until rest", "--energy", "--json", "-o", run)
         self.assertEqual(result.code, 0, result.err)
         out = json.loads(result.out)
-        self.assertEqual(out["phase"], "done")
+        self.assertEqual((out["phase"], out["sank_after_shaking"]), ("done", None))
         for axis in ("xx", "yy", "zz"):
             self.assertLess(abs(out["cell"]["stress"][axis] / 20e3 - 1), 0.01)
         self.assertLess(out["cell"]["unbalanced"], 1e-3)
@@ -273,6 +273,8 @@ class Load(Case):
         self.assert_fails(2, *CELL, "--stages", "isotropic 0Pa", says=("stage 1", "never reached"))
         self.assert_fails(2, *CELL, "--stages", "hold until stress 1kPa", says=("stage 1", "drive a side"))
         self.assert_fails(2, *CELL, "--stages", "xz=1 until strain 1", says=("stage 1", "no pressure"))
+        for stage in ("isotropic 10kPa until stress 20kPa", "z=-1/s until stress 1kPa", "shear 2kPa until stress 3kPa"):  # each ended at once, as if it had come to it
+            self.assert_fails(2, *CELL, "--stages", stage, says=("stage 1", "from above, and grains on a lattice carry nothing"))
         for end, word in (("rest until time 1ms", "until"), ("strain 0.1 x=5kPa", "x=5kPa"), ("stress 1kPa 2kPa", "2kPa")):
             self.assert_fails(2, *CELL, "--stages", f"isotropic 10kPa until {end}", says=("stage 1", f"a stage has one end, and nothing after it: '{word}'"))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10kPa until time rest", says=("stage 1", "expected a number above 0 after 'time'"))

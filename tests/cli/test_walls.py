@@ -148,6 +148,34 @@ class Walls(Case):
         self.assertEqual(result.code, 0, result.err)
         self.assertLess(max(row["lid_force_z_N"] for row in rows(run / "walls.csv")), 1.1 * 2e3 * math.pi * 12e-3 ** 2)
 
+    def test_a_stress_is_come_to_from_where_it_is(self):
+        """until stress P ended at once where a lid was let down to less or moved up, and by the lid's pressure while another wall moved."""
+        layer = ["pack", "--curve", "4mm", "--mass", "0.7g", "--domain", "box", "--width", "24mm", "--height", "20mm", "--lid", "--fluid-density", "0",
+                 "--shaking-time", "0", "--shake-amplitude", "0", "--load-rate", "8/s", "--rule", "speed", "-j", "1", "-q", "--stages", "lid=4kPa until stress"]
+        area = {"lid": 24e-3 ** 2, "left": 24e-3 * 20e-3}
+        for k, (walls, stage, name, end, most) in enumerate((
+                (["lid"], "lid=0.5N until stress 2kPa", "lid_force_z_N", 2e3, 1.2), (["lid move 0,0,1mm/s"], "lid until stress 2kPa", "lid_force_z_N", 2e3, 1.2),
+                (["lid", "left"], "lid=4kPa left=50mm/s until stress 0.2kPa", "left_force_x_N", -0.2e3, 5))):
+            run = self.folder / f"run{k}"
+            result = clast(*layer, *(x for wall in walls for x in ("--wall", wall)), "--stages", stage, "--max-load-time", "0.5s", "--series-time", "50us", "-o", run)
+            self.assertEqual(result.code, 0, result.err)
+            *_, before, last = rows(run / "walls.csv")
+            pressure = last[name] / area[name.split("_", maxsplit=1)[0]]
+            self.assertEqual((before["stage"], last["stage"]), (2, 2), stage)
+            self.assertTrue(0.6 < pressure / end < most, (stage, pressure))
+
+    def test_a_floor_is_pressed_over_the_hole_above_it(self):
+        """A pressure on the floor below a round tube acted on the square about the tube: 4 / pi of it."""
+        run, tube, top = self.folder / "run", self.folder / "tube.stl", self.folder / "top.stl"
+        around = [(10 * math.cos(2 * math.pi * k / 12), 10 * math.sin(2 * math.pi * k / 12)) for k in range(13)]
+        write_stl(tube, [t for (a, b), (c, d) in zip(around, around[1:]) for t in (((a, b, 2), (c, d, 2), (c, d, 30)), ((a, b, 2), (c, d, 30), (a, b, 30)))])
+        write_plate(top, 6, 25)
+        result = clast("pack", "--curve", "4mm", "--mass", "0.5g", "--container", tube, "--container-unit", "mm", "--fluid-density", "0", "--shaking-time", "0",
+                       "--shake-amplitude", "0", "--load-rate", "4/s", "--rule", "speed", "-j", "1", "-q", "--wall", "floor", "--wall", f"top {top} mm press 0,0,-1",
+                       "--stages", "top=200mm/s until stress 0.2kPa", "--stages", "floor=2kPa until stress", "--series-time", "50us", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertLess(abs(rows(run / "walls.csv")[-1]["floor_force_z_N"] / (-2e3 * 12 * 0.5 * 10e-3 ** 2 * math.sin(math.pi / 6)) - 1), 0.1)
+
     def test_a_lone_grain_between_plates_comes_to_rest(self):
         """No two grains touch: a stage until rest never ended, though the lid carried what it was to carry."""
         for mass, n in (("0.05g", 1), ("0.7g", 8)):  # a grain; a layer, side by side on its lattice
@@ -319,6 +347,10 @@ class Walls(Case):
         done = clast(*bed, *fast, *stiff)
         self.assertEqual(done.code, 0, done.err)  # what no two sides have does not count
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate=1kPa", says=("stage 1", "direction"))
+        write_tank(self.folder / "tank.stl")
+        self.assert_fails(2, "pack", "--curve", "4mm", "--mass", "1g", "--container", self.folder / "tank.stl", "--container-unit", "mm", "--no-floor", "--wall",
+                          "container axis 0,0,1 about 10,10,0mm rotate 20000rpm", says=("wall 1", "would move at ", "faster than half"))  # its rotation had no speed
+        self.assert_fails(2, *bed, "--wall", wall + " press 0,0,-1", "--stages", "plate=1kPa until stress 2kPa", says=("stage 1", "no stage before it presses with more: 'plate'"))
         self.assert_fails(2, *bed, "--wall", wall + " press 1,0,0", "--stages", "plate=1kPa until stress", says=("stage 1", "no area"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "plate until time 1s", says=("stage 1", "no motion"))
         self.assert_fails(2, *bed, "--wall", wall, "--stages", "lid=1kPa", says=("stage 1", "no wall"))
