@@ -33,7 +33,8 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_F64, density), 0, 0, 1e6, "kg/m^3",
      "of all grains of another program's file that gives none; 0: not known, left out", NULL},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
-     "spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names",
+     "spheres of another program: what its columns are, all of them, such as id,x,y,z,d (- passes "
+     "one over); none: by their names",
      ""},
     {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
      "spheres of another program: diameter of all, instead of the file's; 0: the file's", "0"},

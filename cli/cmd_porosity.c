@@ -95,8 +95,8 @@ static const clast_field fields[] = {
      "force chains too (chains.vtp, .csv, .svg), of runs that know their forces", NULL,
      .common = true},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
-     "spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed "
-     "over); none: by their names",
+     "spheres: what the file's columns are, all of them, such as id,x,y,z,d (x, y, z, r or d; "
+     "others and - are passed over); none: by their names",
      ""},
     {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
      "spheres: diameter of all, instead of the file's; 0: the file's", "0"},

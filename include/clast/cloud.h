@@ -95,10 +95,12 @@ typedef struct clast_points_options {
 /// dump, or an HDF5 array: whatever the file's first bytes show.
 ///
 /// Delimited text without a header has the columns column_1, column_2, ... Columns of a PLY are the
-/// numbers of its vertices; those of an XYZ file name, x, y, z, column_5, ... of its first frame.
+/// numbers of its vertices; those of an XYZ file name, x, y, z, column_5, ... of its first frame,
+/// or the keys of its Properties=species:S:1:pos:R:3 (pos: x, y, z; of others KEY_x, ... or KEY_1).
 /// Coordinates of VTK files become columns x, y, z; a point array of two or three numbers becomes
 /// name_x, name_y, name_z, one of k numbers name_0 .. name_(k-1). A dump's columns keep their
-/// names; scaled coordinates xs, ys, zs become x, y, z too. Columns of an HDF5 array [n][k] are x,
+/// names; scaled coordinates xs, ys, zs become x, y, z too; its ITEM: UNITS counts for positions,
+/// sizes, velocities and masses. Columns of an HDF5 array [n][k] are x,
 /// y, z, c3, ...; arrays of a folder keep their names.
 ///
 /// @param options  NULL: {0}    @param table  empty; written only on success

@@ -64,8 +64,8 @@ CLAST_API clast_status clast_state_read_table(const char *path, const char *name
 
 /// How to read a packing of spheres; {0} guesses everything.
 typedef struct clast_packing_options {
-    const char *columns; ///< "id,x,y,z,d": what the columns are, in order: x, y, z, r or radius, d
-                         ///< or diameter, others are passed over; NULL or "": by their names
+    const char *columns; ///< "id,-,x,y,z,d": what each column is: id, x, y, z, r or radius, d or
+                         ///< diameter; others are passed over; NULL or "": by their names
     double diameter;     ///< of all spheres, in place of the file's; 0: the file's
 } clast_packing_options;
 
@@ -98,14 +98,15 @@ typedef struct clast_packing_report {
 /// where the ids are the whole numbers from 0 or 1 on. A column id, whole and unique, gives the
 /// grains' ids (assembly->has_ids). `.xyzd` holds little-endian doubles x, y, z,
 /// diameter (packing-generation). Of several snapshots of a dump or .xyz the last is read. The box
-/// of an .xyz is its Lattice="ax 0 0 bx by 0 cx cy cz", periodic but for pbc="F F F".
+/// of an .xyz is its Lattice="ax 0 0 bx by 0 cx cy cz", periodic but for pbc="F F F". Its columns
+/// are those of Properties=species:S:1:pos:R:3:radius:R:1, where its comment says them.
 ///
 /// @param assembly  empty; filled on success; in metres where the dump or all four columns say
 ///                  their unit, else "model"
 /// @param report    may be NULL
 /// @return CLAST_E_FORMAT for missing columns, units of some columns alone, numbers that are not
 ///         finite, radii not above 0, two grains of one id; CLAST_E_CONFIG for `columns` that name
-///         no x, y or z
+///         no x, y or z, not all columns of the table, or one otherwise than it is named there
 CLAST_API clast_status clast_packing_read(const char *path, const clast_packing_options *options,
                                           clast_assembly *assembly, clast_packing_report *report);
 

@@ -6,7 +6,6 @@
 #include "base/status.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
-#include "math/rng.h"
 #include "math/sort.h"
 #include <clast/machine.h>
 #include <math.h>
@@ -18,12 +17,7 @@ void clast_cloud_free(clast_cloud *cloud)
     if (cloud == NULL) {
         return;
     }
-    clx_free(cloud->x);
-    clx_free(cloud->radius);
-    clx_free(cloud->mass);
-    clx_free(cloud->weight);
-    clx_free(cloud->velocity);
-    clx_free(cloud->variable);
+    CLX_FREE(cloud->x, cloud->radius, cloud->mass, cloud->weight, cloud->velocity, cloud->variable);
     *cloud = (clast_cloud){0};
 }
 
@@ -211,8 +205,8 @@ static clast_status factor_of(const clast_table *table, const double *column, co
     if (has_unit(c, si_unit, unit)) {
         CLX_TRY(clast_unit_factor(unit, si_unit, &own));
         CLX_CHECK(own == *factor, CLAST_E_CONFIG,
-                  "%s: column '%s' is in %s by its name, the unit asked for is %s", table->name,
-                  c->name, unit, asked);
+                  "%s: column '%s' is in %s by its name or its file, the unit asked for is %s",
+                  table->name, c->name, unit, asked);
     }
 done:
     return status;

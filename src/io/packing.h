@@ -32,9 +32,9 @@ clast_status clx_xyzd(const char *name, const char *bytes, int64_t n, clast_tabl
 
 /// LAMMPS's units in SI, as ITEM: UNITS names them.
 typedef struct clx_lammps_units {
-    const char *word;                  ///< "si", "cgs", ...
-    const char *length;                ///< name of its unit
-    double metre, kilogram, kg_per_m3; ///< of a length, a mass, a density
+    const char *word;                               ///< "si", "cgs", ...
+    const char *length;                             ///< name of its unit
+    double metre, kilogram, kg_per_m3, metre_per_s; ///< of a length, a mass, a density, a speed
 } clx_lammps_units;
 
 /// NULL for "lj", which are none, and for words that LAMMPS has not.
@@ -86,6 +86,9 @@ clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted 
 /// The box that the comment of an .xyz [n] tells: Lattice="ax 0 0 bx by 0 cx cy cz", pbc="T T F"
 /// (none: periodic), Origin="x y z". One that is turned otherwise is no box of LAMMPS: left out.
 void clx_xyz_lattice(const char *comment, size_t n, clast_packing_frame *frame);
+
+/// Whether it names its columns, Properties=species:S:1:pos:R:3: clx_points_xyz reads them.
+bool clx_xyz_has_properties(const char *comment, size_t n);
 
 /// A configuration of Rockable and the library of shapes that it names.
 typedef struct {

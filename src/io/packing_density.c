@@ -13,15 +13,16 @@
 #include <strings.h>
 
 /// [LAMMPS manual, command units]; Avogadro's number in g/mol, Bohr's radius and the atomic mass
-/// are CODATA's of 2018, "electron" has no density.
+/// are CODATA's of 2018, "electron" has no density; its time is LAMMPS's, 1.03275e-15 s.
 static const clx_lammps_units known[] = {
-    {"si", "m", 1.0, 1.0, 1.0},
-    {"cgs", "cm", 1e-2, 1e-3, 1e3},
-    {"micro", "um", 1e-6, 1e-15, 1e3},
-    {"nano", "nm", 1e-9, 1e-21, 1e6},
-    {"real", "Angstrom", 1e-10, 1e-3 / 6.02214076e23, 1e3},
-    {"metal", "Angstrom", 1e-10, 1e-3 / 6.02214076e23, 1e3},
-    {"electron", "Bohr", 5.29177210903e-11, 1.66053906660e-27, 1.0},
+    {"si", "m", 1.0, 1.0, 1.0, 1.0},
+    {"cgs", "cm", 1e-2, 1e-3, 1e3, 1e-2},
+    {"micro", "um", 1e-6, 1e-15, 1e3, 1.0},
+    {"nano", "nm", 1e-9, 1e-21, 1e6, 1.0},
+    {"real", "Angstrom", 1e-10, 1e-3 / 6.02214076e23, 1e3, 1e5},
+    {"metal", "Angstrom", 1e-10, 1e-3 / 6.02214076e23, 1e3, 1e2},
+    {"electron", "Bohr", 5.29177210903e-11, 1.66053906660e-27, 1.0,
+     5.29177210903e-11 / 1.03275e-15},
 };
 
 const clx_lammps_units *clx_lammps_units_of(const char *word)

@@ -20,7 +20,7 @@
 
 /// Rows of an .xyz, behind a count and a comment.
 typedef struct {
-    int64_t comment, begin, end;
+    int64_t count, comment, begin, end;
 } rows;
 
 /// The rows of snapshot `wanted`, or of the last one before it, and how many there are up to it; 0
@@ -30,22 +30,24 @@ static int64_t find_xyz(const char *bytes, int64_t n, int64_t wanted, rows *foun
 {
     clx_text text = clx_text_begin(bytes, (size_t)n, 0, false);
     clx_text peek = text;
+    clx_word head;
     clx_word word;
     int64_t n_snapshot = 0;
     int64_t count = 0;
-    bool is_head = clx_text_word(&peek, &word) && clx_word_integer(word, &count) &&
+    bool is_head = clx_text_word(&peek, &head) && clx_word_integer(head, &count) &&
                    !clx_text_word(&peek, &word);
     while (is_head && n_snapshot <= wanted && clx_text_next_line(&text)) {
+        const int64_t first = head.text - bytes;
         const int64_t comment = text.at - bytes;
         if (!clx_text_next_line(&text)) {
             break;
         }
-        *found = (rows){comment, text.at - bytes, n};
+        *found = (rows){first, comment, text.at - bytes, n};
         ++n_snapshot;
         for (int64_t i = 0; i < count && clx_text_next_line(&text); ++i) {
         }
         peek = text;
-        is_head = clx_text_any_word(&peek, &word) && clx_word_integer(word, &count) &&
+        is_head = clx_text_any_word(&peek, &head) && clx_word_integer(head, &count) &&
                   !clx_text_word(&peek, &word);
         if (is_head) {
             found->end = text.at - bytes;
@@ -62,7 +64,7 @@ static clast_status parse_xyz(const char *path, const char *bytes, int64_t n,
 {
     static const clast_csv_options atoms = {.separator = ' ', .no_comment = true, .header = -1};
     clast_status status = CLAST_OK;
-    rows found = {0, 0, n};
+    rows found = {0, 0, 0, n};
     const int64_t n_snapshot = find_xyz(bytes, n, INT64_MAX - 1, &found);
     const int64_t k = wanted->frame < 0 ? n_snapshot + wanted->frame : wanted->frame;
     CLX_CHECK(k >= 0 && k < n_snapshot, CLAST_E_FORMAT, "%s: there is no snapshot %lld among %lld",
@@ -74,6 +76,10 @@ static clast_status parse_xyz(const char *path, const char *bytes, int64_t n,
     }
     report->snapshot = k + 1;
     report->n_snapshot = n_snapshot;
+    if (!wanted->is_old &&
+        clx_xyz_has_properties(bytes + found.comment, (size_t)(found.begin - found.comment))) {
+        return clx_points_xyz(path, bytes + found.count, (size_t)(found.end - found.count), table);
+    }
     CLX_TRY(clast_table_parse_csv(path, bytes + found.begin, (size_t)(found.end - found.begin),
                                   &atoms, table, NULL));
 done:
@@ -180,10 +186,12 @@ static clast_status read_table(const char *path, const char *bytes, int64_t n,
     if ((o->columns == NULL || o->columns[0] == '\0') &&
         clx_yade_columns(bytes, (size_t)n, columns)) {
         o->columns = columns;
+        own.spheres.takes_few = true;
     }
     CLX_TRY(parse(path, bytes, n, wanted, told, &table));
     CLX_TRY(find_metre(wanted, told, &metre));
     own.spheres.metre = wanted->is_old ? 0.0 : metre;
+    own.spheres.takes_few = own.spheres.takes_few || wanted->is_old;
     CLX_TRY(clx_packing_of_table(&table, &own.spheres, is_lammps, assembly, told->unit));
     to_metres(metre, assembly, &told->report.frame);
     if (clx_yade_clump_column(o->columns) < 0) {

@@ -128,8 +128,7 @@ static clast_status add_spheres(const clast_spheres *spheres, const double *type
                                          spheres->radius[i], 1.0));
     }
 done:
-    clx_free(rows);
-    clx_free(shape);
+    CLX_FREE(rows, shape);
     return status;
 }
 
@@ -250,9 +249,13 @@ static clast_status add_ellipsoids(const clast_table *table, clast_assembly *a)
         CLX_TRY(clast_assembly_add_grain(a, shape[i], x, turned, 1.0, 1.0));
     }
 done:
-    clx_free(rows);
-    clx_free(shape);
+    CLX_FREE(rows, shape);
     return status;
+}
+
+static bool has_list(const clx_spheres_wanted *wanted)
+{
+    return wanted->options.columns != NULL && wanted->options.columns[0] != '\0';
 }
 
 clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wanted *wanted,
@@ -264,8 +267,15 @@ clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wa
     (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
     if (is_lammps && clast_table_numbers(table, "shapex") != NULL &&
         wanted->options.diameter <= 0.0) {
+        CLX_TRY(clx_spheres_check_list(table, wanted)); // of ids: poses are found by name
         return add_ellipsoids(table, assembly);
     }
+    CLX_CHECK(
+        !is_lammps || has_list(wanted) || clx_points_are_named(table), CLAST_E_FORMAT,
+        "of a dump x, y, z or xs, ys, zs are read, which are not there; to take others (xu, yu, "
+        "zu: without the period), name all columns in their order with %scolumns "
+        "id,type,x,y,z,r",
+        wanted->prefix != NULL ? wanted->prefix : "");
     CLX_TRY(clx_spheres_of_columns(table, wanted, &spheres, unit));
     if (unit[0] != '\0') {
         (void)snprintf(assembly->unit, sizeof assembly->unit, "m");
@@ -298,8 +308,8 @@ clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted 
 {
     clast_status status = CLAST_OK;
     const int32_t n = assembly->n_grain;
-    const double *id =
-        is_lammps ? clast_table_numbers(table, "id") : clx_spheres_ids(table, wanted);
+    const double *id = is_lammps && !has_list(wanted) ? clast_table_numbers(table, "id")
+                                                      : clx_spheres_ids(table, wanted);
     int64_t *sorted = NULL;
     bool are_ids = id != NULL && n > 0;
     CLX_TRY(clx_alloc(&sorted, n, sizeof *sorted));
@@ -315,8 +325,10 @@ clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted 
     assembly->has_ids = true;
     qsort(sorted, (size_t)n, sizeof *sorted, by_number);
     for (int32_t i = 1; i < n; ++i) {
-        CLX_CHECK(sorted[i] != sorted[i - 1], CLAST_E_FORMAT, "two rows have the id %lld",
-                  (long long)sorted[i]);
+        CLX_CHECK(sorted[i] != sorted[i - 1], CLAST_E_FORMAT,
+                  "two rows have the id %lld (to read them without ids: %scolumns with - for that "
+                  "column)",
+                  (long long)sorted[i], wanted->prefix != NULL ? wanted->prefix : "");
     }
 done:
     clx_free(sorted);

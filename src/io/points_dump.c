@@ -3,11 +3,14 @@
 
 #include "base/alloc.h"
 #include "base/column_unit.h"
+#include "io/packing.h"
 #include "io/text.h"
+#include <clast/field.h>
 #include <clast/table.h>
 #include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct {
@@ -165,7 +168,7 @@ done:
 }
 
 /// Columns by the names of the ATOMS line; all their cells must be numbers, texts become NaN-free
-/// refusals, except "element" and "type" words, which are left out.
+/// refusals, except "element" and "typelabel", which are left out.
 static clast_status fill_rows(dump *d, clast_table *table, const bool *is_text)
 {
     clast_status status = CLAST_OK;
@@ -194,26 +197,37 @@ done:
     return status;
 }
 
-/// Scaled coordinates xs, ys, zs as x, y, z.
+/// Scaled coordinates xs, ys, zs as x, y, z: shares of the box's sides, of which the second and the
+/// third may lean along x and y.                                  [LAMMPS manual, Howto_triclinic]
 static clast_status unscale(const dump *d, clast_table *table)
 {
     static const char *const scaled[3] = {"xs", "ys", "zs"};
     static const char *const plain[3] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
-    const double *tilt = d->head.tilt;
+    const clx_dump_head *h = &d->head;
+    const double side[3][3] = {{h->high[0] - h->low[0], h->tilt[0], h->tilt[1]},
+                               {0.0, h->high[1] - h->low[1], h->tilt[2]},
+                               {0.0, 0.0, h->high[2] - h->low[2]}};
     for (int k = 0; k < 3; ++k) {
         double *column = NULL;
         if (clast_table_numbers(table, scaled[k]) == NULL ||
             clast_table_find(table, plain[k]) >= 0) {
             continue;
         }
-        CLX_CHECK(tilt[0] == 0.0 && tilt[1] == 0.0 && tilt[2] == 0.0, CLAST_E_FORMAT,
-                  "%s: the box is tilted, and %s is by its sides; clast reads x, y and z there",
+        CLX_CHECK(h->has_box, CLAST_E_FORMAT, "%s: %s is a share of a box, which is not there",
                   d->name, scaled[k]);
         CLX_TRY(clast_table_add_number(table, plain[k], "-", &column));
-        const double *from = clast_table_numbers(table, scaled[k]);
         for (int64_t i = 0; i < table->n_row; ++i) {
-            column[i] = d->head.low[k] + from[i] * (d->head.high[k] - d->head.low[k]);
+            column[i] = h->low[k];
+        }
+        for (int j = k; j < 3; ++j) {
+            const double *from = clast_table_numbers(table, scaled[j]);
+            CLX_CHECK(from != NULL || side[k][j] == 0.0, CLAST_E_FORMAT,
+                      "%s: the box is tilted, and %s without %s is no position there", d->name,
+                      scaled[k], scaled[j]);
+            for (int64_t i = 0; i < table->n_row && from != NULL; ++i) {
+                column[i] += from[i] * side[k][j];
+            }
         }
     }
 done:
@@ -229,11 +243,11 @@ static clast_status add_columns(const dump *d, clast_table *table, bool is_text[
     while (clx_text_word(&names, &word)) {
         char name[128];
         double *column = NULL;
-        CLX_CHECK(n < 1024 && word.n < (int64_t)sizeof name, CLAST_E_FORMAT,
+        CLX_CHECK(n < 1024 && word.n + 8 < (int64_t)sizeof name, CLAST_E_FORMAT,
                   "%s: column %d of ITEM: ATOMS is not a name", d->name, n + 1);
         memcpy(name, word.text, (size_t)word.n);
         name[word.n] = '\0';
-        is_text[n] = strcmp(name, "element") == 0;
+        is_text[n] = strcmp(name, "element") == 0 || strcmp(name, "typelabel") == 0;
         CLX_CHECK(memchr(name, '\0', (size_t)word.n) == NULL, CLAST_E_FORMAT,
                   "%s: column %d of ITEM: ATOMS is not a name", d->name, n + 1);
         if (!is_text[n++]) {
@@ -241,8 +255,9 @@ static clast_status add_columns(const dump *d, clast_table *table, bool is_text[
             CLX_CHECK(d->n_atom * n <= d->rows.end - d->rows.at + 1, CLAST_E_FORMAT,
                       "%s: %" PRId64 " atoms of %d columns do not fit into the file", d->name,
                       d->n_atom, n);
-            CLX_CHECK(clast_table_find(table, name) < 0, CLAST_E_FORMAT,
-                      "%s: two columns are named '%s'", d->name, name);
+            for (int k = 2; clast_table_find(table, name) >= 0; ++k) { // LIGGGHTS: "id type type"
+                (void)snprintf(name + word.n, sizeof name - (size_t)word.n, "_%d", k);
+            }
             CLX_TRY(clx_table_add_said(table, name, name, &column));
         }
     }
@@ -314,13 +329,64 @@ done:
     return status;
 }
 
+/// Unit of a column of LAMMPS, and what takes it there: the file's own of lengths, so that it may
+/// be asked for, where clast knows it, else SI; NULL: of none that is converted.
+static const char *unit_of(const char *name, const clx_lammps_units *units, double *factor)
+{
+    static const char *const lengths[] = {"x", "y", "z", "xu", "yu", "zu", "radius", "diameter"};
+    static const char *const speeds[] = {"vx", "vy", "vz"};
+    for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; ++k) {
+        if (strcmp(name, lengths[k]) == 0) {
+            const bool is_known = clast_unit_factor(units->length, "m", factor) == CLAST_OK;
+            *factor = is_known ? 1.0 : units->metre;
+            return is_known ? units->length : "m";
+        }
+    }
+    for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; ++k) {
+        if (strcmp(name, speeds[k]) == 0) {
+            *factor = units->metre_per_s;
+            return "m/s";
+        }
+    }
+    *factor = units->kilogram;
+    return strcmp(name, "mass") == 0 ? "kg" : NULL;
+}
+
+/// Lengths, speeds and masses in units that their columns then say.
+static clast_status tell_units(const clx_lammps_units *units, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        clast_column *column = &table->column[c];
+        double factor = 1.0;
+        const char *unit = unit_of(column->name, units, &factor);
+        if (unit == NULL) {
+            continue;
+        }
+        clx_free(column->unit);
+        column->unit = NULL;
+        CLX_TRY(clx_alloc_text(&column->unit, unit));
+        for (int64_t i = 0; i < table->n_row; ++i) {
+            column->number[i] *= factor;
+        }
+    }
+done:
+    return status;
+}
+
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
                              clast_table *table)
 {
     clast_status status = CLAST_OK;
+    clast_table made = {0};
     dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name, .head = {.step = -1}};
     CLX_TRY(find_frame(&d, frame));
-    CLX_TRY(read_dump(&d, table));
+    CLX_TRY(read_dump(&d, &made));
+    const clx_lammps_units *units = clx_lammps_units_of(d.head.units);
+    CLX_TRY(units != NULL ? tell_units(units, &made) : CLAST_OK);
+    *table = made;
+    made = (clast_table){0};
 done:
+    clast_table_free(&made);
     return status;
 }

@@ -1,5 +1,7 @@
-// XYZ of chemistry and particle codes: a count, a line of comment, rows "NAME x y z ...". Rows of
-// numbers alone, which many tools call XYZ too, are delimited text without a header.
+// XYZ of chemistry and particle codes: a count, a line of comment, rows "NAME x y z ...", or as
+// the comment of extended XYZ says, Properties=species:S:1:pos:R:3:radius:R:1. Rows of numbers
+// alone, which many tools call XYZ too, are delimited text without a header.
+//                                              [ASE's documentation, ase.io.extxyz; OVITO's manual]
 #include "io/points.h"
 
 #include "io/packing.h"
@@ -21,6 +23,44 @@ static bool read_count(clx_text *text, int64_t *n)
            !clx_text_word(text, &more);
 }
 
+/// Where Properties=... of a comment [n] begins, of *length bytes; NULL: there is none.
+static const char *find_properties(const char *line, size_t n, size_t *length)
+{
+    static const char key[] = "Properties=";
+    const size_t size = sizeof key - 1;
+    for (size_t at = 0; at + size < n; ++at) {
+        if ((at == 0 || line[at - 1] == ' ') && strncasecmp(line + at, key, size) == 0) {
+            const bool is_quoted = line[at + size] == '"' || line[at + size] == '\'';
+            const char *begin = line + at + size + is_quoted;
+            const char *end = begin;
+            while (end < line + n && (unsigned char)*end > ' ' && *end != '"' && *end != '\'') {
+                ++end;
+            }
+            *length = (size_t)(end - begin);
+            return begin;
+        }
+    }
+    return NULL;
+}
+
+/// The comment, in the second line.
+static const char *find_comment(const char *bytes, size_t n, size_t *length)
+{
+    const char *begin = memchr(bytes, '\n', n);
+    begin = begin != NULL ? begin + 1 : bytes + n;
+    const size_t rest = n - (size_t)(begin - bytes);
+    const char *end = rest > 0 ? memchr(begin, '\n', rest) : NULL;
+    *length = end != NULL ? (size_t)(end - begin) : rest;
+    return begin;
+}
+
+static const char *properties_of(const void *bytes, size_t n, size_t *length)
+{
+    size_t size = 0;
+    const char *comment = find_comment(bytes, n, &size);
+    return find_properties(comment, size, length);
+}
+
 bool clx_points_is_xyz(const void *bytes, size_t n)
 {
     clx_text text = clx_text_begin(bytes, n, '\0', false);
@@ -29,8 +69,14 @@ bool clx_points_is_xyz(const void *bytes, size_t n)
     int64_t count = 0;
     double value = 0.0;
     int n_number = 0;
-    if (!read_count(&text, &count) || count == 0 || !clx_text_next_line(&text) ||
-        !clx_text_next_line(&text) || !clx_text_word(&text, &name)) {
+    size_t length = 0;
+    if (!read_count(&text, &count) || count == 0 || !clx_text_next_line(&text)) {
+        return false;
+    }
+    if (properties_of(bytes, n, &length) != NULL) {
+        return true;
+    }
+    if (!clx_text_next_line(&text) || !clx_text_word(&text, &name)) {
         return false;
     }
     while (n_number < 3 && clx_text_word(&text, &word) && clx_word_number(word, &value)) {
@@ -53,21 +99,78 @@ done:
     return status;
 }
 
+/// The columns of one property: x, y, z of pos, else KEY, or KEY_x, KEY_y, KEY_z, KEY_1, ...
+static clast_status add_property(clast_table *table, const char *key, bool is_text, int64_t width)
+{
+    clast_status status = CLAST_OK;
+    const char *axis = "xyz";
+    char name[96];
+    for (int k = 0; k < width; ++k) {
+        if (width == 3 && strcasecmp(key, "pos") == 0) {
+            (void)snprintf(name, sizeof name, "%c", axis[k]);
+        } else if (width == 3) {
+            (void)snprintf(name, sizeof name, "%s_%c", key, axis[k]);
+        } else {
+            (void)snprintf(name, sizeof name, width > 1 ? "%s_%d" : "%s", key, k + 1);
+        }
+        CLX_CHECK(clast_table_find(table, name) < 0, CLAST_E_FORMAT,
+                  "%s: two columns of its Properties are %s", table->name, name);
+        CLX_TRY(is_text ? clast_table_add_text(table, name)
+                        : clast_table_add_number(table, name, "-", NULL));
+    }
+done:
+    return status;
+}
+
+/// Columns as Properties=KEY:TYPE:WIDTH:... says: reals and integers are numbers, others texts.
+///
+/// @param n_byte  of the file, where a cell takes two, so that few cannot claim much memory
+static clast_status add_properties(const char *text, size_t n, size_t n_byte, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    const char *end = text + n;
+    while (text < end) {
+        char part[3][64]; // key, type, width
+        for (int k = 0; k < 3; ++k) {
+            const char *colon = memchr(text, ':', (size_t)(end - text));
+            const char *stop = colon != NULL ? colon : end;
+            CLX_CHECK(
+                stop > text && stop - text < (int64_t)sizeof part[k] && (colon != NULL || k == 2),
+                CLAST_E_FORMAT, "%s:2: Properties are no list KEY:TYPE:WIDTH:...", table->name);
+            (void)snprintf(part[k], sizeof part[k], "%.*s", (int)(stop - text), text);
+            text = stop + (colon != NULL);
+        }
+        int64_t width = 0;
+        const clx_word word = {part[2], (int64_t)strlen(part[2])};
+        CLX_CHECK(
+            clx_word_integer(word, &width) && width > 0 && width <= MOST_COLUMNS - table->n_column,
+            CLAST_E_FORMAT, "%s:2: Properties: %s of width %s", table->name, part[0], part[2]);
+        CLX_CHECK(2 * table->n_row * (table->n_column + width) <= (int64_t)n_byte, CLAST_E_FORMAT,
+                  "%s: %" PRId64 " points of %" PRId64 " columns do not fit into the file",
+                  table->name, table->n_row, table->n_column + width);
+        CLX_TRY(add_property(table, part[0], strchr("RIri", part[1][0]) == NULL, width));
+    }
+done:
+    return status;
+}
+
 static clast_status read_row(clx_text *text, int64_t row, clast_table *table)
 {
     clast_status status = CLAST_OK;
     clx_word word;
     char shown[CLX_WORD_SHOWN];
-    CLX_CHECK(clx_text_word(text, &word), CLAST_E_FORMAT, "%s:%" PRId64 ": an empty row",
-              table->name, text->line);
-    CLX_TRY(clast_table_set_text(table, 0, row, clx_word_show(word, shown)));
-    for (int32_t k = 1; k < table->n_column; ++k) {
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        clast_column *column = &table->column[k];
         CLX_CHECK(clx_text_word(text, &word), CLAST_E_FORMAT,
-                  "%s:%" PRId64 ": %d words where the first row has %d", table->name, text->line, k,
+                  "%s:%" PRId64 ": %d words for %d columns", table->name, text->line, k,
                   table->n_column);
-        CLX_CHECK(clx_word_number(word, &table->column[k].number[row]), CLAST_E_FORMAT,
+        if (column->number == NULL) {
+            CLX_TRY(clast_table_set_text(table, k, row, clx_word_show(word, shown)));
+            continue;
+        }
+        CLX_CHECK(clx_word_number(word, &column->number[row]), CLAST_E_FORMAT,
                   "%s:%" PRId64 ": column %s: '%s' is no number", table->name, text->line,
-                  table->column[k].name, clx_word_show(word, shown));
+                  column->name, clx_word_show(word, shown));
     }
 done:
     return status;
@@ -81,9 +184,12 @@ clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast
     clx_word word;
     int64_t count = 0;
     int n_column = 0;
+    size_t length = 0;
+    const char *properties = properties_of(bytes, n, &length);
     (void)read_count(&text, &count);
-    CLX_CHECK(count <= (int64_t)n / 7, CLAST_E_FORMAT, // "A 0 0 0" and a line's end
-              "%s: %" PRId64 " points are announced, %zu bytes hold fewer", name, count, n);
+    CLX_CHECK(count <= (int64_t)n / (properties != NULL ? 2 : 7), CLAST_E_FORMAT,
+              "%s: %" PRId64 " points are announced, %zu bytes hold fewer", name, count,
+              n); // "A 0 0 0" and a line's end
     (void)clx_text_next_line(&text);
     (void)clx_text_next_line(&text);
     clx_text first = text;
@@ -93,11 +199,15 @@ clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast
         ++n_column;
     }
     CLX_TRY(clast_table_init(&made, name, count));
-    CLX_TRY(add_columns(&made, n_column));
+    CLX_TRY(properties != NULL ? add_properties(properties, length, n, &made)
+                               : add_columns(&made, n_column));
     for (int64_t row = 0; row < count; ++row) {
         CLX_CHECK(row == 0 || clx_text_next_line(&text), CLAST_E_FORMAT,
                   "%s: the file ends after %" PRId64 " of %" PRId64 " points", name, row, count);
         CLX_TRY(read_row(&text, row, &made));
+        CLX_CHECK(properties == NULL || !clx_text_word(&text, &word), CLAST_E_FORMAT,
+                  "%s:%" PRId64 ": more than the %d words that its Properties say", name, text.line,
+                  made.n_column);
     }
     *table = made;
     made = (clast_table){0};
@@ -133,6 +243,12 @@ static bool read_numbers(clx_text text, int n, double *value)
         ++k;
     }
     return k == n;
+}
+
+bool clx_xyz_has_properties(const char *comment, size_t n)
+{
+    size_t length = 0;
+    return find_properties(comment, n, &length) != NULL;
 }
 
 void clx_xyz_lattice(const char *comment, size_t n, clast_packing_frame *frame)

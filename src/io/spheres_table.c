@@ -132,6 +132,61 @@ static words words_of(const clx_spheres_wanted *wanted)
     return w;
 }
 
+/// Which of x, y, z, radius and id a word of a list or the name of a column is; -1: another.
+static int place_of(const char *word, size_t length)
+{
+    int place = length == 2 && strncasecmp(word, "id", length) == 0 ? N_COLUMN : -1;
+    for (int k = 0; k < N_NAME && place < 0; ++k) {
+        if (strlen(names[k]) == length && strncasecmp(word, names[k], length) == 0) {
+            place = k < RADIUS ? k : RADIUS;
+        }
+    }
+    return place;
+}
+
+static int place_of_column(const char *name)
+{
+    int place = place_of(name, strlen(name));
+    for (int k = 0; k < N_NAME && place < 0; ++k) {
+        if (clx_column_is(name, names[k], "m")) {
+            place = k < RADIUS ? k : RADIUS;
+        }
+    }
+    return place;
+}
+
+/// A list gives each column there its name, and none another than its own.
+static clast_status check_list(const clast_table *table, const clx_spheres_wanted *wanted)
+{
+    clast_status status = CLAST_OK;
+    const char *list = wanted->options.columns;
+    const words w = words_of(wanted);
+    char there[256] = "";
+    int32_t n = 0;
+    for (int32_t i = 0; i < table->n_column && strlen(there) + 1 < sizeof there; ++i) {
+        const size_t used = strlen(there);
+        (void)snprintf(there + used, sizeof there - used, "%s%s", i > 0 ? ", " : "",
+                       table->column[i].name);
+    }
+    for (const char *at = list; *at != '\0'; ++n) {
+        const int length = (int)strcspn(at, ",");
+        const char *own = n < table->n_column ? table->column[n].name : "";
+        const int place = place_of(at, (size_t)length);
+        const int own_place = place_of_column(own);
+        CLX_CHECK(place < 0 || own_place < 0 || place == own_place, CLAST_E_CONFIG,
+                  "%s '%s' calls column %d %.*s, which is named %s; columns are named in their "
+                  "order, with - for one that is passed over (here are %s)",
+                  w.columns, list, n + 1, length, at, own, there);
+        at += length + (at[length] == ',');
+    }
+    CLX_CHECK(n == table->n_column || (n < table->n_column && wanted->takes_few), CLAST_E_CONFIG,
+              "%s '%s' names %d of %d columns (%s); name all in their order, with - for one that "
+              "is passed over",
+              w.columns, list, n, table->n_column, there);
+done:
+    return status;
+}
+
 /// Columns in the order of a list such as "id,x,y,z,d".
 static clast_status take_list(const clast_table *table, const clx_spheres_wanted *wanted,
                               columns *c)
@@ -140,22 +195,21 @@ static clast_status take_list(const clast_table *table, const clx_spheres_wanted
     const char *list = wanted->options.columns;
     const words w = words_of(wanted);
     int32_t n = 0;
-    for (const char *at = list; *at != '\0'; ++n) {
+    for (const char *at = list; *at != '\0' && n < table->n_column; ++n) {
         const size_t length = strcspn(at, ",");
-        CLX_CHECK(n < table->n_column, CLAST_E_CONFIG, "%s '%s' names more than the %d there",
-                  w.columns, list, table->n_column);
         for (int name = 0; name < N_NAME; ++name) {
             if (strlen(names[name]) == length && strncasecmp(at, names[name], length) == 0) {
                 take_column(c, name, &table->column[n]);
             }
         }
-        if (length == 2 && strncasecmp(at, "id", length) == 0) {
+        if (place_of(at, length) == N_COLUMN) {
             c->id = &table->column[n];
         }
         at += length + (at[length] == ',');
     }
     CLX_CHECK(c->column[0] != NULL && c->column[1] != NULL && c->column[2] != NULL, CLAST_E_CONFIG,
               "%s '%s' does not name x, y and z; write id,x,y,z,d or x,y,z,r", w.columns, list);
+    CLX_TRY(check_list(table, wanted));
 done:
     return status;
 }
@@ -186,10 +240,6 @@ static clast_status take_places(const clast_table *table, const clx_spheres_want
     const words w = words_of(wanted);
     const clast_column *number[5] = {NULL};
     int n = 0;
-    CLX_CHECK(clast_table_find(table, "xu") < 0 || wanted == NULL, CLAST_E_FORMAT,
-              "xu, yu and zu are positions without the period; of a dump x, y, z or xs, ys, zs are "
-              "read; to take them, name all columns in their order with %s id,type,x,y,z,r",
-              w.columns);
     for (int32_t i = 0; i < table->n_column; ++i) {
         if (table->column[i].number != NULL) {
             CLX_CHECK(n < 5 || wanted == NULL, CLAST_E_FORMAT,
@@ -283,13 +333,17 @@ done:
     return status;
 }
 
+static bool has_list(const clx_spheres_wanted *wanted)
+{
+    return wanted != NULL && wanted->options.columns != NULL && wanted->options.columns[0] != '\0';
+}
+
 /// Which columns are the spheres'.
 static clast_status find_columns(const clast_table *table, const clx_spheres_wanted *wanted,
                                  columns *c)
 {
     clast_status status = CLAST_OK;
-    const char *list = wanted != NULL ? wanted->options.columns : NULL;
-    if (list != NULL && list[0] != '\0') {
+    if (has_list(wanted)) {
         CLX_TRY(take_list(table, wanted, c));
     } else {
         find_names(table, c);
@@ -354,10 +408,18 @@ done:
     return status;
 }
 
+clast_status clx_spheres_check_list(const clast_table *table, const clx_spheres_wanted *wanted)
+{
+    columns c = {.is_diameter = false};
+    return has_list(wanted) ? take_list(table, wanted, &c) : CLAST_OK;
+}
+
 const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted)
 {
     columns c = {.is_diameter = false};
-    return find_columns(table, wanted, &c) == CLAST_OK && c.id != NULL ? c.id->number : NULL;
+    const clast_status status =
+        has_list(wanted) ? take_list(table, wanted, &c) : find_columns(table, wanted, &c);
+    return status == CLAST_OK && c.id != NULL ? c.id->number : NULL;
 }
 
 clast_status clx_spheres_of_table(const clast_table *table, const clast_packing_options *options,

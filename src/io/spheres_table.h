@@ -33,11 +33,18 @@ typedef struct clx_spheres_wanted {
                         ///< diameter is in metres
     const char *prefix; ///< of the names of options in messages: "--", "--start-"; NULL: none can
                         ///< be given
+    bool takes_few; ///< columns behind those that the options name are passed over: of a file that
+                    ///< names them itself, and as clast read until 0.1.0
 } clx_spheres_wanted;
 
 /// The spheres' ids [n_row], or NULL: the column that the list calls id, else the one named so,
 /// else without names the first that counts the rows.
 const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted);
+
+/// Refuses (CLAST_E_CONFIG) a list, where there is one, that does not name x, y, z and each of the
+/// table's columns, '-' for one that is passed over, or gives one another name of these and id than
+/// its own.
+clast_status clx_spheres_check_list(const clast_table *table, const clx_spheres_wanted *wanted);
 
 /// clx_spheres_of_table so.
 ///

@@ -236,6 +236,35 @@ class CloudInputs(Case):
         xyz.write_text(text.replace("H ", "H far ", 1).replace("far " + repr(ROWS[0][0]), "0.5", 1).replace(repr(ROWS[40][1]), "here", 1))
         self.assert_fails(3, "decompose", xyz, "--domain", CUBE, says=["drops.xyz:43", "column y", "'here'"])
 
+    def test_units_of_a_dump_count(self):
+        """ITEM: UNITS counts in packings; clouds of cgs were taken in metres."""
+        wanted = self.answer(CSV, CUBE)
+        velocity = ("--velocity-columns", "vx,vy,vz", "--radius-column", "radius", "--mass-column", "mass", "--kernel", "ballistic", "--duration", "1s", "--json")
+        for word, metre, speed, kilogram in (("cgs", 1e-2, 1e-2, 1e-3), ("micro", 1e-6, 1, 1e-15), ("real", 1e-10, 1e5, 1e-3 / 6.02214076e23), ("si", 1, 1, 1)):
+            rows = "".join(f"{k} {' '.join(repr(v / metre) for v in p)} {p[0] / speed!r} {p[1] / speed!r} {p[2] / speed!r} {1e-4 / metre!r} {4e-9 / kilogram!r}\n"
+                           for k, p in enumerate(ROWS))
+            dump = self.folder / f"{word}.dump"
+            dump.write_text(f"ITEM: UNITS\n{word}\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n{N}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+                            "ITEM: ATOMS id x y z vx vy vz radius mass\n" + rows)
+            self.assert_same(self.answer(dump, CUBE), wanted, 9)
+            if word == "cgs":
+                self.assert_same(self.answer(dump, CUBE, "--unit", "cm", "--domain-unit", "m"), wanted, 9)
+                self.assert_fails(2, "decompose", dump, "--domain", CUBE, "--unit", "mm", says=("cm", "mm"))
+            run = clast("agglomerate", dump, "--domain", CUBE, *velocity)
+            self.assertEqual(run.code, 0, run.err)
+            if word == "cgs":
+                first = run.json
+            self.assert_same(run.json, first, 9, ("n_particle", "time", "moments"))
+
+    def test_properties_of_an_extended_xyz_name_its_columns(self):
+        """They were passed over: with a radius before the positions that was x."""
+        xyz = self.folder / "ext.xyz"
+        xyz.write_text(f"{N}\nProperties=species:S:1:radius:R:1:pos:R:3:id:I:1\n"
+                       + "".join(f"H 0.5 {p[0]!r} {p[1]!r} {p[2]!r} {k}\n" for k, p in enumerate(ROWS)))
+        self.assert_same(self.answer(xyz, CUBE), self.answer(CSV, CUBE), 12)
+        r = clast("decompose", xyz, "--domain", CUBE, "--weight-column", "radius", "--json")
+        self.assertEqual(r.code, 0, r.err)
+
     def test_a_file_without_a_header_has_numbered_columns(self):
         path = self.write("bare.xyz", ROWS, "", " ")
         self.assert_fails(3, "decompose", path, "--domain", CUBE,

@@ -252,6 +252,73 @@ class Export(Case):
         columns = "-,x,y,z,d"  # which leaves the ids out
         self.assertEqual(export("id,x,y,z,d\n7,0,0,0,1\n7,2,0,0,1\n", "o.csv", "--columns", columns).code, 0)
 
+    def write_dump(self, columns, *rows, bounds="BOUNDS ff ff ff\n0 4\n0 4\n0 4"):
+        (self.folder / "in.dump").write_text(f"ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: BOX {bounds}\nITEM: ATOMS {columns}\n"
+                                             + "".join(row + "\n" for row in rows))
+
+    def read(self, source, *options):
+        """id, position and radius of each grain that an export of it has."""
+        done = clast("export", source, "-o", "read.csv", *options, cwd=self.folder)
+        self.assertEqual(done.code, 0, done.err)
+        with open(self.folder / "read.csv", newline="", encoding="utf-8") as file:
+            return [tuple(float(value) for key, value in row.items() if key == "id" or key[:2] in ("x_", "y_", "z_")) + (float(row["length_model"]) / 2,)
+                    for row in csv.DictReader(file)]
+
+    def test_columns_name_all_columns_and_none_another(self):
+        """x,y,z,r of a file id,x,y,z,r took ids as x and z as radii, exit code 0."""
+        (self.folder / "named.csv").write_text("id,x,y,z,r\n3,1,2,3,.5\n9,2,4,6,.25\n")
+        (self.folder / "turned.csv").write_text("r,x,y,z\n.5,1,2,3\n")
+        (self.folder / "bare.txt").write_text("1 2 3 .5 7 8 9\n4 5 6 .5 7 8 9\n")
+        out = self.folder / "no.csv"
+        for name, columns, says in (("named.csv", "x,y,z,r", ("calls column 1 x, which is named id", "here are id, x, y, z, r")),
+                                    ("turned.csv", "x,y,z,r", ("calls column 1 x, which is named r",)),
+                                    ("named.csv", "id,x,y,z", ("names 4 of 5 columns (id, x, y, z, r)", "with - for one that is passed over")),
+                                    ("bare.txt", "x,y,z,r", ("names 4 of 7 columns", "-"))):
+            self.assert_fails(2, "export", self.folder / name, "--columns", columns, "-o", out, says=("--columns '" + columns, *says))
+            self.assert_fails(2, "porosity", self.folder / name, "--columns", columns, "--bed", "box:0,0,9,9", says=("--columns '" + columns, *says))
+            self.assert_fails(2, "pack", "--start", self.folder / name, "--start-unit", "mm", "--start-columns", columns,
+                              says=("--start-columns '" + columns, *says))
+        self.assertEqual(self.read("named.csv", "--columns", "-,x,y,z,d"), [(0, 1, 2, 3, 0.25), (1, 2, 4, 6, 0.125)])
+        self.assertEqual(self.read("bare.txt", "--columns", "x,y,z,r,-,-,-"), [(0, 1, 2, 3, 0.5), (1, 4, 5, 6, 0.5)])
+        (self.folder / "yade.txt").write_text("#format x_y_z_r_attrs\n1 2 3 .5 7 8 9\n")  # which names the rest at once
+        self.assertEqual(self.read("yade.txt"), [(0, 1, 2, 3, 0.5)])
+
+    def test_a_dump_of_repeated_ids_is_read_without_them(self):
+        """There was no way: columns that left the ids out were read with them all the same."""
+        self.write_dump("id type x y z radius", "7 1 1 1 1 .5", "7 2 2 2 2 .25")
+        self.assert_fails(3, "export", self.folder / "in.dump", "-o", self.folder / "no.csv", says=("two rows have the id 7", "--columns with -"))
+        self.assertEqual(self.read("in.dump", "--columns", "-,type,x,y,z,r"), [(0, 1, 1, 1, 0.5), (1, 2, 2, 2, 0.25)])
+        self.write_dump("id type x y z shapex shapey shapez quatw quati quatj quatk", "7 1 1 1 1 1 .5 .5 1 0 0 0", "7 2 2 2 2 2 1 1 1 0 0 0")
+        self.assertEqual(self.read("in.dump", "--columns", "-,type,x,y,z" + 7 * ",-"), [(0, 1, 1, 1, 0.5), (1, 2, 2, 2, 1)])
+
+    def test_dumps_as_lammps_and_liggghts_write_them(self):
+        """A tilted box's shares and LIGGGHTS's "id type type" were refused; types were x where a dump has no positions."""
+        self.write_dump("id type xs ys zs radius", "2 1 .5 .5 .5 .25", "1 1 .25 0 0 .125", bounds="BOUNDS xy xz yz pp pp pp\n-1 3.5 .5\n0 3 1\n1 5 1")
+        # a = (3, 0, 0), b = (.5, 2, 0), c = (1, 1, 4) from (-1, 0, 1)
+        self.assertEqual(self.read("in.dump"), [(2, 1.25, 1.5, 3, 0.25), (1, -0.25, 0, 1, 0.125)])
+        self.write_dump("id type type x y z ix iy iz vx vy vz radius", "1 1 1 1 2 3 0 0 0 9 9 9 .5")
+        self.assertEqual(self.read("in.dump"), [(1, 1, 2, 3, 0.5)])
+        self.write_dump("id typelabel x y z radius", "1 sand 1 2 3 .5")
+        self.assertEqual(self.read("in.dump"), [(1, 1, 2, 3, 0.5)])
+        for columns in ("id type vx vy vz", "id type xsu ysu zsu"):
+            self.write_dump(columns, "1 1 .1 .1 .1", "2 1 .2 .2 .2")
+            self.assert_fails(3, "export", self.folder / "in.dump", "-o", self.folder / "no.csv", says=("of a dump x, y, z or xs, ys, zs are read",))
+
+    def test_properties_of_an_extended_xyz_name_its_columns(self):
+        """They were passed over: a radius before the positions was x, and a charge behind them the radius."""
+        wanted = [(8, 1, 2, 3, 0.5), (5, 4, 5, 6, 0.25)]
+        for properties, rows in (("species:S:1:radius:R:1:pos:R:3:id:I:1", "Si .5 1 2 3 8\nO .25 4 5 6 5\n"),
+                                 ("id:I:1:species:S:1:pos:R:3:velo:R:3:Radius:R:1", "8 Si 1 2 3 9 9 9 .5\n5 O 4 5 6 9 9 9 .25\n")):
+            for comment in (f"Properties={properties}", f'Lattice="9 0 0 0 9 0 0 0 9" Properties="{properties}" pbc="T T F"'):
+                (self.folder / "in.xyz").write_text(f"1\n{comment.replace(properties, 'species:S:1:pos:R:3:radius:R:1')}\nO 0 0 0 1\n\n2\n{comment}\n{rows}")
+                self.assertEqual(self.read("in.xyz"), wanted, comment)
+        (self.folder / "in.xyz").write_text("2\nProperties=species:S:1:pos:R:3:charge:R:1\nNa 1 2 3 4\nCl 4 5 6 7\n")
+        self.assert_fails(3, "export", self.folder / "in.xyz", "-o", self.folder / "no.csv", says=("no column of numbers named radius", "--diameter"))
+        self.assertEqual(self.read("in.xyz", "--diameter", "1"), [(0, 1, 2, 3, 0.5), (1, 4, 5, 6, 0.5)])
+        for properties in ("species:S:1:pos:R", "species:S:1:pos:R:3:pos:R:3", "species:S:1:pos:R:3", "pos:R:99", "pos:R:x"):
+            (self.folder / "in.xyz").write_text(f"1\nProperties={properties}\nNa 1 2 3 4\n")
+            self.assert_fails(3, "export", self.folder / "in.xyz", "-o", self.folder / "no.csv", says=("in.xyz", "Properties"))
+
     def test_the_lattice_of_an_xyz_is_the_box(self):
         rows = "A 0 0 0 0.1\nB 0.5 0.5 0.5 0.2\n"
         for comment, box in (('Lattice="1 0 0 0 2 0 0 0 3" Properties=species:S:1:pos:R:3:radius:R:1', "pp pp pp\n0 1\n0 2\n0 3\n"),

@@ -271,7 +271,7 @@ class Starts(Case):
         listed = self.write("l.txt", "5 5 2 4 2000\n5 15 2 4 2000\n")
         options = ("--start-unit", "mm", "--start-columns")
         self.assertAlmostEqual(self.masses(listed, *options, "x,y,z,d,density") / (2 * ball(4e-3, 2000)), 1.0, 12)
-        self.assertAlmostEqual(self.masses(listed, *options, "x,y,z,d") / (2 * ball(4e-3)), 1.0, 12)
+        self.assertAlmostEqual(self.masses(listed, *options, "x,y,z,d,-") / (2 * ball(4e-3)), 1.0, 12)
         self.assert_fails(3, "pack", "--start", self.write("b.csv", "x_mm,y_mm,z_mm,d_mm,density\n5,5,2,4,0\n"), *BOX, says=("row 1", "density 0"))
         for options in ((), ("--start-columns", "x,y,z,d,density")):
             self.assert_fails(3, "pack", "--start", self.write("b.csv", "x_mm,y_mm,z_mm,d_mm,density (lb/ft3)\n5,5,2,4,160\n"), *BOX, *options,
