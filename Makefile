@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing example-code-saturne golden docs format hooks dist tarball wheel deb packages test-i386 wasm bare install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing example-code-saturne golden docs format hooks dist tarball wheel deb packages test-i386 wasm bare install uninstall clean
 all: dev
 
 # The group of tools/setup.sh that a target's tools are in.
@@ -16,8 +16,15 @@ test:
 	@command -v bash >/dev/null && tools/test.sh
 demo:
 	@tools/demo.sh
-install: release
+install:
+	@tools/setup.sh build
+	@tools/build.sh release installed
 	@cmake --install build/release $(if $(PREFIX),--prefix $(PREFIX))
+uninstall: # what the last `make install` laid down, and the folders of clast's own
+	@[ -e build/release/install_manifest.txt ] || { echo "uninstall: build/release/install_manifest.txt is missing: nothing was installed from here"; exit 1; }
+	@sed 's,^,$(DESTDIR),' build/release/install_manifest.txt | xargs -d '\n' rm -f
+	@sed -n 's,/[^/]*$$,,;s,^\(.*/clast\)$$,$(DESTDIR)\1,p' build/release/install_manifest.txt | sort -u | xargs -d '\n' -r rmdir --ignore-fail-on-non-empty
+	@rm build/release/install_manifest.txt
 fuzz:
 	@tools/setup.sh clang
 	@tools/fuzz.sh

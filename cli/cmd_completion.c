@@ -50,8 +50,8 @@ static void print_second_words(void)
         const char *name = cli_command_at(i)->name;
         const char *space = strchr(name, ' ');
         if (space != NULL) {
-            (void)printf("        %.*s) words=\"$words %s\" ;;&\n", (int)(space - name), name,
-                         space + 1);
+            (void)printf("        [ \"${COMP_WORDS[1]}\" != %.*s ] || words=\"$words %s\"\n",
+                         (int)(space - name), name, space + 1);
         }
     }
 }
@@ -71,10 +71,9 @@ static void print_bash(void)
     }
     (void)printf("    esac\n    if [ \"$COMP_CWORD\" -eq 1 ]; then\n        words=\"");
     print_first_words();
-    (void)printf("\"\n    elif [ \"$COMP_CWORD\" -eq 2 ]; then\n"
-                 "        case \"${COMP_WORDS[1]}\" in\n");
+    (void)printf("\"\n    elif [ \"$COMP_CWORD\" -eq 2 ]; then\n");
     print_second_words();
-    (void)printf("        esac\n    fi\n"
+    (void)printf("    fi\n"
                  "    if [[ $current == -* || $COMP_CWORD -le 2 ]]; then\n"
                  "        COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
                  "    fi\n"
@@ -90,6 +89,9 @@ static clast_status run(const cli_common *common, void *values)
         (void)printf("#compdef clast\nautoload -U +X bashcompinit && bashcompinit\n");
     }
     print_bash();
+    if (c->shell == 1) { // as a file of fpath it is that function: its first call completes too
+        (void)printf("[ \"${funcstack[1]}\" != _clast ] || _bash_complete -o default -F _clast\n");
+    }
     return CLAST_OK;
 }
 

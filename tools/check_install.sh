@@ -142,6 +142,20 @@ cmake --build "$part" --target chart >> "$work/log"
 [ "$("$part/chart")" = "$drawn" ] || { echo "add_subdirectory, view: another chart"; exit 1; }
 [ ! -e "$part/clast/clast" ] || { echo "add_subdirectory builds the command"; exit 1; }
 
+# By CMake alone, with a library in a prefix of one's own: it is built for speed, and what is installed finds that library again; where parts
+# are missing, one message names them all.
+own=$work/own
+mkdir -p "$own/lib/pkgconfig"
+cp -L "$(pkg-config --variable=libdir jansson)/libjansson.so" "$own/lib/"
+printf 'Name: jansson\nDescription: a copy\nVersion: 2.14\nLibs: -L%s/lib -ljansson\n' "$own" > "$own/lib/pkgconfig/jansson.pc"
+PKG_CONFIG_PATH=$own/lib/pkgconfig cmake -S . -B "$work/plain" >> "$work/log"
+grep -q '^CMAKE_BUILD_TYPE:STRING=Release$' "$work/plain/CMakeCache.txt" || { echo "cmake -S . -B FOLDER builds without optimisation"; exit 1; }
+for made in libclast.so libclast_view.so bin/clast; do
+    grep -A 12 "/$made" "$work/plain/cmake_install.cmake" | grep -q "NEW_RPATH.*$own/lib" || { echo "installed, $made does not look where its libraries are"; exit 1; }
+done
+! PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=/none cmake -S . -B "$work/none" > "$work/log.none" 2>&1 || { echo "clast is configured without its libraries"; exit 1; }
+grep -q 'jansson, yaml-0.1, qhull_r, lapacke' "$work/log.none" || { echo "cmake does not name all that is missing"; tail "$work/log.none"; exit 1; }
+
 version=$("$prefix/bin/clast" --version)
 case $version in *"${first%% *}"*) ;; *) echo "the command is '$version', the library '$first'"; exit 1 ;; esac
 page=$(find "$prefix" -name clast.1)
@@ -155,5 +169,12 @@ offered=$(bash -c '. "$1"; COMP_WORDS=(clast agg); COMP_CWORD=1; $(complete -p c
                    echo "${COMPREPLY[*]}"' bash "$(find "$prefix" -path '*bash-completion*' -type f)")
 [ "$offered" = "agglomerate aggregate" ] || [ "$offered" = "aggregate agglomerate" ] ||
     { echo "bash completion of 'clast agg' offers '$offered'"; exit 1; }
+! command -v zsh > /dev/null || zsh -fn "$(find "$prefix" -name _clast)" || { echo "zsh cannot read its completion (above)"; exit 1; }
+loaded=$(ldd "$work/decompose_cloud" | wc -l) drawing=$(ldd "$work/chart" | wc -l)
+if [ "$build" = build/release ]; then
+    make -s uninstall
+    left=$(find "$prefix" ! -type d)
+    [ -z "$left" ] || { echo "make uninstall leaves $left"; exit 1; }
+fi
 echo "installed: command, core and view by pkg-config, CMake and add_subdirectory, shared and static ($first), the examples, manual page," \
-    "completion; decompose_cloud loads $(ldd "$work/decompose_cloud" | wc -l) libraries, a chart $(ldd "$work/chart" | wc -l)"
+    "completion, uninstalled again; decompose_cloud loads $loaded libraries, a chart $drawing"

@@ -8,7 +8,7 @@ db=build/tidy/compile_commands.json
 known() { for file in src/*/*.c cli/*.c; do case $file in src/mpi/*) ;; *) grep -q "/$file\"" $db || return 1 ;; esac; done; }
 [ -f $db ] && [ $db -nt CMakeLists.txt ] && known ||
     cmake -S . -B build/tidy -G Ninja -DCMAKE_C_COMPILER=clang-14 -DCMAKE_C_COMPILER_LAUNCHER= \
-        -DCLAST_ALLOC_INJECT=ON -DBUILD_TESTING=OFF -DCLAST_BENCH=OFF >/dev/null
+        -DCMAKE_BUILD_TYPE=None -DCLAST_ALLOC_INJECT=ON -DBUILD_TESTING=OFF -DCLAST_BENCH=OFF >/dev/null
 export MARKS="${XDG_CACHE_HOME:-$HOME/.cache}/clast-tidy"
 export TIDY_NODES=${TIDY_NODES:-25000}
 mkdir -p "$MARKS"

@@ -28,7 +28,7 @@ i386=("${dev[@]}" curl)
 wasm=("${dev[@]}" emscripten nodejs curl chromium)
 bare=(git mmdebstrap debian-archive-keyring)
 saturne=("${mpi[@]}" python3 code-saturne code-saturne-include)
-test=("${mpich[@]}" "${wasm[@]}" "${i386[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh code-saturne-include)
+test=("${mpich[@]}" "${wasm[@]}" "${i386[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base zsh locales admesh code-saturne-include)
 groups="build sundials mpi mpich dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group

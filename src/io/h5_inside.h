@@ -2,6 +2,7 @@
 // What h5.c and h5_read.c share.
 #include "io/h5.h"
 
+#define H5_USE_110_API 1 // some functions take other arguments from 1.12 on
 #include <hdf5.h>
 
 struct clx_h5 {

@@ -1,6 +1,7 @@
 """CLI: the frame itself, whatever the subcommand."""
 import json
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -81,6 +82,14 @@ class Frame(Case):
         ask = script + '\nCOMP_WORDS=(clast completion --sh); COMP_CWORD=2; _clast; echo "${COMPREPLY[@]}"'
         done = subprocess.run(["bash"], input=ask, text=True, capture_output=True, check=True)
         self.assertIn("--shell", done.stdout)
+
+    def test_zsh_completion_is_valid(self):
+        """It held a `;;&`, which bash alone has: zsh completed nothing and printed a parse error at each Tab."""
+        script = clast("completion", "--shell", "zsh").out
+        self.assertNotIn(";;&", script)
+        if shutil.which("zsh"):
+            check = subprocess.run(["zsh", "-fn"], input=script, text=True, capture_output=True, check=False)
+            self.assertEqual((check.returncode, check.stderr), (0, ""))
 
     def test_full_disk_on_stdout_is_an_error(self):
         for words in (["man"], ["--version"], ["--help"], ["mesh", "--help"], ["pack", "--help"], ["pack", "--help-all"], ["completion"]):

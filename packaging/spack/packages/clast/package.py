@@ -23,6 +23,8 @@ class Clast(CMakePackage):
     variant("mpi", default=False, description="libclast_mpi and clast-mpi")
     variant("python", default=False, when="+view", description="import clast")
 
+    requires("platform=linux", msg="clast is for Linux")
+
     depends_on("c", type="build")
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
