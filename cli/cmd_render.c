@@ -159,7 +159,7 @@ static int64_t count_triangles(const clast_assembly *assembly)
 }
 
 static clast_status report(const cli_common *common, const clast_assembly *assembly,
-                           const clast_image *image, double wall)
+                           const char *unit, const clast_image *image, double wall)
 {
     const int64_t n_triangle = count_triangles(assembly);
     if (!common->json) {
@@ -175,7 +175,7 @@ static clast_status report(const cli_common *common, const clast_assembly *assem
     cli_json_count(o, "n_grain", assembly->n_grain);
     cli_json_count(o, "n_triangle", n_triangle);
     cli_json_number(o, "pixel_size", image->pixel_size);
-    cli_json_text(o, "unit", assembly->unit);
+    cli_json_text(o, "unit", unit[0] != '\0' ? unit : assembly->unit);
     cli_json_number(o, "wall_s", wall);
     return cli_print_json(o);
 }
@@ -196,7 +196,8 @@ static clast_status run(const cli_common *common, void *config)
     CLI_TRY(load(common, &assembly));
     CLI_TRY(clast_render_assembly(&assembly, config, &monitor, &image));
     CLI_TRY(clast_image_write_png(&image, common->output));
-    CLI_TRY(report(common, &assembly, &image, cli_clock() - start));
+    CLI_TRY(report(common, &assembly, ((const clast_render_config *)config)->unit, &image,
+                   cli_clock() - start));
 done:
     clast_image_free(&image);
     clast_assembly_free(&assembly);

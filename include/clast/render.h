@@ -76,7 +76,7 @@ typedef struct clast_render_config {
     bool scale_bar;
     char *unit;           ///< unit of the coordinates when the assembly knows none ("" : not known)
     double sun_azimuth;   ///< of the sun, to the right of the viewer [rad]
-    double sun_elevation; ///< above the horizontal [rad]
+    double sun_elevation; ///< of the sun above the line of sight [rad]
     double sun_radius;    ///< half-angle of the sun's disc: softness of shadows [rad]
     double ambient;       ///< share of the light that comes from the sky
     uint64_t seed;

@@ -206,7 +206,7 @@ static void shade_ground(const clx_shader *shader, const look *l, const double s
     const double all = shader->sun_light * cosine + shader->sky_light;
     const double missing = shader->sky_light * blocked + (dark ? shader->sun_light * cosine : 0.0);
     rgba[0] = rgba[1] = rgba[2] = 0.0;
-    rgba[3] = depth * missing / all;
+    rgba[3] = all > 0.0 ? depth * missing / all : 0.0; // no light, no shadow
 }
 
 /// The section of a grain that the cut opens, if the ray enters the kept side inside one.

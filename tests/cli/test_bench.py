@@ -30,6 +30,19 @@ class Bench(Case):
     def test_absent_data_is_named(self):
         self.assert_fails(3, "bench", "FILL", "--data", "nowhere", "--json", says=("nowhere/stl/particle.stl",))
 
+    def test_what_ran_before_a_failure_is_not_lost(self):
+        """Minutes of scenes gave no line of JSON when a later one had no file."""
+        out = clast("bench", "READ_PLY", "FILL", "--data", "nowhere", "--repeats", 1, "--json")
+        self.assertEqual([out.code, *(s["name"] for s in out.json["scenes"])], [3, "READ_PLY"])
+        self.assertIn("--data names SCARLET-1.0's folder", out.err)
+
+    def test_an_installed_clast_runs_what_needs_no_files(self):
+        """Ended at its first scene, SK21, with code 3."""
+        out = clast("bench", "--repeats", 1, "--time-limit", "2s", cwd=self.folder)
+        self.assertEqual((out.code, out.err.count("\n")), (143, 1), out.err)
+        self.assertNotIn("SK21", out.out + out.err)
+        self.assertEqual(clast("bench", "--repeats", 1, "--data", "nowhere").code, 3)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -113,6 +113,20 @@ class Render(Case):
         for more in (("--tint", "#00ff00"), ("--colour", "single", "--tint", "#00ff00"), ("--colour", "size", "--scale", "log", "--no-colour-bar")):
             self.assertEqual(clast(*line, *more, *SMALL).code, 0, more)
 
+    def test_ground_without_light_has_no_shadow(self):
+        """Was black all over: no light was divided by no light."""
+        line = ("render", STL / "Menger2.stl", "--ambient", 0, "--sun-elevation=-60deg", *SMALL)
+        for name, more in (("without", ()), ("with", ("--ground",))):
+            done = clast(*line, *more, "-o", self.folder / f"{name}.png")
+            self.assertEqual((done.code, done.err), (0, ""))
+        self.assertEqual((self.folder / "with.png").read_bytes(), (self.folder / "without.png").read_bytes())
+
+    def test_json_names_the_unit_that_is_given(self):
+        """Said "model" beside a scale bar in micrometres."""
+        made = [clast("render", STL / "Menger2.stl", *more, "-o", self.folder / "a.png", "--json", *SMALL).json for more in ((), ("--unit", "um"))]
+        self.assertEqual([m["unit"] for m in made], ["model", "um"])
+        self.assertEqual(made[0]["pixel_size"], made[1]["pixel_size"])
+
     def packed(self, data):
         at = data.index(b"IDAT")
         return data[at + 4:at + 4 + struct.unpack(">I", data[at - 4:at])[0]]
