@@ -159,12 +159,14 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
         r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells",
         r->estimator == CLAST_ESTIMATOR_PAIRS && is_capped ? ", up to each cell's cap" : "");
     if (!i->estimate.resolved) {
-        (void)printf("pairs do not resolve the cloud: %s",
-                     r->keeps_apart          ? "the points keep apart"
+        (void)printf("pairs do not resolve the cloud%s",
+                     r->keeps_apart          ? ": the points keep apart"
                      : isfinite(i->n_needed) ? ""
-                     : note[0] != '\0'       ? "g(r) is that of no density; "
-                                             : "g rises down to the nearest pairs there are; ");
-        if (!r->keeps_apart) {
+                     : note[0] != '\0'       ? ": g(r) is that of no density"
+                                             : ": g rises down to the nearest pairs there are");
+        // what cells and pairs can resolve together stands above
+        if (!r->keeps_apart && i->n_needed != r->points_needed) {
+            (void)printf("; by pairs alone, ");
             cli_points_needed_print(i->n_needed);
         }
         (void)printf("\n");

@@ -592,7 +592,7 @@ def evolve(
         field: Text | None = None,
         field_columns: Text | None = None,
         wind_shear: Quantity | None = None,
-        eddy_diffusivity: float | None = None,
+        eddy_diffusivity: Quantity | None = None,
         brownian: bool | None = None,
         fall: Literal["form", "sphere", "stokes"] | None = None,
         temperature: Quantity | None = None,
@@ -605,9 +605,9 @@ def evolve(
         dissipation: Quantity | None = None,
         speed_rms: Quantity | None = None,
         efficiency: float | None = None,
-        constant: float | None = None,
-        additive: float | None = None,
-        product: float | None = None,
+        constant: Quantity | None = None,
+        additive: Quantity | None = None,
+        product: Quantity | None = None,
         out_of_range: Literal["error", "extrapolate"] | None = None,
         collision_radius: Literal["gyration", "enclosing", "volume"] | None = None,
         even: Literal["tree", "boxes", "whole"] | None = None,
@@ -664,7 +664,7 @@ def evolve(
         field: file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), added to the wind; beyond the grid those at its edge (no default)
         field_columns: its columns of velocities (default u,v,w)
         wind_shear: change of velocity x with z (1/s; -1e+09 to 1e+09; default 0.0)
-        eddy_diffusivity: turbulent diffusivity, the same everywhere [m^2/s] (0 to 1e+06; default 0.0)
+        eddy_diffusivity: turbulent diffusivity, the same everywhere (m^2/s; 0 to 1e+06; default 0.0)
         brownian: particles diffuse by Brownian motion, as their envelopes' drag says (default True)
         fall: drag: of each body's own form, of the sphere of its envelope, or of that in creeping flow (form, sphere, stokes; default form)
         temperature: of the fluid (K; 0 to 100000; default 288.15)
@@ -677,9 +677,9 @@ def evolve(
         dissipation: turbulent dissipation (m^2/s^3; 0 to 1e+12; default 0.0)
         speed_rms: turbulent velocity, one component (m/s; 0 to 1e+06; default 0.0)
         efficiency: collision efficiency of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
-        constant: K of kernel constant [m^3/s] (at least 0; default 1e-06)
-        additive: b of kernel additive [m^3/s] (at least 0; default 1e-06)
-        product: c of kernel product [m^3/s] (at least 0; default 1e-06)
+        constant: K of kernel constant (m^3/s; at least 0; default 1e-06)
+        additive: b of kernel additive (m^3/s; at least 0; default 1e-06)
+        product: c of kernel product (m^3/s; at least 0; default 1e-06)
         out_of_range: kernels and sticking beyond where they hold (error, extrapolate; default error)
         collision_radius: radius that kernels use: sqrt(5/3) R_g, of the enclosing sphere, of the solid's sphere (gyration, enclosing, volume; default gyration)
         even: where bodies count as uniformly distributed: cells that a test splits, boxes of bins, or the whole domain (tree, boxes, whole; default tree)
@@ -740,7 +740,7 @@ def export(
         table: write this table of the run (.csv or .json) instead of its grains (no default)
         unit: length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it (no default)
         density: of all grains of another program's file that gives none; 0: not known, left out (kg/m^3; 0 to 1e+06; default 0.0)
-        columns: spheres of another program: what its columns are, such as id,x,y,z,d; none: by their names (no default)
+        columns: spheres of another program: what its columns are, all of them, such as id,x,y,z,d (- passes one over); none: by their names (no default)
         diameter: spheres of another program: diameter of all, instead of the file's; 0: the file's (default 0)
     """
     return _runs.export(**given(locals()))
@@ -1144,7 +1144,7 @@ def pack(
         contacts: what differs where two sides touch, later ones over earlier: two of grains, walls, materials, walls' names (floor, lid, sides, ..., of wall); then friction 0.2, rolling_friction, restitution 0.5, poisson, collision_time 100us (law linear), young 5MPa,200GPa (law hertz; one number, or one of either side) (no default)
         start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
         start_unit: length unit of the start, where it does not say (a dump's ITEM: UNITS) (no default)
-        start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
+        start_columns: columns of its spheres in their order, all of them, - to pass one over: id,x,y,z,d (no default)
         start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
         start_frame: snapshot of a LAMMPS dump or .xyz, from 0; negative: from the end (at least -9e+15; default -1)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
@@ -1263,7 +1263,7 @@ def porosity(
         pores: sizes of pores too, from this many quasi-random points of the bed (0 to 1e+08; default 0)
         fields: coarse-grained density, velocity and stress too (fields.vti, .csv), by a Gaussian this wide (its standard deviation, as 3mm), in cells as wide; 0: not (default 0)
         chains: force chains too (chains.vtp, .csv, .svg), of runs that know their forces (default False)
-        columns: spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed over); none: by their names (no default)
+        columns: spheres: what the file's columns are, all of them, such as id,x,y,z,d (x, y, z, r or d; others and - are passed over); none: by their names (no default)
         diameter: spheres: diameter of all, instead of the file's; 0: the file's (default 0)
     """
     return _beds.porosity(**given(locals()))

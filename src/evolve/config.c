@@ -94,7 +94,7 @@ const clast_field clast_evolve_fields[] = {
          "to the wind; beyond the grid those at its edge"),
     TEXT(field_columns, "u,v,w", "its columns of velocities"),
     NUMBER(wind_shear, 0, -1e9, 1e9, "1/s", "change of velocity x with z"),
-    NUMBER(eddy_diffusivity, 0, 0, 1e6, "-", "turbulent diffusivity, the same everywhere [m^2/s]"),
+    NUMBER(eddy_diffusivity, 0, 0, 1e6, "m^2/s", "turbulent diffusivity, the same everywhere"),
     FLAG(brownian, 1, "particles diffuse by Brownian motion, as their envelopes' drag says"),
     CHOICE(fall, 0, "form|sphere|stokes",
            "drag: of each body's own form, of the sphere of its envelope, or of that in creeping "
@@ -119,9 +119,9 @@ const clast_field clast_evolve_fields[] = {
     MEDIUM(speed_rms, medium.speed_rms, 0, 1e6, "m/s", "turbulent velocity, one component"),
     MEDIUM(efficiency, medium.efficiency, 0, 1, "-",
            "collision efficiency of settling; 0: by Stokes number and ratio of radii"),
-    MEDIUM(constant, medium.constant, 1e-6, 1e300, "-", "K of kernel constant [m^3/s]"),
-    MEDIUM(additive, medium.additive, 1e-6, 1e300, "-", "b of kernel additive [m^3/s]"),
-    MEDIUM(product, medium.product, 1e-6, 1e300, "-", "c of kernel product [m^3/s]"),
+    MEDIUM(constant, medium.constant, 1e-6, 1e300, "m^3/s", "K of kernel constant"),
+    MEDIUM(additive, medium.additive, 1e-6, 1e300, "m^3/s", "b of kernel additive"),
+    MEDIUM(product, medium.product, 1e-6, 1e300, "m^3/s", "c of kernel product"),
     {DEEP(CHOICE, out_of_range, out_of_range), 0, 0, 0, "-",
      "kernels and sticking beyond where they hold", "error|extrapolate"},
     CHOICE(

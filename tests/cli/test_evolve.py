@@ -44,6 +44,15 @@ class Evolve(Case):
         self.assert_fails(2, "evolve", "--domain", "box:0,0,0,1cm,1cm,1cm", "--particles", "1000", "--curve", "uniform:0.1mm,0.3mm",
                           "--duration", "0.05s", "--kernel", "settling", "--efficiency", "1", "--fall", "stokes", says=("--fall form or sphere",))
 
+    def test_rates_take_units(self):
+        # "constant: unknown unit 'cm^3/s'", of a number in m^3/s
+        box = ["evolve", "--domain", "box:0,0,0,1mm,1mm,1mm", "--particles", "500", "--curve", "2um", "--duration", "1s", "--gravity", "0",
+               "--floor", "reflect", "--kernel", "constant", "--json", "--quiet"]
+        typed, bare = (clast(*box, "--constant", k, "--eddy-diffusivity", d).json["state_hash"]
+                       for k, d in (("1e-6 cm^3/s", "1e-4 mm^2/s"), ("1e-12", "1e-10")))
+        self.assertEqual(typed, bare)
+        self.assert_fails(2, *box, "--constant", "1e-12 m^2/s", says=("m^3/s",))
+
     def test_books_balance_in_every_row(self):
         run = self.folder / "run"
         out = self.run_ash("-j", 2, "--json", "-o", run).json

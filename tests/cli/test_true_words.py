@@ -167,6 +167,9 @@ class TrueWords(Case):
         path = self.write("sheet.csv", [[rng.random(), rng.random(), rng.gauss(0.5, 0.02)] for _ in range(1000)])
         self.assertEqual(self.decompose(path, CUBE)["points_needed"], None)
         self.assertIn("how many points would do cannot be determined", clast("decompose", path, "--domain", CUBE).out)
+        # --pairs told it a second time, and of other clouds with another number
+        words = clast("decompose", path, "--domain", CUBE, "--pairs").out
+        self.assertEqual((words.count("points would do"), words.count("; by pairs alone, ")), (1, 0))
 
     def test_a_bias_of_rounding_is_not_told(self):
         # one cell of a cylinder was "off by +2.2e-14 %; this is taken off"
