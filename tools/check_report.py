@@ -79,10 +79,10 @@ BEYOND = """(() => { const limit = document.documentElement.clientWidth + 1;
     .map(e => `${e.tagName} "${e.innerText.slice(0, 50)}" ends ${Math.round(e.getBoundingClientRect().right - limit)} px beyond the paper`); })()"""
 # Every number with its unit: of cells that end in one, and of columns whose head has one.
 NUMBERS = r"""(() => { const out = [];
-    const own = (text) => { for (const m of text.matchAll(/(-?[\d,]*\.?\d+(?:e[-+]?\d+)?)\s*(m[²³23]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·^])/g)) out.push([m[1], m[2], text.slice(0, 80)]); };
+    const own = (text) => { for (const m of text.matchAll(/(-?[\d,]*\.?\d+(?:e[-+]?\d+)?)\s*(m[²³23]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·^²³])/g)) out.push([m[1], m[2], text.slice(0, 80)]); };
     for (const e of document.querySelectorAll('td, .figure b')) {
         own(e.innerText);
-        for (const m of e.innerText.matchAll(/[\d.]+\s×\s10\S+\s*(µ|n|f|p|k)?(m[²³]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·^])/g)) out.push(['1e-99', m[2], m[0]]);
+        for (const m of e.innerText.matchAll(/[\d.]+\s×\s10\S+\s*(µ|n|f|p|k)?(m[²³]?|Pa s|s|Pa|kg|N|J|g)(?![\w\/·^²³])/g)) out.push(['1e-99', m[2], m[0]]);
     }
     for (const t of document.querySelectorAll('table')) {
         [...(t.rows[0]?.cells ?? [])].forEach((head, k) => {
