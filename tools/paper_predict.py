@@ -160,7 +160,7 @@ Not the paper's grains (`data/standin63/README.md`), so nothing is judged.
 
 The paper's 63 beds are not public here. These beds have the stand-in's forms, eq. 17's porosity and a normal scatter of
 sqrt(pi/2) 0.00466, so they show the method, not the paper's data. Which features the 0.8 rule removes depends on the forms
-alone; Tables 9 and 10 are not reproduced.
+alone; Tables 9 and 10 are not reproduced here; Table 9 from beds of our own is on [packings](packing.md).
 
 {markdown(fitted(command))}
 """
