@@ -253,11 +253,6 @@ done:
     return status;
 }
 
-static bool has_list(const clx_spheres_wanted *wanted)
-{
-    return wanted->options.columns != NULL && wanted->options.columns[0] != '\0';
-}
-
 clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wanted *wanted,
                                   bool is_lammps, clast_assembly *assembly, char unit[16])
 {
@@ -271,7 +266,7 @@ clast_status clx_packing_of_table(const clast_table *table, const clx_spheres_wa
         return add_ellipsoids(table, assembly);
     }
     CLX_CHECK(
-        !is_lammps || has_list(wanted) || clx_points_are_named(table), CLAST_E_FORMAT,
+        !is_lammps || clx_spheres_has_list(wanted) || clx_points_are_named(table), CLAST_E_FORMAT,
         "of a dump x, y, z or xs, ys, zs are read, which are not there; to take others (xu, yu, "
         "zu: without the period), name all columns in their order with %scolumns "
         "id,type,x,y,z,r",
@@ -308,8 +303,8 @@ clast_status clx_packing_ids(const clast_table *table, const clx_spheres_wanted 
 {
     clast_status status = CLAST_OK;
     const int32_t n = assembly->n_grain;
-    const double *id = is_lammps && !has_list(wanted) ? clast_table_numbers(table, "id")
-                                                      : clx_spheres_ids(table, wanted);
+    const double *id = is_lammps && !clx_spheres_has_list(wanted) ? clast_table_numbers(table, "id")
+                                                                  : clx_spheres_ids(table, wanted);
     int64_t *sorted = NULL;
     bool are_ids = id != NULL && n > 0;
     CLX_TRY(clx_alloc(&sorted, n, sizeof *sorted));

@@ -333,7 +333,7 @@ done:
     return status;
 }
 
-static bool has_list(const clx_spheres_wanted *wanted)
+bool clx_spheres_has_list(const clx_spheres_wanted *wanted)
 {
     return wanted != NULL && wanted->options.columns != NULL && wanted->options.columns[0] != '\0';
 }
@@ -343,7 +343,7 @@ static clast_status find_columns(const clast_table *table, const clx_spheres_wan
                                  columns *c)
 {
     clast_status status = CLAST_OK;
-    if (has_list(wanted)) {
+    if (clx_spheres_has_list(wanted)) {
         CLX_TRY(take_list(table, wanted, c));
     } else {
         find_names(table, c);
@@ -411,14 +411,14 @@ done:
 clast_status clx_spheres_check_list(const clast_table *table, const clx_spheres_wanted *wanted)
 {
     columns c = {.is_diameter = false};
-    return has_list(wanted) ? take_list(table, wanted, &c) : CLAST_OK;
+    return clx_spheres_has_list(wanted) ? take_list(table, wanted, &c) : CLAST_OK;
 }
 
 const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted)
 {
     columns c = {.is_diameter = false};
-    const clast_status status =
-        has_list(wanted) ? take_list(table, wanted, &c) : find_columns(table, wanted, &c);
+    const clast_status status = clx_spheres_has_list(wanted) ? take_list(table, wanted, &c)
+                                                             : find_columns(table, wanted, &c);
     return status == CLAST_OK && c.id != NULL ? c.id->number : NULL;
 }
 

@@ -41,6 +41,9 @@ typedef struct clx_spheres_wanted {
 /// else without names the first that counts the rows.
 const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted);
 
+/// Whether columns are named by place.
+bool clx_spheres_has_list(const clx_spheres_wanted *wanted);
+
 /// Refuses (CLAST_E_CONFIG) a list, where there is one, that does not name x, y, z and each of the
 /// table's columns, '-' for one that is passed over, or gives one another name of these and id than
 /// its own.
