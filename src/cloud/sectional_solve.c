@@ -27,7 +27,7 @@ typedef struct {
     char words[256]; ///< of CVODE's last complaint
 } integrator;
 
-static int slope(realtype t, N_Vector y, N_Vector rate, void *context)
+static int slope(sunrealtype t, N_Vector y, N_Vector rate, void *context)
 {
     const integrator *g = context;
     (void)t;
@@ -36,7 +36,7 @@ static int slope(realtype t, N_Vector y, N_Vector rate, void *context)
 }
 
 // NOLINTNEXTLINE(readability-function-size): CVODE's own signature
-static int jacobian(realtype t, N_Vector y, N_Vector rate, SUNMatrix matrix, void *context,
+static int jacobian(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix, void *context,
                     N_Vector a, N_Vector b, N_Vector c)
 {
     const integrator *g = context;
@@ -49,7 +49,7 @@ static int jacobian(realtype t, N_Vector y, N_Vector rate, SUNMatrix matrix, voi
     return 0;
 }
 
-static int has_left(realtype t, N_Vector y, realtype *root, void *context)
+static int has_left(sunrealtype t, N_Vector y, sunrealtype *root, void *context)
 {
     const integrator *g = context;
     (void)t;
@@ -57,18 +57,48 @@ static int has_left(realtype t, N_Vector y, realtype *root, void *context)
     return 0;
 }
 
-static void keep_words(int code, const char *module, const char *function, char *words,
-                       void *context)
+static void keep_complaint(integrator *g, const char *words)
 {
-    integrator *g = context;
-    (void)code;
-    (void)module;
-    (void)function;
     (void)snprintf(g->words, sizeof g->words, "%s", words);
     for (char *at = strchr(g->words, '\n'); at != NULL; at = strchr(at, '\n')) {
         *at = ' ';
     }
 }
+
+// SUNDIALS 7 has communicators of a type of their own, and its context takes the complaints.
+#if SUNDIALS_VERSION_MAJOR < 7
+#define SUN_COMM_NULL NULL
+static void keep_words(int code, const char *module, const char *function, char *words, void *g)
+{
+    (void)code;
+    (void)module;
+    (void)function;
+    keep_complaint(g, words);
+}
+
+static bool listens(integrator *g)
+{
+    return CVodeSetErrHandlerFn(g->cvode, keep_words, g) == CV_SUCCESS;
+}
+#else
+// NOLINTNEXTLINE(readability-function-size): CVODE's own signature
+static void keep_words(int line, const char *function, const char *file, const char *words,
+                       SUNErrCode code, void *g, SUNContext context)
+{
+    (void)line;
+    (void)function;
+    (void)file;
+    (void)code;
+    (void)context;
+    keep_complaint(g, words);
+}
+
+static bool listens(integrator *g)
+{
+    return SUNContext_ClearErrHandlers(g->context) == SUN_SUCCESS &&
+           SUNContext_PushErrHandler(g->context, keep_words, g) == SUN_SUCCESS;
+}
+#endif
 
 static void integrator_free(integrator *g)
 {
@@ -85,7 +115,8 @@ static clast_status integrator_begin(integrator *g, double *first, double tolera
 {
     clast_status status = CLAST_OK;
     const sunindextype n = g->s->n + CLX_N_BESIDE;
-    CLX_CHECK(SUNContext_Create(NULL, &g->context) == 0, CLAST_E_MEMORY, "CVODE did not begin");
+    CLX_CHECK(SUNContext_Create(SUN_COMM_NULL, &g->context) == 0, CLAST_E_MEMORY,
+              "CVODE did not begin");
     g->y = N_VNew_Serial(n, g->context);
     g->matrix = SUNDenseMatrix(n, n, g->context);
     g->cvode = CVodeCreate(CV_BDF, g->context);
@@ -94,8 +125,7 @@ static clast_status integrator_begin(integrator *g, double *first, double tolera
     memcpy(N_VGetArrayPointer(g->y), first, (size_t)n * sizeof *first);
     g->linear = SUNLinSol_Dense(g->y, g->matrix, g->context);
     CLX_CHECK(g->linear != NULL && CVodeInit(g->cvode, slope, 0.0, g->y) == CV_SUCCESS &&
-                  CVodeSetUserData(g->cvode, g) == CV_SUCCESS &&
-                  CVodeSetErrHandlerFn(g->cvode, keep_words, g) == CV_SUCCESS &&
+                  CVodeSetUserData(g->cvode, g) == CV_SUCCESS && listens(g) &&
                   CVodeSStolerances(g->cvode, tolerance, LEAST_SHARE) == CV_SUCCESS &&
                   CVodeSetLinearSolver(g->cvode, g->linear, g->matrix) == CV_SUCCESS &&
                   CVodeSetJacFn(g->cvode, jacobian) == CV_SUCCESS &&

@@ -39,7 +39,7 @@ class Clast(CMakePackage):
     depends_on("libpng", when="+view")
     depends_on("hdf5~mpi", when="+hdf5")
     depends_on("libtiff@4.5:", when="+tiff")
-    depends_on("sundials@6+cvode", when="+sundials")
+    depends_on("sundials@6:7+cvode", when="+sundials")
     depends_on("mpi", when="+mpi")
     extends("python@3.10:", when="+python")
     depends_on("py-numpy@1.21:", when="+python", type="run")
