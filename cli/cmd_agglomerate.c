@@ -168,7 +168,8 @@ static clast_status load_snapshot(const cli_common *common, const config *c, int
     clast_table later = {0};
     clast_table *table = k == 0 ? &l->first : &later;
     clast_status status = CLAST_OK;
-    CLI_TRY(cli_points_read(common->argument[k], &c->points, table));
+    CLI_TRY(cli_points_read(common, common->argument[k], &c->points, table,
+                            &(clast_packing_report){0}));
     CLI_TRY(clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]));
     l->input.n_snapshot = k + 1;
     CLI_TRY(take_flow(common, c, table, k, l));

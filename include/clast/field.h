@@ -35,8 +35,9 @@ typedef struct clast_f64_list {
 /// had no unit once.
 #define CLAST_BARE_SI "SI"
 
-/// Text of a number whose unit is m^d, d the dimension of the points: it takes m, m^2, m^3 and
-/// their like, and the int32_t behind it in the struct keeps their d, 0 of a bare number.
+/// Text of a number whose unit is m^d or m^d/s, d the dimension of the points: it takes m, m^2, m^3
+/// and their like, by a time or not, and the int32_t behind it in the struct keeps their d, 0 of a
+/// bare number.
 #define CLAST_KEEPS_DIMENSION "m^d"
 
 /// One field; a table of them ends with {0}. The members stand in the order that tables give them

@@ -35,8 +35,11 @@ typedef struct clast_medium {
     double gravity;          ///< g [m/s^2]
     double efficiency;       ///< E of settling [-]; 0: by clast_kernel_collision_efficiency's law
     double constant;         ///< K [m^d/s]
+    int32_t constant_d;      ///< d of the unit that it was given in; 0: of a bare number, any
     double additive;         ///< b [m^d/s]
+    int32_t additive_d;      ///< as constant_d
     double product;          ///< c [m^d/s]
+    int32_t product_d;       ///< as constant_d
     int32_t settling_law;    ///< clast_settling_law
 } clast_medium;
 

@@ -23,8 +23,8 @@ CLAST_API void clast_mpi_end(clast_comm *comm);
 /// Fills `comm` for the ranks of a communicator of the caller's, given as MPI_Comm_c2f(...) gives
 /// it. Messages go over a copy, so they never meet the caller's own. Called by all its ranks.
 ///
-/// @return CLAST_E_USAGE when MPI does not run yet or no longer, CLAST_E_MEMORY, CLAST_E_CONFIG as
-/// clast_mpi_begin; `comm` is then untouched
+/// @return CLAST_E_USAGE when MPI does not run yet or no longer, CLAST_E_ARGUMENT for
+/// MPI_COMM_NULL, CLAST_E_MEMORY, CLAST_E_CONFIG as clast_mpi_begin; `comm` is then untouched
 CLAST_API clast_status clast_mpi_create(int32_t communicator, clast_comm *comm);
 
 /// Releases it on all ranks, before MPI_Finalize; {0} and NULL are allowed.

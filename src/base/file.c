@@ -435,6 +435,10 @@ static clast_status make_one(const char *path)
                    ? CLAST_OK
                    : clx_fail(CLAST_E_DISK, "cannot make folder %s: a file has that name", path);
     }
+    if (error == EEXIST) {
+        return clx_fail(CLAST_E_DISK, "cannot make folder %s: it is a link to what is not there",
+                        path);
+    }
     return clx_fail(CLAST_E_DISK, "cannot make folder %s: %s", path, clx_error_text(error));
 }
 

@@ -5,7 +5,7 @@
 // cores from threads that have joined, so that callers wait for them, the team rests for a while.
 #if CLAST_HAVE_THREADS
 // NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
-#define _GNU_SOURCE // sched_getaffinity
+#define _GNU_SOURCE 1 // sched_getaffinity; as HDF5 2 defines it
 #endif
 #include "base/parallel.h"
 
@@ -23,6 +23,7 @@ static void work_alone(int64_t n, int64_t block, clx_kernel kernel, void *contex
 }
 
 #if CLAST_HAVE_THREADS
+#include <fenv.h>
 #include <math.h>
 #include <pthread.h>
 #include <sched.h>
@@ -199,6 +200,7 @@ static void work_along(int32_t worker)
 static void *be_worker(void *number_of_worker)
 {
     const int32_t worker = *(const int32_t *)number_of_worker;
+    (void)fesetenv(FE_DFL_ENV); // not that of the caller who came first
     if (n_cores > 0) {
         (void)pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
     }

@@ -1,6 +1,7 @@
 #pragma once
 // How library code fails: one `status`, one `done:`, a message for the person at the terminal.
 #include <clast/status.h>
+#include <fenv.h>
 
 // The library is built as two: libclast, the core, and libclast_view (src/plot, render, report and
 // study), which needs cairo. libclast_mpi stands on the core as the view does.
@@ -62,6 +63,29 @@ CLX_SHARED const char *clx_unit_text(double value, const char *si_unit);
 
 /// The same of an array of n items, n >= 0: NULL where n is 0 only.
 #define CLX_ARRAY(array, n) CLX_GUARD(clx_array_given(__func__, #array, array, #n, (int64_t)(n)))
+
+// The floating-point environment of a call. A flow solver may trap (OpenFOAM does by default,
+// gfortran with -ffpe-trap), flush denormals to zero or round otherwise; here NAN is compared and
+// divided by zero on purpose, and no bit shall depend on the caller's environment.
+
+static inline fenv_t clx_float_environment_set(void)
+{
+    fenv_t of_caller;
+    (void)fegetenv(&of_caller);
+    (void)fesetenv(FE_DFL_ENV);
+    return of_caller;
+}
+
+static inline void clx_float_environment_restore(const fenv_t *of_caller)
+{
+    (void)fesetenv(of_caller);
+}
+
+/// To the end of the function the default one of C (no traps, to nearest, with denormals); then the
+/// caller's, with its flags, again. Below 1 us: for functions that compute longer.
+#define CLX_FLOAT_ENVIRONMENT                                                                      \
+    __attribute__((cleanup(clx_float_environment_restore))) const fenv_t clx_of_caller =           \
+        clx_float_environment_set()
 
 /// None of n pointers is NULL; `names` are theirs as one text, with commas.
 CLX_SHARED clast_status clx_given(const char *function, const char *names,

@@ -84,6 +84,7 @@ static const unit units[] = {
     {"W/kg", "m^2/s^3", 1.0},
     {"m^3/s", "m^3/s", 1.0},
     {"cm^3/s", "m^3/s", 1e-6},
+    {"mm^3/s", "m^3/s", 1e-9},
     {"1/s", "1/s", 1.0},
     {"1/min", "1/s", 1.0 / 60.0},
     {"1/h", "1/s", 1.0 / 3600.0},
@@ -123,16 +124,22 @@ enum { N_UNIT = sizeof units / sizeof units[0] };
 
 enum { KNOWN_SIZE = 256 };
 
-/// The d of "m", "m^2" and "m^3", else 0.
+/// The d of "m", "m^2" and "m^3", and of these by a time, else 0.
 static int32_t power_of(const char *si)
 {
-    return strcmp(si, "m") == 0 ? 1 : strcmp(si, "m^2") == 0 ? 2 : strcmp(si, "m^3") == 0 ? 3 : 0;
+    static const char *const power[3][2] = {{"m", "m/s"}, {"m^2", "m^2/s"}, {"m^3", "m^3/s"}};
+    int32_t d = 3;
+    while (d > 0 && strcmp(si, power[d - 1][0]) != 0 && strcmp(si, power[d - 1][1]) != 0) {
+        --d;
+    }
+    return d;
 }
 
-/// Whether a unit is one of this dimension; m^d is that of points.
+/// Whether a unit is one of this dimension; m^d and m^d/s are those of points.
 static bool is_of(const unit *u, const char *si)
 {
-    return strcmp(u->si, si) == 0 || (strcmp(si, "m^d") == 0 && power_of(u->si) > 0);
+    return strcmp(u->si, si) == 0 || (strncmp(si, "m^d", 3) == 0 && power_of(u->si) > 0 &&
+                                      (si[3] == '/') == (strchr(u->si, '/') != NULL));
 }
 
 /// Units of a dimension, "m, cm, mm".

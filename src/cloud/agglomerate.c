@@ -68,11 +68,12 @@ const clast_field clast_agglomerate_fields[] = {
     {DEEP(CLAST_FIELD_F64, fractal_dimension, fractal_dimension), 1.8, 1.0, 3.0, "-", "D_f"},
     {DEEP(CLAST_FIELD_F64, fractal_prefactor, fractal_prefactor), 1.0, 1e-3, 1e3, "-", "k_f"},
     {DEEP(CLAST_FIELD_F64, constant, medium.constant), 1e-6, 0.0, 1e300, "m^d/s",
-     "K of kernel constant [m^d/s]", .common = true, .group = "kernels and fluid"},
+     "K of kernel constant [m^d/s]", CLAST_KEEPS_DIMENSION, .common = true,
+     .group = "kernels and fluid"},
     {DEEP(CLAST_FIELD_F64, additive, medium.additive), 1e-6, 0.0, 1e300, "m^d/s",
-     "b of kernel additive [m^d/s]"},
+     "b of kernel additive [m^d/s]", CLAST_KEEPS_DIMENSION},
     {DEEP(CLAST_FIELD_F64, product, medium.product), 1e-6, 0.0, 1e300, "m^d/s",
-     "c of kernel product [m^d/s]"},
+     "c of kernel product [m^d/s]", CLAST_KEEPS_DIMENSION},
     {DEEP(CLAST_FIELD_F64, temperature, medium.temperature), 293.15, 0.0, 1e5, "K", "of the fluid"},
     {DEEP(CLAST_FIELD_F64, viscosity, medium.viscosity), 1.002e-3, 0.0, 1e6, "Pa s",
      "dynamic viscosity of the fluid"},
@@ -385,6 +386,7 @@ static bool has_column(const clx_evolution *run, int column)
 static double value_of(const clx_evolution *run, int column, int64_t i)
 {
     const clast_population *p = &run->population;
+    const clast_collide_config *c = &run->collide;
     CLAST_ASSERT(i >= 0 && i < p->n);
     switch (column) {
     case PARTICLE:
@@ -393,8 +395,10 @@ static double value_of(const clx_evolution *run, int column, int64_t i)
         return (double)p->monomers[i];
     case RADIUS:
         return p->radius[i];
-    case DIAMETER:
-        return 2.0 * p->radius[i];
+    case DIAMETER: // of equal volume: a fractal law's radius is that of its collisions
+        return 2.0 * (c->radius_law == CLAST_RADIUS_VOLUME
+                          ? p->radius[i]
+                          : c->monomer_radius * cbrt((double)p->monomers[i]));
     case MASS:
         return p->mass[i];
     case CELL:
@@ -583,6 +587,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                clast_agglomeration *result)
 {
     CLX_ARGUMENTS(input, config, result);
+    CLX_FLOAT_ENVIRONMENT;
     CLX_ARRAY(input->snapshot, input->n_snapshot);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {.n_snapshot = (int32_t)input->n_snapshot,

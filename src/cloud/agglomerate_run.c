@@ -94,6 +94,7 @@ static clast_status check_needs(const clx_evolution *r)
     const clast_cloud *cloud = &r->input->snapshot[0];
     const uint32_t needs = clx_collide_needs(c);
     const bool is_fractal = c->radius_law != CLAST_RADIUS_VOLUME;
+    CLX_TRY(clx_medium_check_dimension(&c->medium, r->config->depth > 0.0 ? 3 : cloud->dimension));
     CLX_CHECK(!(is_fractal && cloud->radius != NULL), CLAST_E_CONFIG,
               "fractal radii follow from the numbers of monomers: leave the radius column out");
     CLX_CHECK((needs & CLAST_NEEDS_RADIUS) == 0 || cloud->radius != NULL || c->monomer_radius > 0.0,

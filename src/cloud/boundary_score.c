@@ -349,6 +349,7 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
                                        clast_boundary_score *result)
 {
     CLX_ARGUMENTS(u, side, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     clast_boundary_score made = {0};
     clx_depths depths = {{0}, 0.0};

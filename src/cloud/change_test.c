@@ -54,6 +54,7 @@ clast_status clast_agglomeration_change_test(const double *u_old, const double *
                                              int32_t d, double *p)
 {
     CLX_ARGUMENTS(u_old, u_new, p);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     CLX_TRY(clx_cube_check(u_old, n, d, 0, "a test of change"));
     CLX_TRY(clx_cube_check(u_new, n, d, 0, "a test of change"));

@@ -362,6 +362,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
                            int64_t *n_event)
 {
     CLX_ARGUMENTS(population, cells, config);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     step_context s = {
         .population = population, .cells = cells, .config = config, .dt = dt, .step = step};

@@ -252,6 +252,7 @@ clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n, const do
                                  double *share, double *error)
 {
     CLX_ARGUMENTS(domain, radius, share);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     double *made = NULL; // [2][n] shares, errors
     CLX_TRY(clx_domain_check(domain));

@@ -626,6 +626,7 @@ clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *d
                                    clast_decomposition *result)
 {
     CLX_ARGUMENTS(domain, cloud, config, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     const clast_comm *all = clx_comm_or_one(comm);
     clast_decomposition made = {0};
@@ -652,6 +653,7 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
     CLX_ARGUMENTS(domain, cloud, config, result);
+    CLX_FLOAT_ENVIRONMENT;
     return clast_decompose_ranks(NULL, domain, cloud, config, result);
 }
 

@@ -123,6 +123,7 @@ clast_status clast_decompose_sizes(const clast_comm *comm, const clast_domain *d
                                    const clast_cloud *cloud, const clast_decompose_parts *sizes,
                                    const clast_decompose_config *config, clast_table *table)
 {
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     const clast_comm *ranks = clx_comm_or_one(comm);
     clx_shuffled all = {0};

@@ -135,6 +135,7 @@ clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d, clast
                                     clast_discrepancy *result)
 {
     CLX_ARGUMENTS(u, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     CLX_TRY(clx_cube_check(u, n, d, 2, "a discrepancy"));
     CLX_CHECK((unsigned)method <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",

@@ -69,6 +69,7 @@ done:
 
 clast_status clast_domain_of_map(const clast_domain_map_functions *functions, clast_domain *domain)
 {
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     CLX_NEED(functions);
     CLX_NEED(domain);
@@ -144,6 +145,7 @@ static void free_surface(clast_domain_surface *surface)
 
 clast_status clast_domain_of_mesh(const clast_mesh *mesh, double scale, clast_domain *domain)
 {
+    CLX_FLOAT_ENVIRONMENT;
     CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_domain made = {.kind = CLAST_DOMAIN_MESH, .dimension = 3};

@@ -234,6 +234,7 @@ clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, cla
                                       clast_henze_zirkler *result)
 {
     CLX_ARGUMENTS(u, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     CLX_TRY(clx_cube_check(u, n, d, 2, "a Henze-Zirkler test"));
     CLX_CHECK((unsigned)sums <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "cloud/settling_pair.h"
 #include "cloud/turbulent_kernel.h"
+#include <assert.h>
 #include <math.h>
 
 static const double MOST_OUTSIDE = 1e-3;   ///< share that is let pass
@@ -499,4 +500,27 @@ double clx_sticking_of(const clast_collide_config *c, const clast_medium *medium
 {
     const clast_impact hit = impact_of(c, medium, a, b);
     return clast_sticking_share(&c->sticking, &hit);
+}
+
+clast_status clx_medium_check_dimension(const clast_medium *medium, int32_t d)
+{
+    static_assert(
+        offsetof(clast_medium, constant_d) == offsetof(clast_medium, constant) + sizeof(double) &&
+            offsetof(clast_medium, additive_d) ==
+                offsetof(clast_medium, additive) + sizeof(double) &&
+            offsetof(clast_medium, product_d) == offsetof(clast_medium, product) + sizeof(double),
+        "CLAST_KEEPS_DIMENSION");
+    const struct {
+        const char *name;
+        int32_t d;
+    } given[] = {{"constant", medium->constant_d},
+                 {"additive", medium->additive_d},
+                 {"product", medium->product_d}};
+    for (size_t k = 0; k < sizeof given / sizeof given[0]; ++k) {
+        if (given[k].d != 0 && given[k].d != d) {
+            return clx_fail(CLAST_E_CONFIG, "%s: is in m^%d/s, in %d dimensions it is in m^%d/s",
+                            given[k].name, given[k].d, d, d);
+        }
+    }
+    return CLAST_OK;
 }

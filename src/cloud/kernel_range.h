@@ -35,3 +35,6 @@ double clx_sticking_of(const clast_collide_config *config, const clast_medium *m
 /// @param of  what was seen, "of the particles at the start"
 /// @return CLAST_E_CONFIG with the share and clast_range_use_words
 clast_status clx_range_check(const clast_range_use *use, const char *of);
+
+/// Whether rates of model kernels are bare or in m^d/s of this d: CLAST_E_CONFIG else.
+clast_status clx_medium_check_dimension(const clast_medium *medium, int32_t d);

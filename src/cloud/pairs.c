@@ -513,6 +513,7 @@ clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cl
                                const clast_pairs_config *config, clast_pairs *pairs)
 {
     CLX_ARGUMENTS(domain, cloud, config, pairs);
+    CLX_FLOAT_ENVIRONMENT;
     return clx_pairs_count(clast_comm_one(), domain, cloud, config, NULL, pairs);
 }
 

@@ -380,6 +380,7 @@ clast_status clast_spacing_ranks(const clast_comm *comm, const double *u, int64_
                                  clast_spacing *result)
 {
     CLX_ARGUMENTS(u, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     const clast_comm *all = clx_comm_or_one(comm);
     CLX_CHECK(clx_comm_has_sums(all), CLAST_E_ARGUMENT, "comm has no sum or no exchange");

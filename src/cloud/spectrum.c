@@ -62,6 +62,7 @@ static clast_status check_kernel(const clast_spectrum_config *config, const clas
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clast_kernel_check(c->kernel, &c->medium));
+    CLX_TRY(clx_medium_check_dimension(&c->medium, 3));
     const uint32_t needs =
         clx_collide_needs(c) |
         (config->settling_depth > 0.0 ? CLAST_NEEDS_MASS | CLAST_NEEDS_RADIUS : 0);
@@ -431,6 +432,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
                                    const clast_monitor *monitor, clast_spectrum *result)
 {
     CLX_ARGUMENTS(config, collide, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     clx_start start = {0};
     clx_sectional grid = {0};

@@ -232,6 +232,7 @@ clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const 
                                    const clast_uniformity_config *config, clast_uniformity *result)
 {
     CLX_ARGUMENTS(u, side, config, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     CLX_TRY(check_config(config));
     CLX_TRY(clx_cube_check(u, n, d, 0, "a test of uniformity"));

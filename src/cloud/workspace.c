@@ -391,6 +391,7 @@ clast_status clast_workspace_decompose_in(clast_workspace *workspace, const clas
                                           const clast_decomposition **result)
 {
     CLX_ARGUMENTS(workspace, domain, points, config, result);
+    CLX_FLOAT_ENVIRONMENT;
     clast_status status = CLAST_OK;
     call c = {
         .workspace = workspace, .config = config, .moved = (double)NAN, .p_change = (double)NAN};
@@ -521,6 +522,7 @@ clast_status clast_workspace_events(const clast_workspace *workspace, int64_t st
                                     double *events)
 {
     CLX_ARGUMENTS(workspace, events);
+    CLX_FLOAT_ENVIRONMENT;
     const clast_status status = check_output(workspace, events, stride);
     for (int64_t i = 0; status == CLAST_OK && i < workspace->n_point; ++i) {
         const clast_cells *cells = &workspace->last.cells;
@@ -535,6 +537,7 @@ clast_status clast_workspace_collide(clast_workspace *workspace, clast_populatio
                                      const clast_collide_config *config, int64_t *n_event)
 {
     CLX_ARGUMENTS(workspace, particles, cells, config);
+    CLX_FLOAT_ENVIRONMENT;
     clx_pool *const before = clx_pool_enter(workspace->pool);
     const clast_status status =
         clast_collide(particles, cells, step.dt, step.step, config, n_event);

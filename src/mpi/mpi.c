@@ -294,6 +294,10 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
         return clx_fail(CLAST_E_USAGE, "MPI does not run: it begins with MPI_Init or "
                                        "clast_mpi_begin and ends with MPI_Finalize");
     }
+    if (MPI_Comm_f2c(communicator) == MPI_COMM_NULL) {
+        return clx_fail(CLAST_E_ARGUMENT, "the communicator is MPI_COMM_NULL: a rank that "
+                                          "MPI_Comm_split has left out does not take part");
+    }
     if (method == NULL) {
         return clx_fail(CLAST_E_CONFIG, "CLAST_PARTITION '%s': rcb, hsfc (with Zoltan) or own",
                         getenv("CLAST_PARTITION")); // NOLINT(concurrency-mt-unsafe)

@@ -169,6 +169,44 @@ class Agglomerate(Case):
         mass = 2650 * 4 / 3 * math.pi * 0.1**3
         self.assertAlmostEqual(momentum / mass, sum(row["n"] * row["u"] for row in rows_of(self.folder / "p.csv")), places=9)
 
+    def test_model_rates_have_units(self):
+        """constant: 1e6 mm^3/s of a file for evolve was an unknown unit here."""
+        command = ("agglomerate", UNIFORM, "--domain", CUBE, "--json")
+        for kernel, value in (("constant", 0.02), ("additive", 0.01), ("product", 0.003)):
+            ask = (*command, "--kernel", kernel, f"--{kernel}")
+            bare = clast(*ask, value)
+            for text in (f"{value}m^3/s", f"{1e6 * value} cm^3/s"):
+                r = clast(*ask, text)
+                self.assertEqual(r.code, 0, r.err)
+                self.assertEqual(r.json["n_particle"], bare.json["n_particle"])
+            self.assertEqual(clast(*ask, f"{value}m^2/s").err,
+                             f"clast agglomerate: {kernel}: is in m^2/s, in 3 dimensions it is in m^3/s\n")
+            self.assert_fails(2, *ask, f"{value}m^3", says=[f"{kernel}: unknown unit 'm^3'", "m^3/s"])
+        flat = ("agglomerate", ROOT / "data/d2sd/points_s2_n500.csv", "--domain", "box:0,0,1,1", "--constant")
+        self.assertEqual(clast(*flat, "1e-4m^2/s").code, 0)
+        self.assertEqual(clast(*flat, "1e-4m^3/s", "--depth", "1m").code, 0)
+        self.assert_fails(2, *flat, "1e-4m^2/s", "--depth", "1m", says=["in m^2/s, in 3 dimensions"])
+        box = ("agglomerate", "--box-model", "--concentration", "1e12/m^3", "--n-step", 2, "--constant")
+        self.assertEqual(clast(*box, "1e-6cm^3/s").out, clast(*box, "1e-12").out)
+        self.assert_fails(2, *box, "1e-6cm^2/s", says=["in m^2/s, in 3 dimensions"])
+
+    def test_the_diameter_of_a_fractal_is_that_of_its_solid(self):
+        """It was that of the collisions: evolve, which takes diameters of equal volume, read 13 times the mass."""
+        for law in ("fractal-collision", "fractal-gyration"):
+            run, on = self.folder / law, self.folder / f"{law}-on"
+            r = clast("agglomerate", UNIFORM, "--domain", CUBE, "--constant", "0.5", "--radius-law", law, "--monomer-radius", "1um",
+                      "--particle-density", "2000kg/m^3", "-o", run)
+            self.assertEqual(r.code, 0, r.err)
+            table = rows_of(run / "particles.csv")
+            self.assertGreater(max(row["radius_m"] / row["diameter_m"] for row in table), 1)
+            for row in table:
+                self.assertAlmostEqual(row["mass_kg"], 2000 * math.pi / 6 * row["diameter_m"] ** 3, delta=1e-12 * row["mass_kg"])
+            r = clast("evolve", "--points", run / "particles.csv", "--diameter-column", "diameter_m", "--density", "2000kg/m^3", "--domain", CUBE,
+                      "--kernel", "constant", "--constant", 0, "--duration", "1ms", "--rows", 1, "-o", on)
+            self.assertEqual((r.code, r.err), (0, ""))
+            mass = sum(row["mass_kg"] for row in table)
+            self.assertAlmostEqual(float((on / "balance.csv").read_text().splitlines()[1].split(",")[6]), mass, delta=1e-9 * mass)
+
     def test_parcels_that_come_apart_have_no_members_and_no_exact_numbers(self):
         """members.csv gave each parcel itself alone; the process of 800 particles was called exact for 8 parcels of 100."""
         rng, kernel = random.Random(1), ("--domain", CUBE, "--constant", 0.02, "--json", "--weight-column", "w")

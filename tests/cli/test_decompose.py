@@ -472,7 +472,7 @@ class Pairs(Case):
         for text in ("10mm", "0.01"):
             r = clast("agglomerate", square, "--domain", "box:0,0,1,1", "--kernel", "brownian", "--monomer-radius", "1um", "--depth", text)
             self.assertEqual((r.code, r.err), (0, ""))
-        self.assert_fails(2, "agglomerate", square, "--domain", "box:0,0,1,1", "--constant", "1mm3/s", says=["a bare number in m^d/s"])
+        self.assert_fails(2, "agglomerate", square, "--domain", "box:0,0,1,1", "--constant", "1mm3/s", says=["in 2 dimensions it is in m^2/s"])
         for text in ("1e12", "1e12/m^3", "1e6 1/cm^3"):
             r = clast("agglomerate", "--box-model", "--concentration", text, "--constant", "1e-12")
             self.assertEqual((r.code, r.err), (0, ""))

@@ -50,7 +50,9 @@ static int one_that_has_begun_is_whole(clast_comm *comm)
     CHECK(fails(clast_mpi_begin(&other), CLAST_E_USAGE, "MPI runs already"));
     (void)setenv("CLAST_PARTITION", "metis", 1); // NOLINT(concurrency-mt-unsafe)
     CHECK(fails(clast_mpi_create(world, &other), CLAST_E_CONFIG, "CLAST_PARTITION 'metis'"));
-    (void)unsetenv("CLAST_PARTITION"); // NOLINT(concurrency-mt-unsafe)
+    (void)unsetenv("CLAST_PARTITION");                         // NOLINT(concurrency-mt-unsafe)
+    const int32_t null = (int32_t)MPI_Comm_c2f(MPI_COMM_NULL); // ended all ranks
+    CHECK(fails(clast_mpi_create(null, &other), CLAST_E_ARGUMENT, "MPI_COMM_NULL"));
     CHECK(clast_mpi_create(world, &other) == CLAST_OK);
     clast_mpi_end(&other); // has not begun MPI, so it goes on
     (void)MPI_Finalized(&found);

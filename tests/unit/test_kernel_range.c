@@ -272,10 +272,12 @@ static shown show(const clast_collide_config *c, double a, double b)
 /* Whether another value of a key shows in some pair of 10 nm to 1 mm, in air or water. */
 static bool shows(clast_agglomerate_config *c, const clast_field *field)
 {
-    static const clast_medium fluid[3] = {
-        {293.0, 1.8e-5, 1.2, 2500.0, 0.0, 1.0, 1e-2, 0.0, 0.1, 9.81, 0.0, 1.0, 1.0, 1.0, 0},
-        {293.0, 1e-3, 1000.0, 2500.0, 0.0, 1e3, 1e-2, 1.3, 0.01, 9.81, 0.5, 1.0, 1.0, 1.0, 0},
-        {293.0, 1.8e-5, 1.2, 2500.0, 6e-8, 1e5, 1.0, 0.0, 1.0, 9.81, 0.0, 1.0, 1.0, 1.0, 1}};
+    static const clast_medium fluid[3] = {{293.0, 1.8e-5, 1.2, 2500.0, 0.0, 1.0, 1e-2, 0.0, 0.1,
+                                           9.81, 0.0, 1.0, 0, 1.0, 0, 1.0, 0, 0},
+                                          {293.0, 1e-3, 1000.0, 2500.0, 0.0, 1e3, 1e-2, 1.3, 0.01,
+                                           9.81, 0.5, 1.0, 0, 1.0, 0, 1.0, 0, 0},
+                                          {293.0, 1.8e-5, 1.2, 2500.0, 6e-8, 1e5, 1.0, 0.0, 1.0,
+                                           9.81, 0.0, 1.0, 0, 1.0, 0, 1.0, 0, 1}};
     bool is_seen = false;
     for (int f = 0; f < 3; ++f) {
         for (double a = 1e-8; a < 2e-3; a *= 3.0) {
