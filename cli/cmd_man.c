@@ -99,7 +99,8 @@ static clast_status run(const cli_common *common, void *values)
         ".PP\nA length or an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers "
         "are SI.\n"
         ".SH EXIT STATUS\n0 done; 1 a check answered no; 2 usage; 3 bad input; 4 not enough memory "
-        "or disk; 5 did not converge; 130 or 143 stopped with a checkpoint.\n");
+        "or disk; 5 did not converge; 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM (and "
+        "--time-limit), with a checkpoint where it has one.\n");
     return CLAST_OK;
 }
 

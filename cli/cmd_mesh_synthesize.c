@@ -304,5 +304,6 @@ const cli_command cli_mesh_synthesize = {
     .n_min = 0,
     .n_max = 0,
     .needs_file = true,
+    .writes_either = true,
     .run = run,
 };

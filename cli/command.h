@@ -28,6 +28,7 @@ typedef struct cli_command {
     size_t config_size;        ///< bytes of the configuration struct
     int32_t n_min, n_max;      ///< positional arguments allowed
     bool writes_folder;        ///< -o names a run folder
+    bool writes_either;        ///< -o names a file, or a folder of several
     bool shares_ranks;         ///< several ranks may run it together
     bool writes_no_file;       ///< all it has goes to stdout: -o is refused
     bool needs_file;           ///< -o names the file that it writes

@@ -312,5 +312,7 @@ void cli_help_all(const cli_command *command)
     }
     (void)printf("\nexit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough "
                  "memory or\n"
-                 "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
+                 "            disk, 5 did not converge, 129/130/143 stopped by\n"
+                 "            SIGHUP/SIGINT/SIGTERM (and --time-limit), with a checkpoint where it "
+                 "has one\n");
 }

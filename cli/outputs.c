@@ -1,9 +1,11 @@
 // Outputs are no inputs, no files of runs and no two of them one.
 #include "command.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { MOST_OUTPUTS = 16 };
 
@@ -90,6 +92,31 @@ static clast_status check_each(const outputs *o)
     return CLAST_OK;
 }
 
+/// Before the work: a file can be written there. What a link names is left to the writer.
+static clast_status check_writable(const char *path)
+{
+    struct stat about;
+    char folder[CLAST_RUN_PATH];
+    const char *slash = strrchr(path, '/');
+    const int n = slash == NULL ? 1 : (int)(slash - path) + 1;
+    if (lstat(path, &about) == 0 && !S_ISREG(about.st_mode)) {
+        return S_ISDIR(about.st_mode)
+                   ? cli_fail(CLAST_E_DISK, "cannot write %s: it is a folder", path)
+                   : CLAST_OK;
+    }
+    if (snprintf(folder, sizeof folder, "%.*s", n, slash != NULL ? path : ".") >=
+        (int)sizeof folder) {
+        return cli_fail(CLAST_E_DISK, "cannot write %.60s...: the path is too long", path);
+    }
+    if (stat(folder, &about) != 0) { // of a file with '/' behind it too
+        return cli_fail(CLAST_E_DISK, "cannot write %s: there is no folder %s", path, folder);
+    }
+    return access(folder, W_OK | X_OK) == 0
+               ? CLAST_OK
+               : cli_fail(CLAST_E_DISK, "cannot write %s: the folder %s cannot be written into",
+                          path, folder);
+}
+
 clast_status cli_check_ending(const char *path, const char *what, const char *ending)
 {
     const char *slash = strrchr(path, '/');
@@ -116,5 +143,6 @@ clast_status cli_check_outputs(const cli_command *command, const cli_common *com
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL && o.n > 0; ++f) {
         CLI_GUARD(check_field(&o, f, config));
     }
-    return CLAST_OK;
+    const bool is_file = !command->writes_folder && !command->writes_either;
+    return common->output != NULL && is_file ? check_writable(common->output) : CLAST_OK;
 }

@@ -47,7 +47,8 @@ CLAST_API clast_status clast_fields_json(const clast_field *fields, const void *
 /// Frees a text that the library made; NULL is allowed.
 CLAST_API void clast_text_free(char *text);
 
-/// SHA-256 of a file in 64 lower-case hexadecimal digits. CLAST_E_IO if it cannot be read.
+/// SHA-256 of a file in 64 lower-case hexadecimal digits, or "" and 0 bytes for a pipe or a device,
+/// which is read only once. CLAST_E_IO if it cannot be read.
 CLAST_API clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte);
 
 /// Refuses ranks that read different things, as from copies on their own disks: options, or files

@@ -32,6 +32,9 @@ static clast_status set_scalar(const reader *r, const clast_field *f, const yaml
         return fail_at(r, value, f->name, ": expected a plain value");
     }
     const char *text = (const char *)value->data.scalar.value;
+    if (strlen(text) != value->data.scalar.length) { // "4mm\0x" would be read as 4mm
+        return fail_at(r, value, f->name, ": a NUL (\\0) ends no value; leave it out");
+    }
     const clast_status status = r->is_si ? clast_field_set_si(f, r->config, text, append)
                                          : clast_field_set(f, r->config, text, append);
     if (status != CLAST_OK) {
@@ -58,10 +61,10 @@ static clast_status set_sequence(const reader *r, yaml_document_t *document, con
 static clast_status set_key(const reader *r, yaml_document_t *document, const yaml_node_t *key,
                             const yaml_node_t *value)
 {
-    if (key->type != YAML_SCALAR_NODE) {
+    const char *name = (const char *)key->data.scalar.value;
+    if (key->type != YAML_SCALAR_NODE || strlen(name) != key->data.scalar.length) { // a NUL in it
         return fail_at(r, key, "a key must be a plain word", "");
     }
-    const char *name = (const char *)key->data.scalar.value;
     const clast_field *f = clast_fields_find(r->fields, name);
     if (f == NULL && r->is_part) {
         return CLAST_OK;

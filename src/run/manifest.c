@@ -131,8 +131,17 @@ clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte)
     enum { BLOCK = 1 << 16 };
     clast_status status = CLAST_OK;
     char *block = NULL;
+    FILE *file = NULL;
+    struct stat found;
     clx_sha256 sha = clx_sha256_begin();
-    FILE *file = fopen(path, "rb");
+    if (stat(path, &found) == 0 && (S_ISFIFO(found.st_mode) || S_ISCHR(found.st_mode))) {
+        hex[0] = '\0'; // was read to its end: a second reader would wait for ever, or see nothing
+        if (n_byte != NULL) {
+            *n_byte = 0;
+        }
+        goto done;
+    }
+    file = fopen(path, "rb");
     CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_TRY(clx_alloc(&block, BLOCK, 1));
     for (size_t n = fread(block, 1, BLOCK, file); n > 0; n = fread(block, 1, BLOCK, file)) {
@@ -156,10 +165,7 @@ clast_status clast_manifest_input(clast_manifest *manifest, const char *role, co
     CLX_ARGUMENTS(manifest, role, path);
     clast_status status = CLAST_OK;
     input_file made = {0};
-    struct stat found;
-    if (stat(path, &found) != 0 || !S_ISFIFO(found.st_mode)) { // a pipe was read to its end
-        CLX_TRY(clast_sha256_file(path, made.sha256, &made.n_byte));
-    }
+    CLX_TRY(clast_sha256_file(path, made.sha256, &made.n_byte));
     CLX_TRY(clx_alloc_text(&made.role, role));
     CLX_TRY(clx_alloc_text(&made.path, path));
     CLX_TRY(clx_realloc(&manifest->input, manifest->n_input + 1, sizeof *manifest->input));

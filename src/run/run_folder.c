@@ -328,6 +328,21 @@ static clast_status write_manifest(const clast_run_folder *run, const char *outc
     return status == CLAST_OK ? clast_manifest_write(run->manifest, outcome, path) : status;
 }
 
+/// Whether nobody has moved the locked folder or ended a run in it since begin looked.
+static bool is_as_found(const clast_run_folder *run)
+{
+    char manifest[CLX_PATH_LIMIT];
+    struct stat held;
+    struct stat there;
+    if (run->lock >= 0 && (fstat(run->lock, &held) != 0 || stat(run->path, &there) != 0 ||
+                           held.st_dev != there.st_dev || held.st_ino != there.st_ino)) {
+        return false;
+    }
+    return run->is_resumed || run->is_again ||
+           (clx_path_join(manifest, run->path, "manifest.json") == CLAST_OK &&
+            stat(manifest, &there) != 0);
+}
+
 /// Says to others that a process is at the folder. Disks that know no locks go without.
 static clast_status lock_folder(clast_run_folder *run)
 {
@@ -342,7 +357,7 @@ static clast_status lock_folder(clast_run_folder *run)
             (void)nanosleep(&pause, NULL);
         }
     }
-    CLX_CHECK(run->lock < 0 || !is_busy, CLAST_E_DISK,
+    CLX_CHECK((run->lock < 0 || !is_busy) && is_as_found(run), CLAST_E_DISK,
               "%s: another process has begun a run there; take another folder", run->path);
 done:
     return status;
@@ -374,14 +389,16 @@ clast_status clast_run_folder_open(clast_run_folder *run)
     clast_status status = CLAST_OK;
     char old_manifest[CLX_PATH_LIMIT];
     struct stat old;
+    bool is_taken = false;
     CLX_TRY(clx_folder_make(run->path));
+    CLX_TRY(lock_folder(run));
+    is_taken = true;
     if (run->is_beside) {
         if (!run->is_resumed && stat(run->folder, &old) == 0) {
             (void)chmod(run->path, old.st_mode & 07777); // as far as the disk allows
         }
         CLX_TRY(clast_manifest_note(run->manifest, "replaces", clx_path_name(run->folder)));
     }
-    CLX_TRY(lock_folder(run));
     if ((run->is_resumed || run->is_again) && run->lock >= 0) {
         clx_run_remove_temporaries(run->path);
     }
@@ -393,8 +410,8 @@ clast_status clast_run_folder_open(clast_run_folder *run)
     CLX_TRY(write_manifest(run, "running"));
     run->is_open = true;
 done:
-    if (status != CLAST_OK && run->is_beside && !run->is_resumed) {
-        (void)clx_run_remove_tree(run->path); // made here
+    if (status != CLAST_OK && is_taken && run->is_beside && !run->is_resumed) {
+        (void)clx_run_remove_tree(run->path); // made here, and no other process's
     }
     return status;
 }
@@ -483,14 +500,14 @@ const char *clx_run_folder_place(const clast_run_folder *run)
 static clast_status settle(clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
-    unlock(run);
-    if (run->is_beside) {
+    if (run->is_beside) { // locked until it is there: another could begin in it else
         CLX_TRY(clx_run_replace(run->path, run->folder));
         clx_free(run->path);
         run->path = NULL;
         CLX_TRY(copy_path(run->folder, &run->path));
     }
 done:
+    unlock(run);
     return status;
 }
 

@@ -40,6 +40,12 @@ class Configs(Case):
             r = clast("pack", self.write("---\n" + bed + end), "--quiet", "-j", 1)
             self.assertEqual(r.code, 0, (end, r.err))
 
+    def test_a_value_with_a_nul_is_refused(self):
+        """What stood behind it was dropped: "4mm\\0x" was 4mm."""
+        for text, says in (('curve: "4mm\\0x"\nmax_steps: 1\n', "run.yaml:1:8: curve: a NUL"), ('shapes: [sphere, "sphere\\0:3"]\n', "run.yaml:1:18: shapes: a NUL"),
+                           ('"mass\\0x": 1g\n', "run.yaml:1:1: a key must be a plain word")):
+            self.assert_fails(2, "pack", self.write(text), says=(says,))
+
     def test_a_file_says_what_the_command_line_says(self):
         (self.folder / "forms.csv").write_text("flatness,elongation\n0.6,0.7\n0.65,0.68\n0.7,0.72\n")
         forms = self.folder / "forms.csv"

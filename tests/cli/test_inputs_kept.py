@@ -88,6 +88,19 @@ class InputsKept(Case):
                                   cwd=self.folder)
         self.assertFalse((self.folder / "x.csv").exists())
 
+    def test_a_file_that_cannot_be_written_is_told_before_the_work(self):
+        """A mistyped folder was told after it: of a picture of 2000 x 2000, 32 s later. Here the input alone would end it otherwise."""
+        (self.folder / "broken.ply").write_text("no surface")
+        (self.folder / "file").write_text("mine")
+        (self.folder / "folder.png").mkdir()
+        for words in (("render", "broken.ply"), ("mesh", "repair", "broken.ply"), ("mesh", "simplify", "broken.ply", "--faces", "20"),
+                      ("shape", "broken.ply"), ("fill", "broken.ply"), ("grading", "broken.ply", "--sample", "3"), ("export", "broken.ply"), ("report", "broken.ply")):
+            for output, says in (("no/such/x.png", "there is no folder no/such/"), ("file/x.png", "there is no folder file/"), ("folder.png", "it is a folder")):
+                self.assert_fails(4, *words, "-o", output, says=[f"cannot write {output}: {says}"], cwd=self.folder)
+        self.assert_fails(3, "render", "broken.ply", "-o", "x.png", says=["broken.ply"], cwd=self.folder)
+        os.symlink("nowhere", self.folder / "dangling")
+        self.assert_fails(4, "decompose", "points.csv", "--domain", "box:0,0,0,1,1,1", "-o", "dangling", says=["dangling: it is a link to what is not there"], cwd=self.folder)
+
     def test_an_empty_output_is_wrong_use_everywhere(self):
         listing = clast("--help").out.split("commands:\n")[1].split("\n\n")[0]
         for name in [line[2:18].rstrip() for line in listing.splitlines() if line.strip()]:

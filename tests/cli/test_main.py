@@ -67,6 +67,7 @@ class Frame(Case):
             self.assertEqual(page.code, 0, name)
             self.assertIn(f"usage: clast {name}", page.out)
             self.assertIn("exit codes:", page.out)
+            self.assertRegex(page.out, r"129/130/143 stopped by\s+SIGHUP/SIGINT/SIGTERM")
 
     def test_manual_names_every_command(self):
         page = clast("man").out.replace("\\-", "-")
