@@ -225,7 +225,8 @@ typedef struct clast_pack_result {
                         ///< sizes from them; NAN: not known (too narrow, none, a surface)
     double mass_wanted; ///< [kg]
     int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
-    bool is_moving;     ///< some grain is as fast as still_speed or faster
+    bool is_moving;     ///< some grain is as fast as still_speed or faster; no where the last stage
+                        ///< ended at rest (load_rest), beside which rattlers may move
     bool fell;          ///< the highest grain was still falling when shaking ended: it sank by more
                         ///< than two mean diameters; not where shaking_time is 0
     double sank; ///< how far the highest grain sank after the end of shaking [m]; NAN: not over, no

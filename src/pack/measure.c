@@ -238,7 +238,7 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
     }
     r->still_diameters =
         r->dem.n_grain > 0 ? p->config.still_speed / cbrt(6.0 / CLAST_PI * least) : (double)NAN;
-    r->is_moving = r->dem.max_speed >= p->config.still_speed;
+    r->is_moving = !p->load.has_rested && r->dem.max_speed >= p->config.still_speed;
     r->sank = (double)NAN;
     while (row < p->series.n_row && phase[row] < CLAST_PACK_DAMP) {
         ++row;

@@ -23,6 +23,23 @@ const char *clast_pack_phase_name(clast_pack_phase phase)
     return (unsigned)phase < sizeof names / sizeof names[0] ? names[phase] : "unknown";
 }
 
+/// Moves the bed's bottom and the sides of a box to where their walls are now.
+static void follow_walls(const clast_pack *pack, clast_bed *bed)
+{
+    static const char *const side[4] = {"left", "right", "front", "back"};
+    double *const place[4] = {&bed->low[0], &bed->high[0], &bed->low[1], &bed->high[1]};
+    const clast_dem_config *d = &pack->config.dem;
+    double inward[3];
+    clast_dem_wall floor = {.offset = {0.0, 0.0, bed->floor}};
+    clast_dem_read_wall(pack->dem, clx_wall_of_domain(d, "floor", inward), &floor);
+    bed->floor = bed->kind == CLAST_BED_MESH ? fmax(bed->floor, floor.offset[2]) : floor.offset[2];
+    for (int k = 0; k < 4 && bed->kind == CLAST_BED_BOX; ++k) {
+        clast_dem_wall wall = {0};
+        clast_dem_read_wall(pack->dem, clx_wall_of_domain(d, side[k], inward), &wall);
+        *place[k] += wall.offset[k / 2];
+    }
+}
+
 clast_bed clast_pack_bed(const clast_pack *pack)
 {
     if (pack == NULL) {
@@ -32,6 +49,7 @@ clast_bed clast_pack_bed(const clast_pack *pack)
     if (pack->input.container_closed != NULL) {
         clast_bed bed = clast_bed_of_surface(pack->input.container_closed);
         bed.floor = pack->base;
+        follow_walls(pack, &bed);
         return bed;
     }
     const double depth = d->depth > 0.0 ? d->depth : d->width;
@@ -44,12 +62,14 @@ clast_bed clast_pack_bed(const clast_pack *pack)
                            .low = {-0.5 * cell.side[0], -0.5 * cell.side[1]},
                            .high = {0.5 * cell.side[0], 0.5 * cell.side[1]}};
     }
-    return (clast_bed){.kind = d->domain == CLAST_DEM_CYLINDER   ? CLAST_BED_CYLINDER
-                               : d->domain == CLAST_DEM_PERIODIC ? CLAST_BED_PERIODIC
-                                                                 : CLAST_BED_BOX,
-                       .radius = 0.5 * d->width,
-                       .low = {-0.5 * d->width, -0.5 * depth},
-                       .high = {0.5 * d->width, 0.5 * depth}};
+    clast_bed bed = {.kind = d->domain == CLAST_DEM_CYLINDER   ? CLAST_BED_CYLINDER
+                             : d->domain == CLAST_DEM_PERIODIC ? CLAST_BED_PERIODIC
+                                                               : CLAST_BED_BOX,
+                     .radius = 0.5 * d->width,
+                     .low = {-0.5 * d->width, -0.5 * depth},
+                     .high = {0.5 * d->width, 0.5 * depth}};
+    follow_walls(pack, &bed);
+    return bed;
 }
 
 clast_porosity_options clast_pack_porosity(const clast_pack_config *config)

@@ -18,6 +18,7 @@ typedef struct clx_pack_loading {
     double strain[3], sheared; ///< of the cell then
     double steady[4];          ///< strain rates that the servo has come to; of shear [1/s]
     bool is_over;
+    bool has_rested; ///< the last stage ended at rest
 } clx_pack_loading;
 
 /// A wall of the simulation, as its stages and table see it.

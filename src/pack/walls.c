@@ -476,6 +476,7 @@ clast_status clx_pack_walls_look(clast_pack *p)
         if (p->load.stage + 1 == p->config.stages.n) {
             p->converged = true;
             p->load.is_over = true;
+            p->load.has_rested = s.end == CLX_UNTIL_REST;
             return CLAST_OK;
         }
         CLX_TRY(clx_pack_walls_stage(p, p->load.stage + 1));

@@ -285,6 +285,11 @@ clast_status clx_legend_make(const clast_assembly *assembly, const clast_render_
         size_range(assembly, &low, &high);
         colour =
             low > 0.0 && high > 1.01 * low ? CLAST_RENDER_COLOUR_SIZE : CLAST_RENDER_COLOUR_SINGLE;
+        if (colour == CLAST_RENDER_COLOUR_SIZE &&
+            !clast_field_is_default(clast_fields_find(clast_render_fields, "tint"), config)) {
+            return clx_fail(CLAST_E_CONFIG, "tint does nothing where colours show sizes, which "
+                                            "differ here; give colour single with it");
+        }
     }
     clast_status status = CLAST_OK;
     if (colour == CLAST_RENDER_COLOUR_SIZE) {

@@ -77,7 +77,9 @@ const clast_idle *clast_render_idle(const clast_render_config *c, clast_idle rul
         {is_single, "colour_bar", "with --colour single"},
         {c->projection == CLAST_RENDER_ORTHOGRAPHIC, "field_of_view",
          "without --projection perspective"},
-        {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"}};
+        {c->cut == CLAST_RENDER_CUT_NONE, "cut_position", "without --cut"},
+        {c->ambient == 0.0, "ambient_rays", "with --ambient 0"},
+        {c->ambient == 1.0, "sun_azimuth|sun_elevation|sun_radius", "with --ambient 1"}};
     return clx_idle_copy(made, rules);
 }
 

@@ -56,6 +56,8 @@ class Load(Case):
         self.assertEqual(result.code, 0, result.err)
         out = json.loads(result.out)
         self.assertEqual((out["phase"], out["sank_after_shaking"]), ("done", None))
+        self.assertGreater(out["max_speed"], 1e-3)  # a rattler's: the page said "still moving" of a bed that its stage had ended at rest
+        self.assertFalse(out["still_moving"])
         for axis in ("xx", "yy", "zz"):
             self.assertLess(abs(out["cell"]["stress"][axis] / 20e3 - 1), 0.01)
         self.assertLess(out["cell"]["unbalanced"], 1e-3)

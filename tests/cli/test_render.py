@@ -110,6 +110,11 @@ class Render(Case):
         for colour in ("single", "shape"):
             self.assert_fails(2, *line, "--colour", colour, "--scale", "log", says=["scale does nothing without --colour size or order"])
         self.assert_fails(2, *line, "--colour", "single", "--no-colour-bar", says=["does nothing with --colour single"])
+        self.assert_fails(2, *line, "--ambient", 0, "--ambient-rays", 4, says=["ambient-rays does nothing with --ambient 0"])
+        for sun in ("--sun-azimuth=90deg", "--sun-elevation=0deg", "--sun-radius=9deg"):
+            self.assert_fails(2, *line, "--ambient", 1, sun, says=["does nothing with --ambient 1"])
+        self.assert_fails(2, line[0], STL / "Menger2.stl", ROOT / "data/standin63/grain00.ply", *line[2:], "--tint", "#00ff00",
+                          says=["tint does nothing where colours show sizes"])  # auto: the tint was not seen
         for more in (("--tint", "#00ff00"), ("--colour", "single", "--tint", "#00ff00"), ("--colour", "size", "--scale", "log", "--no-colour-bar")):
             self.assertEqual(clast(*line, *more, *SMALL).code, 0, more)
 

@@ -164,6 +164,25 @@ class Walls(Case):
             self.assertEqual((before["stage"], last["stage"]), (2, 2), stage)
             self.assertTrue(0.6 < pressure / end < most, (stage, pressure))
 
+    def test_porosity_lies_between_the_walls_where_they_are(self):
+        """A bed that its floor had lifted by 10 mm had a porosity of 0.71 from z = 0 on; one that a side had pressed, that of the room left behind it."""
+        run = self.folder / "run"
+        result = clast(*BED, "--mass", "4g", "--wall", "floor", "--wall", "left", "--stages", "floor=200mm/s until way 10mm", "--stages",
+                       "left=100mm/s until way 4mm", "--stages", "hold until time 50ms", "-o", run, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertAlmostEqual(result.json["z_low"], 10e-3, 9)
+        profile = rows(run / "profile.csv")
+        self.assertAlmostEqual(profile[0]["z_low_m"], 10e-3, 9)
+        for row in profile:
+            self.assertAlmostEqual(row["solid_m3"] / (1 - row["porosity"]) / (20e-3 * 24e-3 * 1e-3) if row["porosity"] < 1 else 1, 1, 6)
+        self.assertAlmostEqual(sum(row["solid_m3"] for row in profile) * 2650 / result.json["mass"], 1, 6)
+        self.assertAlmostEqual(clast("porosity", run, "--method", "spheres", "--json").json["z_low"], 10e-3, 9)
+
+    def test_help_says_where_a_stress_is_looked_at(self):
+        """The help told it of a cell's sides alone, as if it were no end between walls."""
+        page = " ".join(clast("pack", "--help-all").out.split())
+        self.assertIn("between walls at those that move (from above where they move away), else at those that are pressed.", page)
+
     def test_a_floor_is_pressed_over_the_hole_above_it(self):
         """A pressure on the floor below a round tube acted on the square about the tube: 4 / pi of it."""
         run, tube, top = self.folder / "run", self.folder / "tube.stl", self.folder / "top.stl"
