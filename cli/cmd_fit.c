@@ -83,6 +83,20 @@ static clast_status choose(const config *c, const clast_table *beds, clast_model
     return CLAST_OK;
 }
 
+/// Rows of the grains that have no form.
+static clast_status tell_grains(const clast_table *grains, const char *columns)
+{
+    char complaint[512];
+    clast_form_set set = {0};
+    CLI_GUARD(clast_form_set_of(grains, columns, &set));
+    clast_form_set_complaint(&set, sizeof complaint, complaint);
+    if (complaint[0] != '\0') {
+        (void)fprintf(stderr, "clast fit: %s: %s\n", cli_name(grains->name), complaint);
+    }
+    clast_form_set_free(&set);
+    return CLAST_OK;
+}
+
 static clast_status gather(const config *c, const char *path, job *j)
 {
     clast_idle rules[CLAST_N_IDLE];
@@ -106,7 +120,8 @@ static clast_status gather(const config *c, const char *path, job *j)
     CLI_GUARD(cli_is_folder(c->grains)
                   ? clast_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
                   : clast_table_read_csv(c->grains, NULL, &j->grains, NULL));
-    return clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data);
+    CLI_GUARD(clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data));
+    return tell_grains(&j->grains, c->fit.columns);
 }
 
 /// Rows of a table as JSON objects.

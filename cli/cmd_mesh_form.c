@@ -239,7 +239,7 @@ const cli_command cli_mesh_form = {
          "clast mesh form data/standin63/grain00.ply --unit-form -o compact.ply",
          "clast mesh form scan.stl --hull 100 --size 12 -o grain.stl"},
     .details =
-        "L, I and S are the full axes of the ellipsoid with the grain's volume and moments of "
+        "L, I and S are the full axes of the ellipsoid with the grain's mass and moments of "
         "inertia; the\ngrain is rotated so that they lie along x, y, z (never mirrored) and "
         "stretched, which changes them\nexactly and keeps what else the shape has (Rettinger et "
         "al. 2022, fig. 5, equations 20 to 22).\n--hull 300 makes the convex grains of at most 300 "

@@ -112,7 +112,7 @@ static clast_status predict_table(const config *c, cli_prediction *j)
     }
     clast_form_set_complaint(&j->set, sizeof complaint, complaint);
     if (complaint[0] != '\0') {
-        (void)fprintf(stderr, "clast predict: %s: %s\n", j->table.name, complaint);
+        (void)fprintf(stderr, "clast predict: %s: %s\n", cli_name(j->table.name), complaint);
     }
     return c->each ? predict_each(c, j) : predict_set(c, j);
 }

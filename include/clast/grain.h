@@ -10,7 +10,7 @@ CLAST_BEGIN
 /// Tools disagree about elongation mostly because they use different ones.
 #define CLAST_AXES_LIST(X)                                                                         \
     X(ELLIPSOID, "ellipsoid",                                                                      \
-      "full axes of the ellipsoid with the grain's volume and moments of inertia",                 \
+      "full axes of the ellipsoid with the grain's mass and moments of inertia",                   \
       "Rettinger2022 eqs 25-27; Stueckrath2006")                                                   \
     X(BOX, "box",                                                                                  \
       "edges of the least box found around the grain: no rotation about a box axis makes it "      \

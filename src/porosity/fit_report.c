@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/least_squares.h"
+#include "math/sample.h"
 #include "math/special.h"
 #include "porosity/model.h"
 #include "porosity/unit_columns.h"
@@ -105,7 +106,9 @@ static clast_status inflation(const clx_fit *f, int32_t p, int32_t j, double *vi
         y[i] = f->x[i * p + j];
     }
     CLX_TRY(clx_least_squares_fit(&(clx_regression){x, y, f->n, p - 1}, &ls));
-    *vif = 1.0 / fmax(1.0 - ls.r2, 1e-300);
+    const clx_moments m = clx_sample_moments(y, f->n);
+    const double total = m.deviation * m.deviation * (double)(f->n - 1);
+    *vif = total / (ls.variance * (double)(ls.n - ls.p)); // 1 - r2 would cancel
 done:
     clx_least_squares_free(&ls);
     CLX_FREE(x, y);

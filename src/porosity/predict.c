@@ -35,7 +35,7 @@ static clast_status read_input(const clast_porosity_model *model, const clast_fo
               "model %s needs the spread of the forms (%s): give two grains or more, or deviations "
               "as in 0.65+-0.17; for equal grains take the single-form model",
               model->name, name);
-    CLX_CHECK(!(isnan(*value) && is_spread), CLAST_E_FORMAT,
+    CLX_CHECK(!(isnan(*value) && is_spread && !in->is_independent), CLAST_E_FORMAT,
               "model %s: '%s' has no value for these grains: that factor does not vary or is not "
               "defined; the single-form model needs no spread",
               model->name, name);

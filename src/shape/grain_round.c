@@ -8,11 +8,15 @@
 //
 // d: distance in the plane from the foot of the perpendicular to the edge, positive inside; l: its
 // length; r1, r2: distances of its ends; Omega: solid angle [VanOosterom1983].  [Wilton1984]
-// Angularity has no closed form; triangles are quartered down to 0.01 sr.
+// Angularity has no closed form: triangles are quartered down to 0.01 sr, and each piece has the
+// mean of f = |r - r_e| / r_e over its solid angle, whose element is h dA / r^3, by the rule of
+// degree 2 of corners (1/12 each) and middle (3/4). A facet is nearer in its middle: middles alone
+// were 1 % low for grains of 300 facets; so they are within 2e-3.
 #include "shape/grain.h"
 
 #include "base/status.h"
 #include "math/lanes.h"
+#include "math/least.h"
 #include "math/vec3.h"
 #include <clast/grain.h>
 #include <clast/mesh.h>
@@ -20,12 +24,14 @@
 enum { MOST_DEPTH = 12 };
 
 static const double PIECE = 0.01;         ///< sr
+static const double MOST_RATIO = 4.0;     ///< a corner beside the centroid is not the whole piece
 static const double SMALL_TANGENT = 0.02; ///< the first term left out is below 1e-18 of the sum
 
-/// A triangle with its corners' distances from the origin.
+/// A triangle with its corners' distances from the origin, and the same in radii of the ellipsoid.
 typedef struct {
     double p[3][3];
     double r[3];
+    double ratio[3];
 } facet;
 
 /// 2 atan2(y, x); for small angles by the series, which is as good and five times as fast.
@@ -97,7 +103,7 @@ static unit_map map_of(const clast_grain *grain)
 }
 
 /// r / r_e at a point: what the ray through it is long in radii of the ellipsoid.
-static double length_in_map(const unit_map *m, const double p[3])
+static double ratio_at(const unit_map *m, const double p[3])
 {
     const double x[3] = {v3_dot(p, m->row[0]), v3_dot(p, m->row[1]), v3_dot(p, m->row[2])};
     return v3_norm(x);
@@ -108,6 +114,7 @@ static double length_in_map(const unit_map *m, const double p[3])
 typedef struct {
     clx_lanes p[3][3];
     clx_lanes r[3];
+    clx_lanes ratio[3];
 } quarters;
 
 CLX_INLINE clx_lanes dot_lanes(const clx_lanes a[3], const clx_lanes b[3])
@@ -115,9 +122,25 @@ CLX_INLINE clx_lanes dot_lanes(const clx_lanes a[3], const clx_lanes b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Corner k of each quarter, and the last corner's distance: the fourth lane is the quarter between
-/// the middles.
-CLX_INLINE void set_quarters(const facet *f, quarters *q)
+CLX_INLINE clx_lanes ratio_lanes(const unit_map *m, const clx_lanes p[3])
+{
+    clx_lanes x[3];
+    for (int i = 0; i < 3; ++i) {
+        x[i] = p[0] * m->row[i][0] + p[1] * m->row[i][1] + p[2] * m->row[i][2];
+    }
+    return lanes_root(dot_lanes(x, x));
+}
+
+/// Of the corners from what is known of the triangle's and what the middles of its sides have.
+CLX_INLINE void set_lengths(const double corner[3], clx_lanes middle, clx_lanes length[3])
+{
+    length[0] = (clx_lanes){corner[0], corner[1], corner[2], middle[0]};
+    length[1] = middle;
+    length[2] = __builtin_shufflevector(middle, middle, 2, 0, 1, 2);
+}
+
+/// Corner k of each quarter with its lengths: the fourth lane is the quarter between the middles.
+CLX_INLINE void set_quarters(const unit_map *m, const facet *f, quarters *q)
 {
     for (int i = 0; i < 3; ++i) {
         const clx_lanes from = {f->p[0][i], f->p[1][i], f->p[2][i], f->p[1][i]};
@@ -127,21 +150,36 @@ CLX_INLINE void set_quarters(const facet *f, quarters *q)
         q->p[1][i] = middle;
         q->p[2][i] = __builtin_shufflevector(middle, middle, 2, 0, 1, 2);
     }
-    const clx_lanes r = lanes_root(dot_lanes(q->p[1], q->p[1]));
-    q->r[0] = (clx_lanes){f->r[0], f->r[1], f->r[2], r[0]};
-    q->r[1] = r;
-    q->r[2] = __builtin_shufflevector(r, r, 2, 0, 1, 2);
+    set_lengths(f->r, lanes_root(dot_lanes(q->p[1], q->p[1])), q->r);
+    set_lengths(f->ratio, ratio_lanes(m, q->p[1]), q->ratio);
 }
 
-/// The quarters, solid_angle() of each, without signs, and |r - r_e| / r_e in their middles.
+/// Mean of |r - r_e| / r_e over the solid angle of each quarter.
+CLX_INLINE clx_lanes mean_off(const unit_map *m, const quarters *q)
+{
+    clx_lanes middle[3];
+    for (int i = 0; i < 3; ++i) {
+        middle[i] = (q->p[0][i] + q->p[1][i] + q->p[2][i]) / 3.0;
+    }
+    const clx_lanes r = lanes_root(dot_lanes(middle, middle));
+    clx_lanes weight = lanes_all(9.0);
+    clx_lanes sum = weight * lanes_size(ratio_lanes(m, middle) - 1.0);
+    for (int k = 0; k < 3; ++k) {
+        const clx_lanes part = lanes_lesser(r / q->r[k], lanes_all(MOST_RATIO));
+        const clx_lanes cube = part * part * part;
+        weight += cube;
+        sum += cube * lanes_size(q->ratio[k] - 1.0);
+    }
+    return sum / weight;
+}
+
+/// The quarters, solid_angle() of each, without signs, and their means of |r - r_e| / r_e.
 CLX_FOR_EACH_MACHINE
 static void measure_quarters(const unit_map *m, const facet *f, quarters *q, double angle[4],
                              double off[4])
 {
     clx_lanes n[3];
-    clx_lanes middle[3];
-    clx_lanes x[3];
-    set_quarters(f, q);
+    set_quarters(m, f, q);
     const clx_lanes *a = q->p[0];
     const clx_lanes *b = q->p[1];
     const clx_lanes *c = q->p[2];
@@ -151,19 +189,13 @@ static void measure_quarters(const unit_map *m, const facet *f, quarters *q, dou
     const clx_lanes below = q->r[0] * q->r[1] * q->r[2] + dot_lanes(a, b) * q->r[2] +
                             dot_lanes(b, c) * q->r[0] + dot_lanes(c, a) * q->r[1];
     const clx_lanes above = dot_lanes(a, n);
-    for (int i = 0; i < 3; ++i) {
-        middle[i] = (a[i] + b[i] + c[i]) / 3.0;
-    }
-    for (int i = 0; i < 3; ++i) {
-        x[i] = middle[0] * m->row[i][0] + middle[1] * m->row[i][1] + middle[2] * m->row[i][2];
-    }
     const clx_lanes t = above / below;
     const clx_lanes t2 = t * t;
     lanes_store(angle,
                 lanes_size(2.0 * t *
                            (1.0 - t2 * (1.0 / 3.0 -
                                         t2 * (1.0 / 5.0 - t2 * (1.0 / 7.0 - t2 * (1.0 / 9.0)))))));
-    lanes_store(off, lanes_size(lanes_root(dot_lanes(x, x)) - 1.0));
+    lanes_store(off, mean_off(m, q));
     const clx_marks is_small = (below > 0.0) & (lanes_size(above) < SMALL_TANGENT * below);
     for (int k = 0; k < 4 && lanes_bits(is_small) != 15; ++k) {
         if (is_small[k] == 0) {
@@ -178,6 +210,7 @@ static facet quarter_of(const quarters *q, int k)
     for (int c = 0; c < 3; ++c) {
         v3_set(one.p[c], q->p[c][0][k], q->p[c][1][k], q->p[c][2][k]);
         one.r[c] = q->r[c][k];
+        one.ratio[c] = q->ratio[c][k];
     }
     return one;
 }
@@ -213,7 +246,15 @@ static void add_angular(const unit_map *m, const facet *f, double signed_angle, 
     for (int i = 0; i < 3; ++i) {
         middle[i] = (f->p[0][i] + f->p[1][i] + f->p[2][i]) / 3.0;
     }
-    sum[0] += angle * fabs(length_in_map(m, middle) - 1.0);
+    const double r = v3_norm(middle);
+    double weight = 9.0;
+    double off = weight * fabs(ratio_at(m, middle) - 1.0);
+    for (int k = 0; k < 3; ++k) {
+        const double part = lesser_of(r / f->r[k], MOST_RATIO);
+        weight += part * part * part;
+        off += part * part * part * fabs(f->ratio[k] - 1.0);
+    }
+    sum[0] += angle * off / weight;
     sum[1] += angle;
 }
 
@@ -227,6 +268,7 @@ void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
         for (int k = 0; k < 3; ++k) {
             v3_sub(f.p[k], mesh->vert[mesh->tri[t][k]], grain->centroid);
             f.r[k] = v3_norm(f.p[k]);
+            f.ratio[k] = ratio_at(&map, f.p[k]);
         }
         const double angle = solid_angle(&f);
         cosine += cosine_integral(&f, angle);
