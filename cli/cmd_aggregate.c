@@ -99,7 +99,7 @@ static void print_surfaces(const cli_common *common, const clast_aggregate_repor
         return;
     }
     (void)printf(
-        "surfaces in %s, in mm:%s aggregate.stl%s\n", report->folder,
+        "surfaces in %s, in mm:%s aggregate.stl%s\n", cli_name(report->folder),
         report->is_printable ? " printable.3mf, printable.stl," : "",
         report->is_printable || is_asked ? "" : "; for printing, --printable adds one closed body");
     if (report->is_printable) {

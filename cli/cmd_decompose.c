@@ -77,16 +77,17 @@ done:
 }
 
 /// The points of the file; of several ranks a part on each.
-static clast_status read_cloud(const cli_common *common, const config *c, clast_cloud *cloud)
+static clast_status read_cloud(const cli_common *common, const config *c, clast_cloud *cloud,
+                               clast_packing_report *read)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
     const char *path = common->argument[0];
-    const clast_points_options options = {c->points.dataset, c->points.frame};
+    const clast_points_options options = {c->points.dataset, c->points.frame, NULL};
     if (common->comm->n_rank > 1) {
         CLI_TRY(clast_cloud_read_ranks(common->comm, path, &c->points.columns, &options, cloud));
     } else {
-        CLI_TRY(cli_points_read(path, &c->points, &table));
+        CLI_TRY(cli_points_read(common, path, &c->points, &table, read));
         CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
     }
     cli_warn_of_weight(common, cloud, path);
@@ -100,7 +101,7 @@ static clast_status read_input(const cli_common *common, const config *c, clast_
 {
     clast_status status = CLAST_OK;
     CLI_TRY(cli_agree(common, cli_domain_read(c->decompose.domain, &c->points, domain)));
-    CLI_TRY(read_cloud(common, c, cloud));
+    CLI_TRY(read_cloud(common, c, cloud, &f->read));
     cli_domain_name(c->decompose.domain, domain, f->domain);
     CLI_TRY(clast_cloud_repeated_ranks(cloud, common->comm, &f->n_repeated));
 done:

@@ -181,6 +181,7 @@ static clast_status run(const cli_common *common, void *context)
     warn_of_layer(common, &result);
     warn_of_field(common, &result);
     cli_warn(common, result.weight_words);
+    cli_warn(common, result.points_words);
     if (!common->quiet) {
         char words[CLI_WORDS_SIZE];
         cli_warn(common, clast_kernel_dense_words(result.volume_fraction, sizeof words, words));
@@ -217,12 +218,14 @@ static const char details[] =
     "spectrum.csv and summary.json are those of all W, masses of events.csv, deposit.csv,\n"
     "particles.csv and frames those of one.\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree by time: node\n"
-    "n + k is event k of n particles), deposit.csv, deposit_sizes.csv (diameters of its\n"
-    "bodies), deposit.h5 (--bed-width: those on the floor, not on walls, as a bed for\n"
-    "clast pack --start, each once, above its position and on those that came before),\n"
-    "particles.csv,\n"
-    "state.h5 (the aggregate of most grains),\n"
-    "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts "
+    "n + k is event k of n particles), deposit.csv, deposit_sizes.csv (of its bodies: diameters "
+    "of\n"
+    "equal volume, for --curve list:FILE --size-meaning volume), deposit.h5 (--bed-width: those "
+    "on\n"
+    "the floor, not on walls, as a bed for clast pack --start, each once, above its position and "
+    "on\n"
+    "those that came before), particles.csv, state.h5 (the aggregate of most grains),\n"
+    "aggregates/node-*.h5 (--keep: for clast pack --shapes, clast render, clast export), charts\n"
     "(evolution.svg, spectrum.svg, deposit.svg), summary.json, manifest.json,\n"
     "report.html, frames for ParaView with --frames (with numbers of each grain's body), and "
     "checkpoints\n"

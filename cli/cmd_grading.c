@@ -304,7 +304,7 @@ static void answer_words(const answer *a)
 {
     const clast_grading *g = a->grading;
     const clast_grading_list list = clast_grading_list_of(g);
-    (void)printf("%s\n", a->text);
+    (void)printf("%s\n", cli_name(a->text));
     if (list.n_row > 0) {
         const bool by_mass = strncmp(a->text, "masses:", 7) == 0;
         char text[1536];

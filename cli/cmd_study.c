@@ -97,8 +97,8 @@ static clast_status print(const cli_common *common, const clast_study_config *co
     if (report->n_unconverged > 0) {
         (void)printf("; %lld did not converge (exit code 5)", (long long)report->n_unconverged);
     }
-    (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", common->output,
-                 common->output);
+    (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", cli_name(common->output),
+                 cli_name(common->output));
     return CLAST_OK;
 }
 

@@ -4,6 +4,7 @@
 #include "command.h"
 #include "decompose_pairs.h"
 #include "json.h"
+#include "packing.h"
 #include "quantity.h"
 #include <clast/decompose.h>
 #include <math.h>
@@ -121,6 +122,7 @@ json_t *cli_decompose_json(const cli_decompose_job *j, const cli_decompose_found
     cli_json_count(out, "n", r->n);
     cli_json_count(out, "n_outside", r->n_outside);
     cli_json_count(out, "n_repeated", f->n_repeated);
+    cli_packing_json(out, &f->read);
     cli_json_count(out, "n_test", r->n_test);
     cli_json_count(out, "dimension", r->dimension);
     (void)json_object_set_new(out, "tests", json_tests(&r->before, j->domain));

@@ -9,6 +9,7 @@
 typedef struct cli_decompose_found {
     const char *typed;            ///< the domain as it was
     char domain[CLI_DOMAIN_NAME]; ///< as typed for a mesh, else in m
+    clast_packing_report read;    ///< which snapshot of the file
     int64_t n_repeated;
     cli_evenness evenness;
     double begun;

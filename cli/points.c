@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "json.h"
+#include "packing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +33,7 @@ static const clast_field rows[] = {
     {"dataset", .offset = offsetof(cli_points, dataset), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "array or folder of an HDF5 file", ""},
     {"frame", .offset = offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
-     "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
+     "snapshot of a LAMMPS dump or .xyz, from 0; -1: the last", NULL},
     {"domain_unit", .offset = offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "unit of bare numbers in --domain and of mesh:FILE; none: --unit, else what the file says",
      ""},
@@ -44,14 +45,19 @@ void cli_point_fields(cli_joined *joined, size_t offset)
     cli_joined_append_all(joined, rows, offset);
 }
 
-clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
+clast_status cli_points_read(const cli_common *common, const char *path, const cli_points *points,
+                             clast_table *table, clast_packing_report *read)
 {
-    const clast_points_options options = {points->dataset, points->frame};
+    clast_points_snapshot snapshot;
+    const clast_points_options options = {points->dataset, points->frame, &snapshot};
     CLI_GUARD(clast_cloud_read(path, &options, table));
     if (table->n_row == 0) {
         clast_table_free(table);
         return cli_fail(CLAST_E_FORMAT, "%s holds no points", path);
     }
+    *read = (clast_packing_report){
+        .snapshot = snapshot.number, .n_snapshot = snapshot.n, .frame.step = snapshot.step};
+    cli_packing_note(common, path, read);
     return CLAST_OK;
 }
 

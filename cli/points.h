@@ -15,8 +15,11 @@ typedef struct cli_points {
 /// Appends the options of a cli_points that lies `offset` bytes into a configuration struct.
 void cli_point_fields(cli_joined *joined, size_t offset);
 
-/// Reads the file as a table.
-clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table);
+/// Reads the file as a table. Of several snapshots a line on stderr says which one.
+///
+/// @param read  that one
+clast_status cli_points_read(const cli_common *common, const char *path, const cli_points *points,
+                             clast_table *table, clast_packing_report *read);
 
 /// Reads the domain that --domain names; a missing one is a usage error.
 clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain);

@@ -352,7 +352,7 @@ clast_status cli_porosity_print(const cli_common *common, const clast_assembly *
                      (long long)n_contact, (long long)f->chains.n_row);
     }
     if (common->output != NULL) {
-        (void)printf("tables and profile.svg are in %s\n", common->output);
+        (void)printf("tables and profile.svg are in %s\n", cli_name(common->output));
     }
     return CLAST_OK;
 }

@@ -318,7 +318,7 @@ static void row_words(const cli_shape_result *shape, const clast_grain_record *r
     cell(6, "f", r->has_surface, g->convexity);
     cell(6, "f", r->has_surface, g->roundness);
     (void)printf("%-6s %s\n", clast_zingg_name(clast_form_zingg(lis[2] / lis[1], lis[1] / lis[0])),
-                 r->name);
+                 cli_name(r->name));
 }
 
 void cli_shape_words(const cli_shape_result *shape)

@@ -84,10 +84,17 @@ CLAST_API clast_status clast_cloud_repeated_ranks(const clast_cloud *cloud, cons
 
 // Particle positions from files, as tables of named columns.
 
+/// Which of a file's snapshots was read.
+typedef struct clast_points_snapshot {
+    int64_t number, n; ///< from 1, of so many: 1, 1 of other files than LAMMPS dumps and XYZ
+    int64_t step;      ///< TIMESTEP of a dump; -1: not known
+} clast_points_snapshot;
+
 /// {0} is valid: the first snapshot.
 typedef struct clast_points_options {
     const char *dataset; ///< HDF5: "/name" of an array [n] or [n][k], or of a folder of arrays [n]
-    int64_t frame;       ///< LAMMPS dump: snapshot, from 0; negative: from the end, -1 the last
+    int64_t frame; ///< LAMMPS dump or XYZ: snapshot, from 0; negative: from the end, -1 the last
+    clast_points_snapshot *snapshot; ///< receives which one was read; may be NULL
 } clast_points_options;
 
 /// Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib),
@@ -95,18 +102,18 @@ typedef struct clast_points_options {
 /// dump, or an HDF5 array: whatever the file's first bytes show.
 ///
 /// Delimited text without a header has the columns column_1, column_2, ... Columns of a PLY are the
-/// numbers of its vertices; those of an XYZ file name, x, y, z, column_5, ... of its first frame,
+/// numbers of its vertices; those of an XYZ file name, x, y, z, column_5, ...,
 /// or the keys of its Properties=species:S:1:pos:R:3 (pos: x, y, z; of others KEY_x, ... or KEY_1).
 /// Coordinates of VTK files become columns x, y, z; a point array of two or three numbers becomes
 /// name_x, name_y, name_z, one of k numbers name_0 .. name_(k-1). A dump's columns keep their
 /// names; scaled coordinates xs, ys, zs become x, y, z too; its ITEM: UNITS counts for positions,
 /// sizes, velocities and masses. Columns of an HDF5 array [n][k] are x,
-/// y, z, c3, ...; arrays of a folder keep their names.
+/// y, z, c3, ...; arrays of a folder keep their names; an attribute "units" or "unit" counts.
 ///
 /// @param options  NULL: {0}    @param table  empty; written only on success
 /// @return CLAST_E_FORMAT with the place, and for VTK and PLY files whose points faces join, which
 /// are vertices of surfaces; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB; CLAST_E_USAGE
-/// for a frame of what is no dump, a dataset of what is no HDF5 file
+/// for a frame of what is no dump or XYZ, a dataset of what is no HDF5 file
 /// @note memory is bounded by a small multiple of the file's size, whatever the file declares
 CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_options *options,
                                         clast_table *table);

@@ -145,6 +145,8 @@ CLAST_API double clast_evolve_time(const clast_evolve *evolve);
 /// Rows of the tables written, the one at the start not counted; 0 for NULL.
 CLAST_API int32_t clast_evolve_n_row(const clast_evolve *evolve);
 
+enum { CLAST_POINTS_WORDS = 256 };
+
 /// An evolution in numbers, SI.
 typedef struct clast_evolve_result {
     int64_t n_start, n_particle, n_event, n_deposit, n_out, n_step;
@@ -156,6 +158,8 @@ typedef struct clast_evolve_result {
                       ///< in a layer thinner than a step, where it is above step_error; else 0
     double gathered_top;    ///< of it at the top
     char weight_words[160]; ///< of a column of weights in points, which nothing reads; else ""
+    char points_words[CLAST_POINTS_WORDS]; ///< of clast_evolve_run: what else of the file of points
+                                           ///< is not looked at (clast_evolve_source); else ""
     bool is_field_apart; ///< no body starts within the field's grid, or that is 1000 times as wide
     double mass_balance; ///< greatest |sum - start| / start of all rows
     int64_t number_balance; ///< greatest |particles + events + deposit + out - start| of all rows
@@ -245,6 +249,8 @@ typedef struct clast_evolve_source {
     clast_domain domain, release;
     clast_cloud points, field;
     clast_evolve_input input;
+    char points_words[CLAST_POINTS_WORDS]; ///< of the file of points: a column of sizes that
+                                           ///< nothing reads, which of its snapshots; else ""
 } clast_evolve_source;
 
 /// @return the reader's status and line, with the option before it

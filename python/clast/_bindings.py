@@ -128,6 +128,10 @@ class clast_cloud(Structure):
     """Points in one, two or three dimensions, with optional properties; arrays may be borrowed by the functions that read them."""
 
 
+class clast_points_snapshot(Structure):
+    """Which of a file's snapshots was read."""
+
+
 class clast_points_options(Structure):
     """{0} is valid: the first snapshot."""
 
@@ -1084,9 +1088,15 @@ clast_cloud._fields_ = [
     ('variable', POINTER(c_double)),
     ('unread_weight', (c_char * 64)),
 ]
+clast_points_snapshot._fields_ = [
+    ('number', c_int64),
+    ('n', c_int64),
+    ('step', c_int64),
+]
 clast_points_options._fields_ = [
     ('dataset', c_char_p),
     ('frame', c_int64),
+    ('snapshot', POINTER(clast_points_snapshot)),
 ]
 clast_domain_map_functions._fields_ = [
     ('dimension', c_int32),
@@ -1429,6 +1439,7 @@ clast_evolve_source._fields_ = [
     ('points', clast_cloud),
     ('field', clast_cloud),
     ('input', clast_evolve_input),
+    ('points_words', (c_char * 256)),
 ]
 clast_text_list._fields_ = [
     ('n', c_int32),
@@ -1688,8 +1699,11 @@ clast_medium._fields_ = [
     ('gravity', c_double),
     ('efficiency', c_double),
     ('constant', c_double),
+    ('constant_d', c_int32),
     ('additive', c_double),
+    ('additive_d', c_int32),
     ('product', c_double),
+    ('product_d', c_int32),
     ('settling_law', c_int32),
 ]
 clast_kernel_info._fields_ = [
@@ -2832,6 +2846,7 @@ clast_evolve_result._fields_ = [
     ('gathered', c_double),
     ('gathered_top', c_double),
     ('weight_words', (c_char * 160)),
+    ('points_words', (c_char * 256)),
     ('is_field_apart', c_bool),
     ('mass_balance', c_double),
     ('number_balance', c_int64),
@@ -3050,7 +3065,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_note': (24, {'x': (0, 8), 'y': (8, 8), 'text': (16, 8)}),
     'clast_chart': (184, {'title': (0, 8), 'x': (8, 32), 'y': (40, 32), 'value_axis': (72, 32), 'series': (104, 8), 'n_series': (112, 4), 'heat': (120, 8), 'mark_y': (128, 8), 'mark_label': (136, 8), 'n_mark': (144, 4), 'note': (152, 8), 'n_note': (160, 4), 'equal': (164, 1), 'width': (168, 8), 'height': (176, 8)}),
     'clast_cloud': (128, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'radius': (24, 8), 'mass': (32, 8), 'weight': (40, 8), 'velocity': (48, 8), 'variable': (56, 8), 'unread_weight': (64, 64)}),
-    'clast_points_options': (16, {'dataset': (0, 8), 'frame': (8, 8)}),
+    'clast_points_snapshot': (24, {'number': (0, 8), 'n': (8, 8), 'step': (16, 8)}),
+    'clast_points_options': (24, {'dataset': (0, 8), 'frame': (8, 8), 'snapshot': (16, 8)}),
     'clast_domain_map_functions': (40, {'dimension': (0, 4), 'volume': (8, 8), 'map': (16, 8), 'unmap': (24, 8), 'context': (32, 8)}),
     'clast_domain': (224, {'kind': (0, 4), 'dimension': (4, 4), 'low': (8, 24), 'high': (32, 24), 'radius': (56, 8), 'length': (64, 8), 'is_placed': (72, 1), 'centre': (80, 24), 'axes': (104, 72), 'user': (176, 40), 'surface': (216, 8)}),
     'clast_discrepancy': (112, {'U1': (0, 8), 'U2': (8, 8), 'D2': (16, 8), 'A': (24, 8), 'variance': (32, 8), 'A_standard': (40, 8), 'p': (48, 8), 'p_asymptotic': (56, 8), 'p_paper': (64, 8), 'T': (72, 8), 'p_T': (80, 8), 'M': (88, 8), 'xi': (96, 8), 'zeta2': (104, 8)}),
@@ -3079,7 +3095,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_load': (272, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'shear_modulus': (136, 8), 'fabric': (144, 48), 'n_contact': (192, 8), 'n_force': (200, 8), 'coordination': (208, 8), 'n_rattler': (216, 4), 'coordination_held': (224, 8), 'unbalanced': (232, 8), 'force_mean': (240, 8), 'force_below': (248, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
     'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
-    'clast_evolve_source': (784, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 128), 'field': (600, 128), 'input': (728, 56)}),
+    'clast_evolve_source': (1040, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 128), 'field': (600, 128), 'input': (728, 56), 'points_words': (784, 256)}),
     'clast_text_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_f64_list': (16, {'n': (0, 4), 'item': (8, 8)}),
     'clast_field': (88, {'name': (0, 8), 'offset': (8, 8), 'type': (16, 4), 'value': (24, 8), 'low': (32, 8), 'high': (40, 8), 'unit': (48, 8), 'help': (56, 8), 'text': (64, 8), 'group': (72, 8), 'common': (80, 1)}),
@@ -3106,7 +3122,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_synthesize_config': (104, {'form': (0, 48), 'size': (48, 8), 'measure': (56, 4), 'rough': (64, 8), 'tolerance': (72, 8), 'decay': (80, 8), 'degrees': (88, 4), 'faces': (92, 4), 'seed': (96, 8)}),
     'clast_synthesize_report': (56, {'flatness': (0, 8), 'elongation': (8, 8), 'amplitude': (16, 8), 'normal_roundness': (24, 8), 'angularity': (32, 8), 'volume': (40, 8), 'n_triangle': (48, 4)}),
     'clast_collider': (64, {'monomers': (0, 8), 'radius': (8, 8), 'mass': (16, 8), 'velocity': (24, 24), 'speed_rms': (48, 8), 'settling_speed': (56, 8)}),
-    'clast_medium': (120, {'temperature': (0, 8), 'viscosity': (8, 8), 'density': (16, 8), 'particle_density': (24, 8), 'mean_free_path': (32, 8), 'shear': (40, 8), 'dissipation': (48, 8), 'shear_constant': (56, 8), 'speed_rms': (64, 8), 'gravity': (72, 8), 'efficiency': (80, 8), 'constant': (88, 8), 'additive': (96, 8), 'product': (104, 8), 'settling_law': (112, 4)}),
+    'clast_medium': (136, {'temperature': (0, 8), 'viscosity': (8, 8), 'density': (16, 8), 'particle_density': (24, 8), 'mean_free_path': (32, 8), 'shear': (40, 8), 'dissipation': (48, 8), 'shear_constant': (56, 8), 'speed_rms': (64, 8), 'gravity': (72, 8), 'efficiency': (80, 8), 'constant': (88, 8), 'constant_d': (96, 4), 'additive': (104, 8), 'additive_d': (112, 4), 'product': (120, 8), 'product_d': (128, 4), 'settling_law': (132, 4)}),
     'clast_kernel_info': (40, {'name': (0, 8), 'formula': (8, 8), 'source': (16, 8), 'needs': (24, 4), 'mechanisms': (28, 4), 'is_model': (32, 1)}),
     'clast_kernel_range': (48, {'owner': (0, 8), 'quantity': (8, 8), 'low': (16, 8), 'high': (24, 8), 'source': (32, 8), 'instead': (40, 8)}),
     'clast_range_use': (40, {'n': (0, 8), 'outside': (8, 8), 'row': (16, 4), 'value': (24, 8), 'excess': (32, 8)}),
@@ -3198,9 +3214,9 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4), 'pairs_most': (36, 4)}),
     'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
-    'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
+    'clast_collide_config': (304, {'kernel': (0, 4), 'medium': (8, 136), 'alpha': (144, 8), 'sticking': (152, 80), 'out_of_range': (232, 4), 'radius_law': (236, 4), 'collisions': (240, 4), 'monomer_radius': (248, 8), 'fractal_dimension': (256, 8), 'fractal_prefactor': (264, 8), 'leap': (272, 8), 'block': (280, 4), 'self_collisions': (284, 1), 'keep_positions': (285, 1), 'seed': (288, 8), 'count_unit': (296, 8)}),
     'clast_spectrum': (232, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'volume_fraction': (96, 8), 'law_M1': (104, 8), 'law_M2': (112, 8), 'is_drawn': (120, 1), 'mass_error': (128, 8), 'n_evaluation': (136, 8), 'range': (144, 88)}),
-    'clast_agglomerate_config': (496, {'decompose': (0, 152), 'collide': (152, 288), 'kernel': (440, 8), 'duration': (448, 8), 'n_step': (456, 4), 'repeats': (460, 4), 'rebuild': (464, 4), 'change_level': (472, 8), 'fixed': (480, 4), 'depth': (488, 8)}),
+    'clast_agglomerate_config': (512, {'decompose': (0, 152), 'collide': (152, 304), 'kernel': (456, 8), 'duration': (464, 8), 'n_step': (472, 4), 'repeats': (476, 4), 'rebuild': (480, 4), 'change_level': (488, 8), 'fixed': (496, 4), 'depth': (504, 8)}),
     'clast_agglomeration': (272, {'history': (0, 32), 'particles': (32, 32), 'members': (64, 32), 'spectrum': (96, 32), 'n_rebuilt': (128, 4), 'n_snapshot': (132, 4), 'n_unresolved': (136, 4), 'n_repeated': (144, 8), 'n_cell': (152, 4), 'volume_fraction': (160, 8), 'has_exact': (168, 1), 'has_fixed': (169, 1), 'is_gelation': (170, 1), 'n_gelled': (172, 4), 'gel_time': (176, 8), 'range': (184, 88)}),
     'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'fall_speed': (289, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
     'clast_aggregate_result': (528, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'n_grain_all': (16, 4), 'contact': (20, 4), 'mass': (24, 8), 'solid_sum': (32, 8), 'solid_union': (40, 8), 'solid_union_error': (48, 8), 'n_envelope': (56, 4), 'envelope': (64, 280), 'porosity': (344, 56), 'd_agg': (400, 8), 'density': (408, 8), 'radius_of_gyration': (416, 8), 'settling_velocity': (424, 8), 'settling_velocity_permeable': (432, 8), 'permeable': (440, 4), 'coat_porosity': (448, 8), 'coat_grain': (456, 8), 'permeability': (464, 8), 'drag_permeable': (472, 8), 'max_overlap': (480, 8), 'max_overlap_relative': (488, 8), 'n_lost': (496, 4), 'stop': (500, 4), 'contact_s': (504, 8), 'envelope_s': (512, 8), 'wall_s': (520, 8)}),
@@ -3209,8 +3225,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_report': (128, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8), 'is_printable': (32, 1), 'printable': (40, 88)}),
     'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
-    'clast_evolve_config': (552, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'accept_faults': (280, 1), 'curve': (288, 8), 'particles': (296, 4), 'weight': (304, 8), 'release': (312, 8), 'points': (320, 8), 'columns': (328, 16), 'diameter_column': (344, 8), 'domain': (352, 8), 'floor': (360, 4), 'sides': (364, 4), 'open_top': (368, 1), 'wind': (376, 8), 'field': (384, 8), 'field_columns': (392, 8), 'wind_shear': (400, 8), 'eddy_diffusivity': (408, 8), 'brownian': (416, 1), 'fall': (420, 4), 'structure': (424, 1), 'collision_radius': (428, 4), 'meeting': (432, 4), 'walk_step': (440, 8), 'max_tries': (448, 4), 'even': (452, 4), 'change_level': (456, 8), 'duration': (464, 8), 'rows': (472, 4), 'step_error': (480, 8), 'time_step': (488, 8), 'seed': (496, 8), 'keep': (504, 4), 'bed_width': (512, 8), 'frames': (520, 4), 'checkpoint_time': (528, 8), 'resume': (536, 8), 'force': (544, 1)}),
-    'clast_evolve_result': (520, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'gathered_top': (112, 8), 'weight_words': (120, 160), 'is_field_apart': (280, 1), 'mass_balance': (288, 8), 'number_balance': (296, 8), 'n_cut': (304, 8), 'n_test': (312, 8), 'n_unresolved': (320, 8), 'grains_most': (328, 8), 'deposit_diameter': (336, 8), 'deposit_porosity': (344, 8), 'deposit_speed': (352, 8), 'deposit_grains': (360, 8), 'volume_fraction': (368, 8), 'fall_reynolds': (376, 8), 'fall_reynolds_limit': (384, 8), 'fractal_dimension': (392, 8), 'fractal_error': (400, 8), 'range': (408, 40), 'hash': (448, 8), 'wall_s': (456, 8), 'n_frame': (464, 4), 'n_written': (468, 4), 'bed_width': (472, 8), 'bed_height': (480, 8), 'is_bed_empty': (488, 1), 'bed_mass': (496, 8), 'bed_least': (504, 8), 'folder': (512, 8)}),
+    'clast_evolve_config': (568, {'medium': (0, 136), 'kernel': (136, 8), 'alpha': (144, 8), 'sticking': (152, 80), 'out_of_range': (232, 4), 'shapes': (240, 16), 'shape_weight': (256, 16), 'density': (272, 16), 'unit': (288, 8), 'accept_faults': (296, 1), 'curve': (304, 8), 'particles': (312, 4), 'weight': (320, 8), 'release': (328, 8), 'points': (336, 8), 'columns': (344, 16), 'diameter_column': (360, 8), 'domain': (368, 8), 'floor': (376, 4), 'sides': (380, 4), 'open_top': (384, 1), 'wind': (392, 8), 'field': (400, 8), 'field_columns': (408, 8), 'wind_shear': (416, 8), 'eddy_diffusivity': (424, 8), 'brownian': (432, 1), 'fall': (436, 4), 'structure': (440, 1), 'collision_radius': (444, 4), 'meeting': (448, 4), 'walk_step': (456, 8), 'max_tries': (464, 4), 'even': (468, 4), 'change_level': (472, 8), 'duration': (480, 8), 'rows': (488, 4), 'step_error': (496, 8), 'time_step': (504, 8), 'seed': (512, 8), 'keep': (520, 4), 'bed_width': (528, 8), 'frames': (536, 4), 'checkpoint_time': (544, 8), 'resume': (552, 8), 'force': (560, 1)}),
+    'clast_evolve_result': (776, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'n_wall': (88, 8), 'mass_wall': (96, 8), 'gathered': (104, 8), 'gathered_top': (112, 8), 'weight_words': (120, 160), 'points_words': (280, 256), 'is_field_apart': (536, 1), 'mass_balance': (544, 8), 'number_balance': (552, 8), 'n_cut': (560, 8), 'n_test': (568, 8), 'n_unresolved': (576, 8), 'grains_most': (584, 8), 'deposit_diameter': (592, 8), 'deposit_porosity': (600, 8), 'deposit_speed': (608, 8), 'deposit_grains': (616, 8), 'volume_fraction': (624, 8), 'fall_reynolds': (632, 8), 'fall_reynolds_limit': (640, 8), 'fractal_dimension': (648, 8), 'fractal_error': (656, 8), 'range': (664, 40), 'hash': (704, 8), 'wall_s': (712, 8), 'n_frame': (720, 4), 'n_written': (724, 4), 'bed_width': (728, 8), 'bed_height': (736, 8), 'is_bed_empty': (744, 1), 'bed_mass': (752, 8), 'bed_least': (760, 8), 'folder': (768, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
     'clast_pack_result': (1144, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity_state': (268, 4), 'porosity': (272, 8), 'porosity_least': (280, 8), 'cut': (288, 8), 'z_low': (296, 8), 'z_high': (304, 8), 'top': (312, 8), 'untrimmed': (320, 8), 'trim': (328, 8), 'walls': (336, 24), 'wall_share': (360, 8), 'mass_wanted': (368, 8), 'n_loose': (376, 4), 'is_moving': (380, 1), 'fell': (381, 1), 'sank': (384, 8), 'still_diameters': (392, 8), 'own_density': (400, 8), 'given_density': (408, 8), 'flatness': (416, 16), 'elongation': (432, 16), 'n_frame': (448, 8), 'frame_interval': (456, 8), 'n_overlap': (464, 8), 'deepest_start': (472, 8), 'start_snapshot': (480, 8), 'n_start_snapshot': (488, 8), 'start_step': (496, 8), 'n_stage': (504, 4), 'n_left': (512, 8), 'mass_left': (520, 8), 'cell': (528, 96), 'load': (624, 272), 'energy': (896, 176), 'ranks': (1072, 72)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
@@ -3404,6 +3420,7 @@ VALUES: dict[str, int] = {
     'CLAST_EVEN_TREE': 0,
     'CLAST_EVEN_BOXES': 1,
     'CLAST_EVEN_WHOLE': 2,
+    'CLAST_POINTS_WORDS': 256,
     'CLAST_EVOLVE_BALANCE': 0,
     'CLAST_EVOLVE_SPECTRUM': 1,
     'CLAST_EVOLVE_EVENTS': 2,
@@ -4133,7 +4150,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_manifest_write': (c_int, [c_void_p, c_char_p, c_char_p], 'Writes the manifest, whole or not at all; may be called at the start and again at the end.'),
     'clast_fields_json': (c_int, [POINTER(clast_field), c_void_p, POINTER(c_char_p)], 'A configuration as one JSON object of SI values in table order; free it with clast_text_free.'),
     'clast_text_free': (None, [c_char_p], 'Frees a text that the library made; NULL is allowed.'),
-    'clast_sha256_file': (c_int, [c_char_p, c_char_p, POINTER(c_int64)], 'SHA-256 of a file in 64 lower-case hexadecimal digits.'),
+    'clast_sha256_file': (c_int, [c_char_p, c_char_p, POINTER(c_int64)], 'SHA-256 of a file in 64 lower-case hexadecimal digits, or "" and 0 bytes for a pipe or a device, which is read only once.'),
     'clast_run_inputs_agree': (c_int, [POINTER(clast_comm), POINTER(clast_field), c_void_p, c_int32, POINTER(c_char_p)], 'Refuses ranks that read different things, as from copies on their own disks: options, or files by their SHA-256.'),
     'clast_run_folder_begin': (c_int, [c_char_p, c_bool, c_char_p, POINTER(clast_monitor), POINTER(c_void_p)], 'Takes a folder for a run and starts its clocks; nothing is written yet.'),
     'clast_run_folder_destroy': (None, [c_void_p], 'NULL is allowed.'),
@@ -4618,7 +4635,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'weight_column': ('text', '', '-', None, None, None, 'column of weights: real particles that a parcel stands for'),
         'variable_column': ('text', '', '-', None, None, None, 'column of a variable (temperature) in which tree cells are uniform too'),
         'dataset': ('text', '', '-', None, None, None, 'array or folder of an HDF5 file'),
-        'frame': ('integer', 0.0, '-', -1000000000000.0, 1000000000000.0, None, 'snapshot of a LAMMPS dump, from 0; -1: the last'),
+        'frame': ('integer', 0.0, '-', -1000000000000.0, 1000000000000.0, None, 'snapshot of a LAMMPS dump or .xyz, from 0; -1: the last'),
         'domain_unit': ('text', '', '-', None, None, None, 'unit of bare numbers in --domain and of mesh:FILE; none: --unit, else what the file says'),
         'test_only': ('flag', False, '-', None, None, None, 'run the uniformity tests alone, exit code 1 when not uniform, 0 with fewer than 5 points (not tested)'),
         'charts': ('choice', 'svg', '-', None, None, 'svg|png|pdf', 'format of charts'),
@@ -4662,7 +4679,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'weight_column': ('text', '', '-', None, None, None, 'column of weights: real particles that a parcel stands for'),
         'variable_column': ('text', '', '-', None, None, None, 'column of a variable (temperature) in which tree cells are uniform too'),
         'dataset': ('text', '', '-', None, None, None, 'array or folder of an HDF5 file'),
-        'frame': ('integer', 0.0, '-', -1000000000000.0, 1000000000000.0, None, 'snapshot of a LAMMPS dump, from 0; -1: the last'),
+        'frame': ('integer', 0.0, '-', -1000000000000.0, 1000000000000.0, None, 'snapshot of a LAMMPS dump or .xyz, from 0; -1: the last'),
         'domain_unit': ('text', '', '-', None, None, None, 'unit of bare numbers in --domain and of mesh:FILE; none: --unit, else what the file says'),
         'monomers_column': ('text', '', '-', None, None, None, 'column of whole numbers of monomers; none: 1 each'),
         'speed_rms_column': ('text', '', '-', None, None, None, "column of the particles' turbulent velocities [m/s]"),

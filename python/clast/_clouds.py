@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import os
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from . import _bindings as c
 from ._boxes import check_used, warn_by
 from ._core import (Config, Fixed, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, fixed, html_last, html_members, html_table,
-                    items, numbers, output_path, refuse, refuse_idle, settled, single, view, whole)
+                    items, numbers, output_path, refuse, refuse_idle, settled, single, view, warn, whole)
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -137,11 +138,18 @@ class Cloud(Fixed):
     @classmethod
     def read(cls, path: Path, *, columns: Any = "x,y,z", unit: str | None = "", radius_column: str = "", diameter_column: str = "",
              mass_column: str = "", velocity_columns: Any = "", weight_column: str = "", variable_column: str = "", dataset: str = "",
-             frame: int = 0, domain: str | None = None) -> Cloud:
-        """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
+             frame: int | None = None, domain: str | None = None) -> Cloud:
+        """The points of a CSV, VTK, XYZ, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`.
+
+        `frame` is the snapshot of an XYZ or dump, from 0, -1 the last; None: the first, which is said where there are others.
+        """
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
-        options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
+        options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame or 0, -2**63, 2**63 - 1))
+        read = c.clast_points_snapshot()
+        options.snapshot = ctypes.pointer(read)
         check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
+        if frame is None and read.n > 1:
+            warn(f"{os.fspath(path)}: snapshot {read.number} of {read.n}" + (f", TIMESTEP {read.step}" if read.step >= 0 else ""))
         names = dict(radius_column=radius_column, diameter_column=diameter_column, mass_column=mass_column, weight_column=weight_column,
                      variable_column=variable_column, unit=unit)
         wanted = c.clast_cloud_columns(**{name: encoded(name, "" if text is None else text) for name, text in names.items()})

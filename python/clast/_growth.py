@@ -140,8 +140,9 @@ def evolve(*, output: Path | None = None, progress: Progress = None, **keys: Any
                  "the velocity is that at its edge)")
         if result.is_bed_empty:
             note("bed_width: nothing lies on the floor; there is no deposit.h5")
-        if result.weight_words:
-            warn(result.weight_words.decode())
+        for words in (result.weight_words, result.points_words):
+            if words:
+                warn(words.decode())
         warn_by("clast_kernel_dense_words", result.volume_fraction)
         return Result(values, _folder(output, resumed))
     finally:

@@ -2,6 +2,7 @@
 #include <clast/evolve.h>
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include "base/path.h"
 #include "io/config_files.h"
 #include "io/points.h"
@@ -9,6 +10,7 @@
 #include <clast/aggregate_run.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 void clast_evolve_unload(clast_evolve_source *source)
 {
@@ -63,16 +65,65 @@ static clast_status load_domain(const char *option, const char *text, clast_doma
     return status;
 }
 
+/// A column of numbers that are sizes by its name, "diameter", "diameter_um", "radius (mm)"; NULL:
+/// none is.
+static const char *find_sizes(const clast_table *table)
+{
+    static const char *const words[] = {"diameter", "volume_diameter", "radius"};
+    char unit[CLX_COLUMN_UNIT];
+    for (size_t w = 0; w < sizeof words / sizeof words[0]; ++w) {
+        const size_t n = strlen(words[w]);
+        for (int32_t k = 0; k < table->n_column; ++k) {
+            const clast_column *c = &table->column[k];
+            if (c->number != NULL && strncasecmp(c->name, words[w], n) == 0 &&
+                (c->name[n] == '\0' || clx_column_says_length(c->name, unit))) {
+                return c->name;
+            }
+        }
+    }
+    return NULL;
+}
+
+/// What nothing reads of a file of points.
+static void tell_unread(const clast_evolve_config *c, const clast_table *table,
+                        const clast_points_snapshot *snapshot, char words[CLAST_POINTS_WORDS])
+{
+    char sizes[CLAST_POINTS_WORDS / 2] = "";
+    char which[CLAST_POINTS_WORDS / 4] = "";
+    const char *const column = c->diameter_column[0] == '\0' ? find_sizes(table) : NULL;
+    if (column != NULL) {
+        (void)snprintf(sizes, sizeof sizes,
+                       "column '%.40s' is not looked at: sizes are those of the curve "
+                       "(--diameter-column: of diameters)",
+                       column);
+    }
+    if (snapshot->n > 1) {
+        (void)snprintf(which, sizeof which, "snapshot %lld of %lld", (long long)snapshot->number,
+                       (long long)snapshot->n);
+    }
+    if (sizes[0] != '\0' || which[0] != '\0') {
+        (void)snprintf(words, CLAST_POINTS_WORDS, "points: %s%s%s", which,
+                       which[0] != '\0' && sizes[0] != '\0' ? "; " : "", sizes);
+    }
+}
+
 /// Rows of three coordinates with what else the columns name; `option` stands before messages.
 /// Points are bodies, which no faces join; a field's may be nodes of a mesh.
-static clast_status load_cloud(const char *option, const char *path,
-                               const clast_cloud_columns *columns, clast_cloud *cloud)
+static clast_status load_cloud(const clast_evolve_config *c, const char *option, const char *path,
+                               const clast_cloud_columns *columns, clast_evolve_source *made)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
     bool has_faces = false;
-    CLX_TRY(columns->velocity_columns.n > 0 ? clx_points_read(path, NULL, &table, &has_faces)
-                                            : clast_cloud_read(path, NULL, &table));
+    clast_points_snapshot snapshot;
+    const clast_points_options options = {.snapshot = &snapshot};
+    const bool is_field = columns->velocity_columns.n > 0;
+    clast_cloud *const cloud = is_field ? &made->field : &made->points;
+    CLX_TRY(is_field ? clx_points_read(path, NULL, &table, &has_faces)
+                     : clast_cloud_read(path, &options, &table));
+    if (!is_field) {
+        tell_unread(c, &table, &snapshot, made->points_words);
+    }
     CLX_TRY(clast_cloud_from_table(&table, columns, cloud));
     CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT,
               "%s has %d coordinates of three; name its columns (columns)", path, cloud->dimension);
@@ -95,10 +146,10 @@ static clast_status load_clouds(const clast_evolve_config *c, clast_evolve_sourc
     const clast_cloud_columns field = {.columns = {.n = 1, .item = &usual},
                                        .velocity_columns = {.n = 1, .item = &velocity}};
     if (c->points[0] != '\0') {
-        CLX_TRY(load_cloud("points", c->points, &points, &made->points));
+        CLX_TRY(load_cloud(c, "points", c->points, &points, made));
     }
     if (c->field[0] != '\0') {
-        CLX_TRY(load_cloud("field", c->field, &field, &made->field));
+        CLX_TRY(load_cloud(c, "field", c->field, &field, made));
     }
 done:
     return status;

@@ -18,45 +18,6 @@
 
 #define BYTE_LIMIT (INT64_C(16) << 30)
 
-/// Rows of an .xyz, behind a count and a comment.
-typedef struct {
-    int64_t count, comment, begin, end;
-} rows;
-
-/// The rows of snapshot `wanted`, or of the last one before it, and how many there are up to it; 0
-/// where there is no count. What follows the rows that are counted belongs to them, unless it
-/// begins with a count.
-static int64_t find_xyz(const char *bytes, int64_t n, int64_t wanted, rows *found)
-{
-    clx_text text = clx_text_begin(bytes, (size_t)n, 0, false);
-    clx_text peek = text;
-    clx_word head;
-    clx_word word;
-    int64_t n_snapshot = 0;
-    int64_t count = 0;
-    bool is_head = clx_text_word(&peek, &head) && clx_word_integer(head, &count) &&
-                   !clx_text_word(&peek, &word);
-    while (is_head && n_snapshot <= wanted && clx_text_next_line(&text)) {
-        const int64_t first = head.text - bytes;
-        const int64_t comment = text.at - bytes;
-        if (!clx_text_next_line(&text)) {
-            break;
-        }
-        *found = (rows){first, comment, text.at - bytes, n};
-        ++n_snapshot;
-        for (int64_t i = 0; i < count && clx_text_next_line(&text); ++i) {
-        }
-        peek = text;
-        is_head = clx_text_any_word(&peek, &head) && clx_word_integer(head, &count) &&
-                  !clx_text_word(&peek, &word);
-        if (is_head) {
-            found->end = text.at - bytes;
-            text = peek;
-        }
-    }
-    return n_snapshot;
-}
-
 /// The rows of the wanted snapshot as a table without names.
 static clast_status parse_xyz(const char *path, const char *bytes, int64_t n,
                               const clx_packing_wanted *wanted, clast_packing_report *report,
@@ -64,18 +25,15 @@ static clast_status parse_xyz(const char *path, const char *bytes, int64_t n,
 {
     static const clast_csv_options atoms = {.separator = ' ', .no_comment = true, .header = -1};
     clast_status status = CLAST_OK;
-    rows found = {0, 0, 0, n};
-    const int64_t n_snapshot = find_xyz(bytes, n, INT64_MAX - 1, &found);
-    const int64_t k = wanted->frame < 0 ? n_snapshot + wanted->frame : wanted->frame;
-    CLX_CHECK(k >= 0 && k < n_snapshot, CLAST_E_FORMAT, "%s: there is no snapshot %lld among %lld",
-              path, (long long)wanted->frame, (long long)n_snapshot);
-    (void)find_xyz(bytes, n, k, &found);
+    clx_xyz_rows found;
+    clast_points_snapshot snapshot;
+    CLX_TRY(clx_xyz_frame(path, bytes, n, wanted->frame, &found, &snapshot));
     if (!wanted->is_old) {
         clx_xyz_lattice(bytes + found.comment, (size_t)(found.begin - found.comment),
                         &report->frame);
     }
-    report->snapshot = k + 1;
-    report->n_snapshot = n_snapshot;
+    report->snapshot = snapshot.number;
+    report->n_snapshot = snapshot.n;
     if (!wanted->is_old &&
         clx_xyz_has_properties(bytes + found.comment, (size_t)(found.begin - found.comment))) {
         return clx_points_xyz(path, bytes + found.count, (size_t)(found.end - found.count), table);
@@ -125,11 +83,11 @@ static clast_status parse(const char *path, const char *bytes, int64_t n,
                           const clx_packing_wanted *wanted, clx_packing_told *told,
                           clast_table *table)
 {
-    rows found;
+    clx_xyz_rows found;
     if (n > 5 && memcmp(bytes, "ITEM:", 5) == 0) {
         return parse_dump(path, bytes, n, wanted, told, table);
     }
-    if (clx_path_is(path, "xyz") && find_xyz(bytes, n, 0, &found) > 0) {
+    if (clx_path_is(path, "xyz") && clx_xyz_find(bytes, n, 0, &found) > 0) {
         return parse_xyz(path, bytes, n, wanted, &told->report, table);
     }
     CLX_GUARD(refuse_frame(path, wanted));

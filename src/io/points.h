@@ -4,6 +4,7 @@
 #include <clast/table.h>
 
 typedef struct clast_points_options clast_points_options;
+typedef struct clast_points_snapshot clast_points_snapshot;
 
 /// Some rows of an array.
 typedef struct clx_rows {
@@ -31,7 +32,7 @@ clast_status clx_points_read(const char *path, const clast_points_options *optio
 /// z, grain, shape, scale, density, orientation_wxyz_0 to _3; names: a row for each shape.
 CLX_SHARED clast_status clx_vtu_grains(const char *path, clast_table *grains, clast_table *names);
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
-                             clast_table *table);
+                             clast_table *table, clast_points_snapshot *snapshot);
 
 /// What a dump says beside its atoms.
 typedef struct clx_dump_head {
@@ -50,6 +51,20 @@ clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast
                             bool *has_faces);
 clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast_table *table);
 
+/// Bytes of one snapshot of an XYZ file: where its count, its comment and its rows begin, its end.
+typedef struct clx_xyz_rows {
+    int64_t count, comment, begin, end;
+} clx_xyz_rows;
+
+/// The rows of snapshot `wanted`, or of the last one before it, and how many there are up to it; 0
+/// where there is no count. What follows the rows that are counted belongs to them, unless it
+/// begins with a count.
+int64_t clx_xyz_find(const char *bytes, int64_t n, int64_t wanted, clx_xyz_rows *found);
+
+/// That of `frame`, from 0, or from the end; CLAST_E_FORMAT where there is none.
+clast_status clx_xyz_frame(const char *name, const char *bytes, int64_t n, int64_t frame,
+                           clx_xyz_rows *found, clast_points_snapshot *snapshot);
+
 /// Whether the bytes begin with a count, a line of words, and so many rows "NAME x y z".
 bool clx_points_is_xyz(const void *bytes, size_t n);
 
@@ -60,9 +75,9 @@ clast_status clx_points_h5(const char *path, const char *dataset, const clx_rows
 /// Rows of all arrays of an HDF5 file that clx_points_h5 reads.
 clast_status clx_points_h5_rows(const char *path, const char *dataset, int64_t *n_row);
 
-/// A snapshot is asked of a dump, an array of an HDF5 file: CLAST_E_USAGE else.
+/// A snapshot is asked of a dump or an XYZ, an array of an HDF5 file: CLAST_E_USAGE else.
 clast_status clx_points_check_options(const char *name, const clast_points_options *options,
-                                      bool is_dump, bool is_h5);
+                                      bool has_frames, bool is_h5);
 
 /// Whether a file that begins with these bytes is delimited text.
 bool clx_points_is_text(const char *bytes, size_t n);

@@ -5,6 +5,7 @@
 #include "base/column_unit.h"
 #include "io/packing.h"
 #include "io/text.h"
+#include <clast/cloud.h>
 #include <clast/field.h>
 #include <clast/table.h>
 #include <ctype.h>
@@ -375,15 +376,15 @@ done:
 }
 
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
-                             clast_table *table)
+                             clast_table *table, clast_points_snapshot *snapshot)
 {
     clast_status status = CLAST_OK;
     clast_table made = {0};
-    dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name, .head = {.step = -1}};
-    CLX_TRY(find_frame(&d, frame));
-    CLX_TRY(read_dump(&d, &made));
-    const clx_lammps_units *units = clx_lammps_units_of(d.head.units);
+    clx_dump_head head = {0};
+    CLX_TRY(clx_dump_read(name, bytes, n, frame, &made, &head));
+    const clx_lammps_units *units = clx_lammps_units_of(head.units);
     CLX_TRY(units != NULL ? tell_units(units, &made) : CLAST_OK);
+    *snapshot = (clast_points_snapshot){head.snapshot + 1, head.n_snapshot, head.step};
     *table = made;
     made = (clast_table){0};
 done:

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include <clast/cloud.h>
 #include <clast/table.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,11 +62,11 @@ bool clx_points_is_text(const char *bytes, size_t n)
 }
 
 clast_status clx_points_check_options(const char *name, const clast_points_options *options,
-                                      bool is_dump, bool is_h5)
+                                      bool has_frames, bool is_h5)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(options == NULL || options->frame == 0 || is_dump, CLAST_E_USAGE,
-              "frame %lld: snapshots are those of a LAMMPS dump, and %s is none",
+    CLX_CHECK(options == NULL || options->frame == 0 || has_frames, CLAST_E_USAGE,
+              "frame %lld: snapshots are those of a LAMMPS dump or .xyz, and %s is none",
               (long long)options->frame, name);
     CLX_CHECK(options == NULL || options->dataset == NULL || options->dataset[0] == '\0' || is_h5,
               CLAST_E_USAGE, "dataset %s: arrays are those of an HDF5 file, and %s is none",
@@ -74,18 +75,60 @@ done:
     return status;
 }
 
+static void tell_snapshot(const clast_points_options *options,
+                          const clast_points_snapshot *snapshot)
+{
+    if (options != NULL && options->snapshot != NULL) {
+        *options->snapshot = *snapshot;
+    }
+}
+
+static const clast_points_snapshot only = {1, 1, -1};
+
+clast_status clx_xyz_frame(const char *name, const char *bytes, int64_t n, int64_t frame,
+                           clx_xyz_rows *found, clast_points_snapshot *snapshot)
+{
+    clast_status status = CLAST_OK;
+    *found = (clx_xyz_rows){0, 0, 0, n};
+    const int64_t n_snapshot = clx_xyz_find(bytes, n, INT64_MAX - 1, found);
+    const int64_t k = frame < 0 ? n_snapshot + frame : frame;
+    CLX_CHECK(k >= 0 && k < n_snapshot, CLAST_E_FORMAT,
+              "%s: there is no snapshot %" PRId64 " among %" PRId64, name, frame, n_snapshot);
+    (void)clx_xyz_find(bytes, n, k, found);
+    *snapshot = (clast_points_snapshot){k + 1, n_snapshot, -1};
+done:
+    return status;
+}
+
+/// The wanted snapshot of a dump or XYZ.
+static clast_status parse_frame(const char *name, const void *bytes, size_t n, bool is_dump,
+                                const clast_points_options *options, clast_table *table)
+{
+    const int64_t frame = options != NULL ? options->frame : 0;
+    clast_points_snapshot snapshot;
+    clx_xyz_rows found;
+    if (is_dump) {
+        CLX_GUARD(clx_points_dump(name, bytes, n, frame, table, &snapshot));
+    } else {
+        CLX_GUARD(clx_xyz_frame(name, bytes, (int64_t)n, frame, &found, &snapshot));
+        CLX_GUARD(clx_points_xyz(name, (const char *)bytes + found.count,
+                                 (size_t)(found.end - found.count), table));
+    }
+    tell_snapshot(options, &snapshot);
+    return CLAST_OK;
+}
+
 clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
                               const clast_points_options *options, clast_table *table,
                               bool *has_faces)
 {
     const bool is_dump = begins(bytes, n, "ITEM:");
-    const clast_status status = clx_points_check_options(name, options, is_dump, false);
-    if (status != CLAST_OK) {
-        return status;
+    const bool has_frames = is_dump || clx_points_is_xyz(bytes, n);
+    CLX_GUARD(clx_points_check_options(name, options, has_frames, false));
+    if (has_frames) {
+        return parse_frame(name, bytes, n, is_dump, options, table);
     }
-    if (is_dump) {
-        return clx_points_dump(name, bytes, n, options != NULL ? options->frame : 0, table);
-    }
+    tell_snapshot(options, &only);
     if (begins(bytes, n, "# vtk DataFile")) {
         return clx_points_vtk(name, bytes, n, table, has_faces);
     }
@@ -94,9 +137,6 @@ clast_status clx_points_parse(const char *name, const void *bytes, size_t n,
     }
     if (is_word(bytes, n, "ply")) {
         return clx_points_ply(name, bytes, n, table, has_faces);
-    }
-    if (clx_points_is_xyz(bytes, n)) {
-        return clx_points_xyz(name, bytes, n, table);
     }
     CLX_GUARD(clx_points_check_kind(name, bytes, n));
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
@@ -143,6 +183,7 @@ clast_status clx_points_read(const char *path, const clast_points_options *optio
         clx_free(bytes);
         bytes = NULL;
         CLX_TRY(clx_points_check_options(path, options, false, true));
+        tell_snapshot(options, &only);
         CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, NULL, table));
     } else {
         CLX_TRY(clx_points_parse(path, bytes, (size_t)n, options, table, has_faces));

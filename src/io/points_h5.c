@@ -4,12 +4,14 @@
 #include "io/points.h"
 
 #include "base/alloc.h"
+#include "base/column_unit.h"
 #include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
-enum { WIDTH_LIMIT = 4096, MOST_RATIO = 1032 };
+enum { WIDTH_LIMIT = 4096, MOST_RATIO = 1032, MOST_PROPERTIES = 16 };
 
 /// Sizes and storage of an open array; *n rows of *width numbers that the file can hold.
 static clast_status check_array(const clx_h5 *h5, const char *name, hid_t set, int64_t *n,
@@ -27,6 +29,11 @@ static clast_status check_array(const clx_h5 *h5, const char *name, hid_t set, i
     CLX_CHECK((rank == 1 || rank == 2) && (kind == H5T_FLOAT || kind == H5T_INTEGER),
               CLAST_E_FORMAT, "%s: %s is not an array [n] or [n][k] of numbers", h5->label, name);
     (void)H5Sget_simple_extent_dims(space, size, NULL);
+    CLX_CHECK(size[1] <= MOST_PROPERTIES || size[0] >= size[1], CLAST_E_FORMAT,
+              "%s: array %s has %" PRIu64 " rows of %" PRIu64
+              " numbers, and a row is a point: give its transpose [%" PRIu64 "][%" PRIu64 "]",
+              h5->label, name, (uint64_t)size[0], (uint64_t)size[1], (uint64_t)size[1],
+              (uint64_t)size[0]);
     CLX_CHECK(size[1] >= 1 && size[1] <= WIDTH_LIMIT && size[0] < (hsize_t)1 << 40, CLAST_E_FORMAT,
               "%s: array %s has %" PRIu64 " x %" PRIu64 " numbers", h5->label, name,
               (uint64_t)size[0], (uint64_t)size[1]);
@@ -43,6 +50,66 @@ done:
     (void)(space >= 0 && H5Sclose(space));
     (void)(type >= 0 && H5Tclose(type));
     (void)(create >= 0 && H5Pclose(create));
+    return status;
+}
+
+/// "millimeters" as "mm".
+static void to_symbol(char unit[CLX_COLUMN_UNIT])
+{
+    static const char *const metre[] = {"meter", "meters", "metre", "metres"};
+    static const char *const prefix[][2] = {{"", ""},       {"kilo", "k"},  {"centi", "c"},
+                                            {"milli", "m"}, {"micro", "u"}, {"nano", "n"}};
+    for (size_t k = 0; k < sizeof prefix / sizeof prefix[0]; ++k) {
+        const size_t n = strlen(prefix[k][0]);
+        for (size_t j = 0; j < sizeof metre / sizeof metre[0]; ++j) {
+            if (strncasecmp(unit, prefix[k][0], n) == 0 && strcasecmp(unit + n, metre[j]) == 0) {
+                (void)snprintf(unit, CLX_COLUMN_UNIT, "%sm", prefix[k][1]);
+                return;
+            }
+        }
+    }
+}
+
+/// What the array's attribute "units" or "unit" says, "" for none.
+static void read_unit(hid_t set, char unit[CLX_COLUMN_UNIT])
+{
+    static const char *const name[] = {"units", "unit"};
+    unit[0] = '\0';
+    for (size_t k = 0; k < sizeof name / sizeof name[0] && unit[0] == '\0'; ++k) {
+        const bool is_there = H5Aexists(set, name[k]) > 0;
+        const hid_t of = is_there ? H5Aopen(set, name[k], H5P_DEFAULT) : H5I_INVALID_HID;
+        const hid_t type = of >= 0 ? H5Aget_type(of) : H5I_INVALID_HID;
+        const hid_t space = of >= 0 ? H5Aget_space(of) : H5I_INVALID_HID;
+        const bool is_text = type >= 0 && H5Tget_class(type) == H5T_STRING && space >= 0 &&
+                             H5Sget_simple_extent_npoints(space) == 1;
+        char *text = NULL;
+        if (is_text && H5Tis_variable_str(type) > 0) {
+            if (H5Aread(of, type, &text) >= 0 && text != NULL) {
+                (void)snprintf(unit, CLX_COLUMN_UNIT, "%s", text);
+                (void)H5free_memory(text);
+            }
+        } else if (is_text && H5Tget_size(type) < CLX_COLUMN_UNIT) {
+            unit[H5Tget_size(type)] = '\0';
+            unit[H5Aread(of, type, unit) >= 0 ? CLX_COLUMN_UNIT - 1 : 0] = '\0';
+        }
+        (void)(space >= 0 && H5Sclose(space));
+        (void)(type >= 0 && H5Tclose(type));
+        (void)(of >= 0 && H5Aclose(of));
+    }
+    to_symbol(unit);
+}
+
+/// Columns from `first` on are in a unit.
+static clast_status tell_unit(clast_table *table, int32_t first, const char *unit)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t k = first; k < table->n_column && unit[0] != '\0'; ++k) {
+        char *text = NULL;
+        CLX_TRY(clx_alloc_text(&text, unit));
+        clx_free(table->column[k].unit);
+        table->column[k].unit = text;
+    }
+done:
     return status;
 }
 
@@ -109,6 +176,7 @@ static clast_status add_array(const clx_h5 *h5, const char *path, const char *la
 {
     clast_status status = CLAST_OK;
     double *value = NULL;
+    char unit[CLX_COLUMN_UNIT];
     int64_t n = 0;
     int64_t width = 0;
     const hid_t set = H5Dopen2(h5->file, path, H5P_DEFAULT);
@@ -136,7 +204,10 @@ static clast_status add_array(const clx_h5 *h5, const char *path, const char *la
     CLX_TRY(clx_alloc(&value, n * width, sizeof *value));
     CLX_CHECK(read_rows(set, &rows, width, rank_of(set), value), CLAST_E_FORMAT,
               "%s: array %s is damaged or packed in a way that is not read", h5->label, path);
+    const int32_t first = table->n_column;
     CLX_TRY(add_values(table, label, width, value));
+    read_unit(set, unit);
+    CLX_TRY(tell_unit(table, first, unit));
 done:
     clx_free(value);
     if (set >= 0) {

@@ -85,6 +85,37 @@ bool clx_points_is_xyz(const void *bytes, size_t n)
     return n_number == 3;
 }
 
+int64_t clx_xyz_find(const char *bytes, int64_t n, int64_t wanted, clx_xyz_rows *found)
+{
+    clx_text text = clx_text_begin(bytes, (size_t)n, 0, false);
+    clx_text peek = text;
+    clx_word head;
+    clx_word word;
+    int64_t n_snapshot = 0;
+    int64_t count = 0;
+    bool is_head = clx_text_word(&peek, &head) && clx_word_integer(head, &count) &&
+                   !clx_text_word(&peek, &word);
+    while (is_head && n_snapshot <= wanted && clx_text_next_line(&text)) {
+        const int64_t first = head.text - bytes;
+        const int64_t comment = text.at - bytes;
+        if (!clx_text_next_line(&text)) {
+            break;
+        }
+        *found = (clx_xyz_rows){first, comment, text.at - bytes, n};
+        ++n_snapshot;
+        for (int64_t i = 0; i < count && clx_text_next_line(&text); ++i) {
+        }
+        peek = text;
+        is_head = clx_text_any_word(&peek, &head) && clx_word_integer(head, &count) &&
+                  !clx_text_word(&peek, &word);
+        if (is_head) {
+            found->end = text.at - bytes;
+            text = peek;
+        }
+    }
+    return n_snapshot;
+}
+
 static clast_status add_columns(clast_table *table, int n_column)
 {
     static const char *const known[3] = {"x", "y", "z"};

@@ -154,14 +154,19 @@ static const char *list_words(const reader *r, char words[256])
 }
 
 /// What is retained on a sieve is larger than the sieve: a list would take all of it as large.
+/// Masses by phi are of sieves too: single grains are weighed in no such scale.
 static clast_status check_curve(const reader *r)
 {
     clast_status status = CLAST_OK;
     const int32_t sieve = find_word(r, "sieve");
-    const int32_t size = sieve >= 0 ? sieve : find_word(r, "opening");
+    int32_t size = sieve >= 0 ? sieve : find_word(r, "opening");
     int32_t retained = find_word(r, "retained");
     retained = retained >= 0 ? retained : find_word(r, "mass retained");
     retained = retained >= 0 ? retained : find_word(r, "mass_retained");
+    if (size < 0 && r->column[0] == '\0') {
+        size = find_word(r, "phi");
+        retained = retained >= 0 ? retained : find_kind(r, CLX_SIZE_COLUMN_MASS);
+    }
     CLX_CHECK(size < 0 || retained < 0 || r->use->curve_instead[0] == '\0', CLAST_E_CONFIG,
               "%s: '%s' and '%s' are a sieve curve: what stays on a sieve lies between it and the "
               "next larger one; %s",

@@ -125,6 +125,7 @@ static clast_status write_all(run *r, clast_evolve_result *made, clast_status *p
     clast_status status = CLAST_OK;
     CLX_TRY(clast_evolve_measure(r->evolve, made));
     made->wall_s = clx_clock() - r->begun;
+    memcpy(made->points_words, r->source.points_words, sizeof made->points_words);
     if (r->folder != NULL) {
         CLX_TRY(clx_evolve_write_collection(r->folder, r->evolve, &made->n_frame));
         CLX_TRY(clx_evolve_write_results(r->folder, r->text, r->config, &r->source.domain,

@@ -7,6 +7,7 @@
 #include "touch/tree.h"
 
 #include "base/alloc.h"
+#include "geom/union_find.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <string.h>
@@ -302,16 +303,6 @@ static clx_tree_box empty_box(int32_t item)
                           .item = item};
 }
 
-static int32_t root_of(int32_t *above, int32_t i)
-{
-    CLAST_ASSERT(i >= 0 && above[i] >= 0);
-    while (above[i] != i) {
-        above[i] = above[above[i]];
-        i = above[i];
-    }
-    return i;
-}
-
 /// One vertex of every part of the surface that hangs together by shared vertices.
 static clast_status find_parts(const clast_mesh *mesh, clx_touch_tree *tree)
 {
@@ -326,8 +317,7 @@ static clast_status find_parts(const clast_mesh *mesh, clx_touch_tree *tree)
         above[v] = v;
     }
     for (int32_t i = 0; i < 3 * mesh->n_tri; ++i) {
-        const int32_t root = root_of(above, mesh->tri[i / 3][0]);
-        above[root_of(above, mesh->tri[i / 3][i % 3])] = root;
+        clx_sets_join(above, mesh->tri[i / 3][0], mesh->tri[i / 3][i % 3]);
     }
     for (int32_t i = 0; i < mesh->n_vert; ++i) {
         tree->n_probe += above[i] == i;

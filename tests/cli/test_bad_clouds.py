@@ -177,6 +177,15 @@ class BadClouds(Case):
         line = "clast evolve: warning: points: column 'n_real' is not looked at: each row is one particle (--weight: of all alike)\n"
         self.assertEqual(clast(*bodies, parcels).err, line)
         self.assertEqual(clast(*bodies, ones).err, "")
+        for name in ("diameter_m", "Diameter (um)", "radius_mm", "volume_diameter_m"):  # bodies of 10 um, the curve's, said nothing
+            sized = self.write("sized.csv", [[1e-9, *p] for p in rows], f"{name},x,y,z")
+            line = f"points: column '{name}' is not looked at: sizes are those of the curve (--diameter-column: of diameters)\n"
+            self.assertEqual(clast(*bodies, sized).err, f"clast evolve: warning: {line}")
+        bodies = [word for word in bodies if word not in ("--curve", "1um")]
+        self.assertEqual(clast(*bodies, sized, "--diameter-column", "volume_diameter_m").err, "")
+        frames = self.folder / "two.xyz"
+        frames.write_text(2 * (f"{len(rows)}\n\n" + "".join("A {} {} {}\n".format(*p) for p in rows)))
+        self.assertEqual(clast(*bodies, frames).err, "clast evolve: warning: points: snapshot 1 of 2\n")
 
     def test_files_of_other_codes_say_so(self):
         """particles.geo was "not a text: byte 8 is 0", a positions file "has FoamFile (texts)"."""

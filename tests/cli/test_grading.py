@@ -146,6 +146,8 @@ class Grading(Case):
             for prefix in ("masses", "list"):
                 self.assert_fails(2, *self.grades(prefix, file.read_text()), says=("are a sieve curve", f"give the file without {prefix}:"))
         self.assertAlmostEqual(clast("grading", file, "--mass", "1kg", "--json").json["n_expected"], 9767, delta=1)
+        for head in ("phi,mass_g", "Phi,retained_g"):  # was a list of the sizes that are the sieves', 1.4 times too small
+            self.assert_fails(2, *self.grades("masses", head + "\n3,0\n4,10\n5,20\n"), says=("are a sieve curve", "give the file without masses:"))
         self.assertEqual(clast(*self.grades("list", "sieve_mm,count\n1,2\n2,3\n")).code, 0)
         self.assert_fails(2, "aggregate", "--core", "sphere", "--core-size", "1mm", "--coat", "sphere", "--sizes", file, "-o", self.folder / "run",
                           says=("are a sieve curve", "give the ends of each class (low_mm, high_mm)"))

@@ -85,7 +85,7 @@ class Messages(Case):
     def test_names_are_shown_harmless(self):
         grain = WILD + b".ply"
         shutil.copy(ROOT / "data/standin63/grain00.ply", os.fsencode(self.folder) + b"/" + grain)
-        for words in (("mesh", "check", grain), ("shape", grain), ("shape", grain, "--json"), ("mesh", "convert", grain, "-o", WILD + b".obj"),
+        for words in (("mesh", "check", grain), ("shape", grain), ("shape", grain, "--json"), ("shape", grain, grain), ("mesh", "convert", grain, "-o", WILD + b".obj"),
                       ("mesh", "hull", grain, "-o", WILD + b".stl"), ("fill", grain, "--spheres", "2"), ("shape", b"no" + grain),
                       ("render", grain, "--width", "64", "--height", "64", "-o", WILD + b".png"), ("nocommand" + "\x1b",),
                       ("shape", grain, "-o", "s.csv"), ("shape", b"--" + WILD), ("decompose", b"no" + grain, *CUBE)):
@@ -101,7 +101,9 @@ class Messages(Case):
                                      "-q", "-o", WILD)
         self.assertEqual(code, 0, error)
         for words in (("report", WILD), ("report", WILD, "-o", "page.html"), ("render", WILD, "--width", "64", "--height", "64", "-o", "p.png"),
-                      ("export", WILD, "-o", "x.csv")):
+                      ("export", WILD, "-o", "x.csv"), ("porosity", WILD, "--cut", "1", "-o", WILD + b"p"),
+                      ("aggregate", "--core", "sphere", "--core-size", "1mm", "--coat", "sphere", "--size", "0.3mm", "--replicate", "3", "-o", WILD + b"a"),
+                      ("grading", b"list:" + WILD + b"/grains.csv")):
             code, out, error = self.wild(*words)
             self.assertEqual(code, 0, error)
             self.assert_shown(out)

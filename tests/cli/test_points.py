@@ -104,9 +104,30 @@ class Points(Case):
         wanted = self.answer(CSV)
         self.assertNotEqual(self.answer(path)["score"], wanted["score"])
         for frame in ("2", "-1"):
-            self.assertEqual(self.answer(path, "--frame", frame), wanted)
+            self.assertEqual(self.answer(path, "--frame", frame), {**wanted, "snapshot": 3, "n_snapshot": 3, "step": 2})
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--frame", "3", says=["no snapshot 3 among 3"])
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--frame", "-4", says=["no snapshot -4 among 3"])
+
+    def test_which_of_several_snapshots_was_read_is_told(self):
+        """The first of a dump or .xyz stood for all without a word, and an .xyz had no other."""
+        sizes = (40, 30, 20)
+        rows = [[[(7 * k + 3 * j + n) % 41 / 41 for j in range(3)] for k in range(n)] for n in sizes]
+        dump, xyz, one = (self.folder / name for name in ("a.dump", "a.xyz", "one.xyz"))
+        dump.write_text("".join(f"ITEM: TIMESTEP\n{7 * n}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS x y z\n"
+                                + "".join("{} {} {}\n".format(*p) for p in part) for n, part in zip(sizes, rows)))
+        xyz.write_text("".join(f"{n}\nstep {n}\n" + "".join("A {} {} {}\n".format(*p) for p in part) for n, part in zip(sizes, rows)))
+        one.write_text(xyz.read_text().split("30\nstep")[0])
+        cube = ("--domain", "box:0,0,0,1,1,1")
+        for file, step in ((dump, True), (xyz, False)):
+            for frame, k in ((None, 0), (0, 0), (1, 1), (-1, 2)):
+                r = clast("decompose", file, *cube, "--json", *(() if frame is None else ("--frame", frame)))
+                self.assertEqual((r.code, r.json["n"], r.json["snapshot"], r.json["n_snapshot"]), (0, sizes[k], k + 1, 3), r.err)
+                self.assertEqual(r.json.get("step"), 7 * sizes[k] if step else None)
+                self.assertIn(f"snapshot {k + 1} of 3{f', TIMESTEP {7 * sizes[k]}' if step else ''}\n", r.err)
+            self.assertIn("snapshot 1 of 3", clast("agglomerate", file, *cube, "--constant", 0).err)
+            self.assert_fails(3, "decompose", file, *cube, "--frame", 3, says=["no snapshot 3 among 3"])
+        r = clast("decompose", one, *cube, "--json")
+        self.assertEqual((r.json["n"], "snapshot" in r.json, "snapshot" in r.err), (40, False, False))
 
     def test_pieces_of_a_file_are_joined(self):
         def piece(rows, kind, extra=""):

@@ -409,6 +409,20 @@ class Results(Case):
             bodies = dict(domain=BOX, points=path, curve="1um", kernel="constant", constant=0, duration="1ms", rows=1, structure=False)
             self.assertEqual(self.heard(lambda: clast.evolve(**bodies)),  # said nothing
                              ["points: column 'weight' is not looked at: each row is one particle (weight: of all alike)"])
+            np.savetxt(path, np.column_stack([X[:20], np.full(20, 9)]), delimiter=",", header="x,y,z,diameter_um", comments="")
+            self.assertEqual(self.heard(lambda: clast.evolve(**bodies)),
+                             ["points: column 'diameter_um' is not looked at: sizes are those of the curve (diameter_column: of diameters)"])
+
+    def test_which_of_several_snapshots_was_read_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "two.xyz")
+            with open(path, "w", encoding="utf-8") as file:
+                for n in (30, 20):
+                    file.write(f"{n}\n\n" + "".join("A {} {} {}\n".format(*p) for p in X[:n]))
+            for frame, n, said in ((None, 30, [f"{path}: snapshot 1 of 2"]), (0, 30, []), (1, 20, []), (-1, 20, [])):
+                read = []
+                self.assertEqual(self.heard(lambda: read.append(clast.Cloud.read(path, frame=frame))), said)
+                self.assertEqual(len(read[0]), n)
 
     def test_a_rate_has_the_unit_of_its_dimension(self):
         keys = dict(domain=BOX, estimator="cells")

@@ -137,6 +137,66 @@ static void hdf5_arrays_and_folders_are_columns(void **state)
     assert_null(table.column);
 }
 
+/// An array of 60 numbers in n_row rows, with an attribute of a text of fixed or variable length.
+static void write_array(hid_t file, const char *name, hsize_t n_row, const char *key,
+                        const char *text, bool is_fixed)
+{
+    const double value[60] = {0.001, 0.002, 0.003, 0.004, 0.005, 0.006};
+    const hsize_t size[2] = {n_row, 60 / n_row};
+    const hid_t space = H5Screate_simple(2, size, NULL);
+    const hid_t one = H5Screate(H5S_SCALAR);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    assert_true(H5Tset_size(type, is_fixed ? strlen(text) : H5T_VARIABLE) >= 0);
+    const hid_t set =
+        H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t unit = H5Acreate2(set, key, type, one, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+    assert_true(H5Awrite(unit, type, is_fixed ? (const void *)text : (const void *)&text) >= 0);
+    assert_true(H5Aclose(unit) >= 0 && H5Dclose(set) >= 0 && H5Tclose(type) >= 0);
+    assert_true(H5Sclose(one) >= 0 && H5Sclose(space) >= 0);
+}
+
+/* units = "mm" of an array was left out, points 1000 times as far apart; a transpose [3][n] was
+   three points. */
+static void hdf5_arrays_say_their_unit_and_which_way_they_lie(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *key, *text;
+        double metre;
+    } of[] = {{"/mm", "units", "mm", 1e-3},
+              {"/um", "unit", "um", 1e-6},
+              {"/spelled", "units", "Millimetres", 1e-3},
+              {"/none", "comment", "mm", 1.0}};
+    static char axes[] = "x,y,z";
+    static char *columns[] = {axes};
+    const clast_cloud_columns wanted = {.columns = {.n = 1, .item = columns}};
+    for (int fixed = 0; fixed < 2; ++fixed) {
+        char path[512];
+        (void)snprintf(path, sizeof path, "%s/units%d.h5", support_scratch(), fixed);
+        const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
+            write_array(file, of[k].name, 20, of[k].key, of[k].text, fixed == 1);
+        }
+        write_array(file, "/across", 3, "units", "mm", fixed == 1);
+        assert_true(H5Fclose(file) >= 0);
+        for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
+            const clast_points_options options = {.dataset = of[k].name};
+            clast_table table = {0};
+            clast_cloud cloud = {0};
+            CHECK_OK(clast_cloud_read(path, &options, &table));
+            CHECK_OK(clast_cloud_from_table(&table, &wanted, &cloud));
+            CHECK_REL(cloud.x[4], 0.005 * of[k].metre, 1e-15);
+            clast_cloud_free(&cloud);
+            clast_table_free(&table);
+        }
+        const clast_points_options across = {.dataset = "/across"};
+        clast_table table = {0};
+        CHECK_STATUS(clast_cloud_read(path, &across, &table), CLAST_E_FORMAT);
+        assert_non_null(strstr(clast_error_detail(), "its transpose [20][3]"));
+    }
+}
+
 static clast_status read_once(void *context)
 {
     clast_table table = {0};
@@ -233,6 +293,7 @@ int main(void)
         cmocka_unit_test(binary_numbers_of_every_type_are_read),
         cmocka_unit_test(names_that_repeat_are_told_apart),
         cmocka_unit_test(hdf5_arrays_and_folders_are_columns),
+        cmocka_unit_test(hdf5_arrays_say_their_unit_and_which_way_they_lie),
         cmocka_unit_test(vertices_and_xyz_give_points),
         cmocka_unit_test(vertices_of_a_surface_are_no_cloud),
         cmocka_unit_test(every_refused_allocation_is_told),
