@@ -139,6 +139,7 @@ static clast_status run(const cli_common *common, void *context)
     const clast_fill_config *config = context;
     clast_idle rules[CLAST_N_IDLE];
     CLI_GUARD(cli_idle_check(clast_fill_fields, config, clast_fill_idle(config, rules)));
+    CLI_GUARD(cli_check_writable(config->history));
     const clast_monitor monitor = cli_monitor(common);
     clast_mesh mesh = {0};
     clast_spheres spheres = {0};

@@ -352,6 +352,7 @@ static clast_status check_options(const cli_common *common, const grading_config
         return cli_fail(CLAST_E_USAGE,
                         "chart draws what was achieved: --sample N or --compare FILE");
     }
+    CLI_GUARD(cli_check_writable(config->chart));
     if (compares && config->sample > 0) {
         return cli_fail(CLAST_E_USAGE, "sample draws sizes and compare reads them; take one");
     }

@@ -154,6 +154,10 @@ clast_status cli_check_outputs(const cli_command *command, const cli_common *com
 /// True when the path is a folder.
 bool cli_is_folder(const char *path);
 
+/// Before the work: a file can be written there; NULL and "" are none. What a link names is left to
+/// the writer.
+clast_status cli_check_writable(const char *path);
+
 /// Refuses a path of `what` ("pictures") that does not end in .ENDING, in upper or lower case,
 /// which is all that is written there.
 clast_status cli_check_ending(const char *path, const char *what, const char *ending);

@@ -92,9 +92,11 @@ static clast_status check_each(const outputs *o)
     return CLAST_OK;
 }
 
-/// Before the work: a file can be written there. What a link names is left to the writer.
-static clast_status check_writable(const char *path)
+clast_status cli_check_writable(const char *path)
 {
+    if (path == NULL || path[0] == '\0') {
+        return CLAST_OK;
+    }
     struct stat about;
     char folder[CLAST_RUN_PATH];
     const char *slash = strrchr(path, '/');
@@ -144,5 +146,5 @@ clast_status cli_check_outputs(const cli_command *command, const cli_common *com
         CLI_GUARD(check_field(&o, f, config));
     }
     const bool is_file = !command->writes_folder && !command->writes_either;
-    return common->output != NULL && is_file ? check_writable(common->output) : CLAST_OK;
+    return is_file ? cli_check_writable(common->output) : CLAST_OK;
 }

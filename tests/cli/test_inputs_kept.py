@@ -97,6 +97,8 @@ class InputsKept(Case):
                       ("shape", "broken.ply"), ("fill", "broken.ply"), ("grading", "broken.ply", "--sample", "3"), ("export", "broken.ply"), ("report", "broken.ply")):
             for output, says in (("no/such/x.png", "there is no folder no/such/"), ("file/x.png", "there is no folder file/"), ("folder.png", "it is a folder")):
                 self.assert_fails(4, *words, "-o", output, says=[f"cannot write {output}: {says}"], cwd=self.folder)
+        for words in (("fill", "broken.ply", "--history"), ("grading", "broken.ply", "--sample", "3", "--chart")):
+            self.assert_fails(4, *words, "no/such/x.csv", says=["cannot write no/such/x.csv: there is no folder no/such/"], cwd=self.folder)
         self.assert_fails(3, "render", "broken.ply", "-o", "x.png", says=["broken.ply"], cwd=self.folder)
         os.symlink("nowhere", self.folder / "dangling")
         self.assert_fails(4, "decompose", "points.csv", "--domain", "box:0,0,0,1,1,1", "-o", "dangling", says=["dangling: it is a link to what is not there"], cwd=self.folder)
