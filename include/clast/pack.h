@@ -228,9 +228,9 @@ typedef struct clast_pack_result {
     bool is_moving;     ///< some grain is as fast as still_speed or faster; no where the last stage
                         ///< ended at rest (load_rest), beside which rattlers may move
     bool fell;          ///< the highest grain was still falling when shaking ended: it sank by more
-                        ///< than two mean diameters; not where shaking_time is 0
+                        ///< than two mean diameters; not where sank is NAN
     double sank; ///< how far the highest grain sank after the end of shaking [m]; NAN: not over, no
-                 ///< shaking_time, or domain cell
+                 ///< shaking_time, stages, or domain cell
     double still_diameters; ///< still_speed by the smallest grain's diameter [1/s]
     double own_density;     ///< of an aggregate that is packed at another; 0: none is [kg/m^3]
     double given_density;   ///< that one

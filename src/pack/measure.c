@@ -244,12 +244,11 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
         ++row;
     }
     if (row == p->series.n_row || r->dem.n_grain == 0 || p->config.shaking_time == 0.0 ||
-        p->config.dem.domain == CLAST_DEM_CELL) {
+        p->config.stages.n > 0 || p->config.dem.domain == CLAST_DEM_CELL) {
         return;
     }
     r->sank = top[row] - r->dem.top;
-    r->fell =
-        p->config.stages.n == 0 && r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
+    r->fell = r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
 }
 
 void clast_pack_result_free(clast_pack_result *result)

@@ -178,6 +178,10 @@ class Walls(Case):
         self.assertAlmostEqual(sum(row["solid_m3"] for row in profile) * 2650 / result.json["mass"], 1, 6)
         self.assertAlmostEqual(clast("porosity", run, "--method", "spheres", "--json").json["z_low"], 10e-3, 9)
 
+    def test_what_sank_after_shaking_is_not_what_stages_moved(self):
+        out = clast(*BED, "--mass", "1g", "--shaking-time", "10ms", "--wall", "floor", "--stages", "floor=200mm/s until way 4mm", "--json").json
+        self.assertEqual((out["phase"], out["sank_after_shaking"]), ("done", None))  # was the way of the floor, less what sank
+
     def test_help_says_where_a_stress_is_looked_at(self):
         """The help told it of a cell's sides alone, as if it were no end between walls."""
         page = " ".join(clast("pack", "--help-all").out.split())
