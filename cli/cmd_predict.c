@@ -69,11 +69,42 @@ static clast_status predict_columns(const config *c, cli_prediction *j)
     CLI_GUARD(clast_porosity_model_check_units(&j->model, &j->table));
     CLI_GUARD(clast_porosity_predict_columns(&j->model, &j->table, &j->beds));
     if (j->beds.n_row < j->table.n_row) {
-        (void)fprintf(
-            stderr, "clast predict: %s: %lld of %lld rows left out: missing or infinite\n",
-            j->table.name, (long long)(j->table.n_row - j->beds.n_row), (long long)j->table.n_row);
+        (void)fprintf(stderr,
+                      "clast predict: %s: %lld of %lld rows left out: missing or infinite\n",
+                      cli_name(j->table.name), (long long)(j->table.n_row - j->beds.n_row),
+                      (long long)j->table.n_row);
     }
     return CLAST_OK;
+}
+
+/// Rows of the table that are no row of the beds.
+static clast_status columns_left_out(const cli_prediction *j, clast_table *left_out)
+{
+    const double *row = clast_table_numbers(&j->beds, "row");
+    double *number = NULL;
+    int64_t n = 0;
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_table_init(left_out, "left_out", j->table.n_row - j->beds.n_row));
+    CLI_TRY(clast_table_add_number(left_out, "row", "-", &number));
+    CLI_TRY(clast_table_add_text(left_out, "reason"));
+    for (int64_t i = 0; i < j->table.n_row; ++i) {
+        const int64_t bed = i - n;
+        if (bed < j->beds.n_row && row[bed] == (double)i + 1.0) {
+            continue;
+        }
+        number[n] = (double)i + 1.0;
+        CLI_TRY(clast_table_set_text(left_out, 1, n++, "a cell is missing or infinite"));
+    }
+done:
+    return status;
+}
+
+static void tell_beds(const cli_prediction *j)
+{
+    char words[256];
+    if (clast_porosity_beds_words(&j->model, &j->beds, sizeof words, words)[0] != '\0') {
+        (void)fprintf(stderr, "clast predict: %s: %s\n", cli_name(j->table.name), cli_name(words));
+    }
 }
 
 /// Every grain is a bed of its form.
@@ -142,9 +173,10 @@ static clast_status write_folder(const cli_prediction *j, const char *folder)
     }
     (void)snprintf(path, sizeof path, "%s/prediction.csv", folder);
     CLI_TRY(clast_table_write_csv(j->has_one ? &one : &j->beds, path));
-    if (j->has_table && j->set.n_left_out > 0) {
+    if (cli_prediction_left_out(j) > 0) {
         (void)snprintf(path, sizeof path, "%s/left_out.csv", folder);
-        CLI_TRY(clast_form_set_left_out(&j->set, &left_out));
+        CLI_TRY(j->model.kind == CLAST_MODEL_COLUMNS ? columns_left_out(j, &left_out)
+                                                     : clast_form_set_left_out(&j->set, &left_out));
         CLI_TRY(clast_table_write_csv(&left_out, path));
     }
 done:
@@ -192,6 +224,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(answer(c, common, &j));
+    tell_beds(&j);
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &j, folder));
     }

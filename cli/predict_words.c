@@ -7,13 +7,19 @@
 #include <stdio.h>
 #include <string.h>
 
+int64_t cli_prediction_left_out(const cli_prediction *j)
+{
+    return j->model.kind == CLAST_MODEL_COLUMNS ? j->table.n_row - j->beds.n_row
+                                                : j->set.n_left_out;
+}
+
 static json_t *json_inputs(const cli_prediction *j)
 {
     json_t *in = json_object();
     const clast_form_inputs *v = &j->inputs;
     cli_json_text(in, "from", j->has_table ? "table" : "moments");
     if (j->has_table) {
-        cli_json_count(in, "n_left_out", j->set.n_left_out);
+        cli_json_count(in, "n_left_out", cli_prediction_left_out(j));
     }
     if (!j->has_one) {
         return in;
@@ -174,8 +180,9 @@ static void print_beds(const cli_prediction *j)
     const double *error = clast_table_numbers(&j->beds, "standard_error");
     const double *in_range = clast_table_numbers(&j->beds, "in_range");
     for (int64_t i = 0; i < j->beds.n_row; ++i) {
-        (void)printf("%8.0f %10.4f %14.4f  %s\n", row[i], porosity[i], error[i],
-                     in_range[i] > 0.5 ? "yes" : "no");
+        (void)(isnan(porosity[i]) ? printf("%8.0f %10s %14s", row[i], "-", "-")
+                                  : printf("%8.0f %10.4f %14.4f", row[i], porosity[i], error[i]));
+        (void)printf("  %s\n", in_range[i] > 0.5 ? "yes" : "no");
     }
 }
 

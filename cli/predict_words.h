@@ -14,6 +14,9 @@ typedef struct cli_prediction {
     bool knows_spread;       ///< deviations were given, or two grains or more
 } cli_prediction;
 
+/// Rows of the table that are in no prediction.
+int64_t cli_prediction_left_out(const cli_prediction *prediction);
+
 json_t *cli_prediction_json(const cli_prediction *prediction);
 
 /// "d50 (m)" of a column whose cells have a unit; the name alone of plain numbers (unit "-" or

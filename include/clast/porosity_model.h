@@ -145,7 +145,8 @@ CLAST_API clast_status clast_porosity_predict_moments(const clast_porosity_model
                                                       clast_prediction *prediction);
 
 /// One row a grain: the single form of that grain as the only one of a bed; columns row (from 1, in
-/// the set's table), porosity, standard_error, in_range (1 or 0).
+/// the set's table), porosity, standard_error, in_range (1 or 0); porosity and standard_error are
+/// NaN where the model gives a porosity outside (0, 1).
 CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *model,
                                                    const clast_form_set *set, clast_table *beds);
 
@@ -155,6 +156,13 @@ CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *m
 /// @return CLAST_E_FORMAT without such a column, or for one of another unit than the model's
 CLAST_API clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
                                                       const clast_table *table, clast_table *beds);
+
+/// How many of such beds have no porosity, and why; "" where all have one.
+///
+/// @param words  [size], 256 suffice
+/// @return words, or ""
+CLAST_API const char *clast_porosity_beds_words(const clast_porosity_model *model,
+                                                const clast_table *beds, size_t size, char *words);
 
 /// Whether a table that a person wrote has the units of such a model: of what the model has in
 /// metres plain numbers may be anything.
@@ -248,6 +256,8 @@ typedef struct clast_fit_data {
     clast_table beds; ///< columns row (from 1), porosity, then the candidates (NaN: not defined)
     clast_table left_out;  ///< columns row, reason
     char unread_count[64]; ///< of the grains: see clast_form_set; ""
+    int64_t n_repeated;    ///< beds of mixtures by a name that a row before has, with its grains
+    int64_t n_without_bed; ///< grains of beds that are in no row
 } clast_fit_data;
 
 /// Beds of one form each: 26 features from each row's flatness and elongation or L, I, S.

@@ -187,10 +187,18 @@ def _predict_moments(flatness: Moments | None, elongation: Moments | None, model
     return _prediction(chosen, found, inputs, "moments")
 
 
+def _beds(model: Model, beds: Owner) -> Table:
+    words = ctypes.create_string_buffer(256)
+    if told := call("clast_porosity_beds_words")(ctypes.byref(model._model), ctypes.byref(beds.struct), len(words), words):
+        warn(told.decode())
+    return table_of(beds)
+
+
 def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str = "U1", columns: str = "") -> Table:
     """One porosity a row, each a bed of that one form (`clast predict --each`) or of the columns that a model of one's own takes.
 
-    Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
+    Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing. Porosity and
+    standard_error are NaN where the model gives a porosity outside 0 to 1.
     """
     rows, beds = given_table("table", table), Owner(c.clast_table(), "clast_table_free")
     given = _settled(model, True, grading=grading, columns=columns, each=True)
@@ -201,12 +209,12 @@ def predict_beds(table: Any, *, model: Model | Fit | Path = "auto", grading: str
         check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
         if beds.struct.n_row < rows.struct.n_row:
             warn(f"{rows.struct.n_row - beds.struct.n_row} of {rows.struct.n_row} rows left out: missing or infinite")
-        return table_of(beds)
+        return _beds(chosen, beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", given["columns"]), ctypes.byref(owner.struct)))
     warn_of_rows(owner.struct, False)
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
-    return table_of(beds)
+    return _beds(chosen, beds)
 
 
 @dataclass(frozen=True, eq=False)

@@ -206,6 +206,7 @@ typedef struct {
     const double *porosity;
     clast_form_set set;
     int64_t *pick; ///< [set.n] grains of one bed
+    bool *has_bed; ///< [set.n]
 } mixture;
 
 static clast_status mixture_row(mixture *m, int64_t row, clast_fit_data *d, int64_t *n)
@@ -218,6 +219,10 @@ static clast_status mixture_row(mixture *m, int64_t row, clast_fit_data *d, int6
         if (same_cell(m->bed_name, row, m->grain_name, m->set.row[k])) {
             m->pick[n_pick++] = k;
         }
+    }
+    d->n_repeated += n_pick > 0 && m->has_bed[m->pick[0]] ? 1 : 0;
+    for (int64_t k = 0; k < n_pick; ++k) {
+        m->has_bed[m->pick[k]] = true;
     }
     fault = fault != NULL ? fault : n_pick < 2 ? "fewer than two grains" : NULL;
     if (fault != NULL) {
@@ -262,6 +267,7 @@ clast_status clast_fit_data_mixture(const clast_table *beds, const clast_table *
     CLX_TRY(group_column(grains, config->group, &m.grain_name));
     CLX_TRY(clast_form_set_of(grains, config->columns, &m.set));
     CLX_TRY(clx_alloc(&m.pick, m.set.n, sizeof *m.pick));
+    CLX_TRY(clx_alloc(&m.has_bed, m.set.n, sizeof *m.has_bed));
     CLX_TRY(begin(CLAST_MODEL_MIXTURE, beds->n_row, &d));
     for (int32_t f = 0; f < CLAST_N_MIXTURE_FEATURE; ++f) {
         char name[96];
@@ -274,11 +280,14 @@ clast_status clast_fit_data_mixture(const clast_table *beds, const clast_table *
     for (int64_t row = 0; row < beds->n_row; ++row) {
         CLX_TRY(mixture_row(&m, row, &d, &n));
     }
+    for (int64_t k = 0; k < m.set.n; ++k) {
+        d.n_without_bed += m.has_bed[k] ? 0 : 1;
+    }
     CLX_TRY(finish(&d, n, beds));
     *data = d;
     d = (clast_fit_data){0};
 done:
-    clx_free(m.pick);
+    CLX_FREE(m.pick, m.has_bed);
     clast_form_set_free(&m.set);
     clast_fit_data_free(&d);
     return status;

@@ -87,6 +87,22 @@ static void tell_count(teller *t)
     }
 }
 
+/// Beds and grains that do not find each other.
+static void tell_beds(teller *t)
+{
+    const clast_fit_data *d = t->data;
+    if (d->n_repeated > 0) {
+        tell(t, true,
+             "%lld of %lld rows name a bed in '%s' that a row before names: each counts, with the "
+             "same grains",
+             (long long)d->n_repeated, (long long)t->beds->n_row, t->config->group);
+    }
+    if (d->n_without_bed > 0) {
+        tell(t, false, "grains: %lld of beds that are in no row do not count",
+             (long long)d->n_without_bed);
+    }
+}
+
 /// Whether candidates are all columns of a table, be it a study's: none was named.
 static bool is_open(const teller *t)
 {
@@ -187,6 +203,7 @@ bool clast_porosity_fit_note(const clast_porosity_fit *fit, const clast_table *b
     teller t = {beds, data, config, number, note};
     tell_left_out(&t);
     tell_count(&t);
+    tell_beds(&t);
     tell_words(&t);
     if (fit != NULL) {
         tell_few(&t, fit);

@@ -11,6 +11,7 @@
 #include "shape/whole.h"
 #include <clast/statistics.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { N_OUTSIDE = sizeof((clast_prediction *)0)->outside / sizeof(int32_t) };
@@ -276,6 +277,55 @@ done:
     return status;
 }
 
+clast_status clx_predicted_beds_init(int64_t n_row, clast_table *beds)
+{
+    static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
+    clast_status status = clast_table_init(beds, "beds", n_row);
+    for (int k = 0; k < 4 && status == CLAST_OK; ++k) {
+        status = clast_table_add_number(beds, name[k], "-", NULL);
+    }
+    return status;
+}
+
+clast_status clx_predicted_bed(clast_status answer, const clast_prediction *p, int64_t row,
+                               int64_t i, clast_table *beds)
+{
+    const bool is_known = answer == CLAST_OK;
+    const double cell[4] = {(double)row + 1.0, is_known ? p->porosity : (double)NAN,
+                            is_known ? p->standard_error : (double)NAN,
+                            is_known && p->in_range ? 1.0 : 0.0};
+    if (!is_known && answer != CLAST_E_LIMIT) {
+        clx_fail_prefix("row %lld", (long long)row + 1);
+        return answer;
+    }
+    for (int k = 0; k < 4; ++k) {
+        beds->column[k].number[i] = cell[k];
+    }
+    return CLAST_OK;
+}
+
+const char *clast_porosity_beds_words(const clast_porosity_model *model, const clast_table *beds,
+                                      size_t size, char *words)
+{
+    const double *porosity = clast_table_numbers(beds, "porosity");
+    const double *row = clast_table_numbers(beds, "row");
+    int64_t n = 0;
+    double first = 0.0;
+    for (int64_t i = 0; porosity != NULL && row != NULL && i < beds->n_row; ++i) {
+        first = isnan(porosity[i]) && n == 0 ? row[i] : first;
+        n += isnan(porosity[i]) ? 1 : 0;
+    }
+    if (n == 0) {
+        return "";
+    }
+    (void)snprintf(
+        words, size,
+        "%lld of %lld beds have no porosity (first: row %lld): model %s gives one outside "
+        "0 to 1, they lie far outside its range",
+        (long long)n, (long long)beds->n_row, (long long)first, model->name);
+    return words;
+}
+
 /// One grain of a set as inputs.
 static clast_status one_grain(const clast_form_set *set, int64_t i, clast_form_inputs *in)
 {
@@ -289,31 +339,17 @@ clast_status clast_porosity_predict_each(const clast_porosity_model *model,
     CLX_ARGUMENTS(model, set, beds);
     CLX_WHOLE(porosity_model, model);
     CLX_WHOLE(form_set, set);
-    static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
     clast_status status = CLAST_OK;
     clast_table t = {0};
-    double *column[4] = {NULL};
     CLX_CHECK(model->kind == CLAST_MODEL_SINGLE, CLAST_E_USAGE,
               "model %s is no single-form model: one grain says nothing about a mixture",
               model->name);
-    CLX_TRY(clast_table_init(&t, "beds", set->n));
-    for (int k = 0; k < 4; ++k) {
-        CLX_TRY(clast_table_add_number(&t, name[k], "-", &column[k]));
-    }
+    CLX_TRY(clx_predicted_beds_init(set->n, &t));
     for (int64_t i = 0; i < set->n; ++i) {
         clast_form_inputs in = {0};
         clast_prediction p = {0};
         CLX_TRY(one_grain(set, i, &in));
-        status = predict(model, &in, &p);
-        if (status != CLAST_OK) {
-            clx_fail_prefix("row %lld", (long long)set->row[i] + 1);
-            goto done;
-        }
-        const double value[4] = {(double)set->row[i] + 1.0, p.porosity, p.standard_error,
-                                 p.in_range ? 1.0 : 0.0};
-        for (int k = 0; k < 4; ++k) {
-            column[k][i] = value[k];
-        }
+        CLX_TRY(clx_predicted_bed(predict(model, &in, &p), &p, set->row[i], i, &t));
     }
     *beds = t;
     t = (clast_table){0};

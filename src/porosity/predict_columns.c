@@ -66,17 +66,6 @@ done:
     return status;
 }
 
-static clast_status start(int64_t n_row, clast_table *t)
-{
-    static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
-    double *unused = NULL;
-    clast_status status = clast_table_init(t, "beds", n_row);
-    for (int k = 0; k < 4 && status == CLAST_OK; ++k) {
-        status = clast_table_add_number(t, name[k], "-", &unused);
-    }
-    return status;
-}
-
 clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
                                             const clast_table *table, clast_table *beds)
 {
@@ -97,7 +86,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
     CLX_TRY(clx_unit_columns_read(table, &columns));
     CLX_TRY(find_columns(model, &columns.table, column));
     CLX_TRY(check_units(model, &columns.table, true));
-    CLX_TRY(start(table->n_row, &t));
+    CLX_TRY(clx_predicted_beds_init(table->n_row, &t));
     for (int64_t i = 0; i < table->n_row; ++i) {
         clast_prediction p = {0};
         bool is_finite = true;
@@ -108,17 +97,8 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
         if (!is_finite) {
             continue;
         }
-        status = clx_porosity_model_apply(model, value, value + model->n_term, &p);
-        if (status != CLAST_OK) {
-            clx_fail_prefix("row %lld", (long long)i + 1);
-            goto done;
-        }
-        const double cell[4] = {(double)i + 1.0, p.porosity, p.standard_error,
-                                p.in_range ? 1.0 : 0.0};
-        for (int k = 0; k < 4; ++k) {
-            t.column[k].number[n] = cell[k];
-        }
-        ++n;
+        CLX_TRY(clx_predicted_bed(clx_porosity_model_apply(model, value, value + model->n_term, &p),
+                                  &p, i, n++, &t));
     }
     CLX_CHECK(n > 0, CLAST_E_FORMAT, "table %s: none of its %lld rows has all that model %s needs",
               table->name, (long long)table->n_row, model->name);

@@ -300,6 +300,17 @@ class Fit(Case):
             fit = clast("fit", rows, "--grains", grains, "--group", "bed", "--n-term", 1)
             self.assertEqual((fit.code, fit.err), (0, said))
 
+    def test_beds_and_grains_that_do_not_find_each_other_are_told(self):
+        forms = [(run, 0.3 + 0.02 * run + 0.01 * k, 0.55 + 0.012 * ((7 * run) % 11) + 0.015 * k) for run in range(1, 25) for k in range(3)]
+        grains = self.write("bed,flatness,elongation\n" + "".join(f"{b},{f!r},{e!r}\n" for b, f, e in forms), "grains.csv")
+        rows = [(run, f"{0.3 + 0.001 * run + 0.002 * (run % 3)!r}") for run in range(1, 25)]
+        for used, says in ((rows, ""),
+                           ([*rows[:22], rows[0]],
+                            f"clast fit: {self.folder / 'beds.csv'}: 1 of 23 rows name a bed in 'bed' that a row before names: each counts, with the same grains\n"
+                            "clast fit: grains: 6 of beds that are in no row do not count\n")):
+            beds = self.write("bed,porosity\n" + "".join(f"{b},{p}\n" for b, p in used), "beds.csv")
+            self.assertEqual(clast("fit", beds, "--grains", grains, "--n-term", 1).err, says)
+
     def test_manifests_name_inputs_and_options(self):
         path, run, bed = self.write(beds(0.01)), self.folder / "run", self.folder / "bed"
         self.assertEqual(clast("fit", path, "--n-term", 1, "--seed", 7, "-o", run).code, 0)

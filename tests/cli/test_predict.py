@@ -71,8 +71,26 @@ class Predict(Case):
         # a deviation that a program computed of equal grains
         self.assertEqual(self.answer("--flatness", "0.65+-1.1e-16", "--elongation", "0.7+-0")["kind"], "single_form")
 
-    def test_a_row_without_an_answer_is_named(self):
-        self.assertIn("row 2: model single_form_U1", self.refusal(3, self.table("FL,EL\n0.6,0.7\n0.05,0.05\n"), "--each"))
+    def test_a_bed_without_a_porosity_costs_no_other(self):
+        done = clast("predict", self.table("FL,EL\n0.6,0.7\n0.05,0.05\n0.7,0.7\n"), "--each", "--json")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertIn("1 of 3 beds have no porosity (first: row 2): model single_form_U1 gives one outside 0 to 1", done.err)
+        beds = json.loads(done.out)["beds"]
+        self.assertEqual([(b["row"], b["porosity"] is None, b["standard_error"] is None, b["in_range"]) for b in beds],
+                         [(1, False, False, True), (2, True, True, False), (3, False, False, True)])
+        self.assertIn("       2          -              -  no\n", clast("predict", self.table("FL,EL\n0.6,0.7\n0.05,0.05\n"), "--each").out)
+
+    def test_rows_that_a_model_of_columns_leaves_out_are_kept(self):
+        beds = "".join(f"{0.3 + 0.01 * k + 0.001 * (k % 3)},{k}\n" for k in range(12))
+        self.assertEqual(clast("fit", self.table("porosity,a\n" + beds), "--use", "a", "-o", self.folder / "model").code, 0)
+        done = clast("predict", self.table("a\n1\nnan\n300\n2\n"), "--model", self.folder / "model/model.json", "--json", "-o", self.folder / "run")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertIn("1 of 4 rows left out", done.err)
+        self.assertIn("1 of 3 beds have no porosity (first: row 3)", done.err)
+        self.assertEqual(json.loads(done.out)["inputs"]["n_left_out"], 1)
+        self.assertEqual((self.folder / "run/left_out.csv").read_text().split(), ["row,reason", "2,a", "cell", "is", "missing", "or", "infinite"])
+        with open(self.folder / "run/prediction.csv", newline="") as file:
+            self.assertEqual([row["row"] for row in csv.DictReader(file)], ["1", "3", "4"])
 
     def test_bad_rows_are_told_and_left_out(self):
         path = self.table("flatness,elongation\n0.5,0.7\n,0.6\n0.6,-0.8\n0.6,inf\n0.7,0.6\n")

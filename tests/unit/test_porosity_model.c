@@ -387,19 +387,27 @@ static void equal_grains_have_no_sampling_error(void **state)
     clast_porosity_model_free(&m);
 }
 
-/* The row that has no answer is named with one colon ("row 2: : model ..."). */
-static void rows_are_named_once(void **state)
+/* One form far outside the model's range cost the predictions of all others. */
+static void a_bed_without_a_porosity_is_nan(void **state)
 {
     (void)state;
     clast_table t = {0};
     clast_table beds = {0};
     clast_form_set s = {0};
     clast_porosity_model m = {0};
+    char words[256];
     read_text("FL,EL\n0.6,0.7\n0.05,0.05\n", &t);
     CHECK_OK(clast_form_set_of(&t, NULL, &s));
     CHECK_OK(clast_porosity_model_published(0, &m));
-    CHECK_STATUS(clast_porosity_predict_each(&m, &s, &beds), CLAST_E_LIMIT);
-    assert_non_null(strstr(clast_error_detail(), "row 2: model single_form_U1"));
+    assert_string_equal(clast_porosity_beds_words(&m, &beds, sizeof words, words), "");
+    CHECK_OK(clast_porosity_predict_each(&m, &s, &beds));
+    assert_true(clast_table_numbers(&beds, "porosity")[0] > 0.0);
+    for (int c = 1; c < 3; ++c) {
+        assert_true(isnan(beds.column[c].number[1]) != 0);
+    }
+    assert_non_null(strstr(clast_porosity_beds_words(&m, &beds, sizeof words, words),
+                           "1 of 2 beds have no porosity (first: row 2): model single_form_U1"));
+    clast_table_free(&beds);
     clast_porosity_model_free(&m);
     clast_form_set_free(&s);
     clast_table_free(&t);
@@ -655,7 +663,7 @@ int main(void)
         cmocka_unit_test(a_given_deviation_of_rounding_is_none),
         cmocka_unit_test(an_index_that_vanishes_has_no_spread),
         cmocka_unit_test(equal_grains_have_no_sampling_error),
-        cmocka_unit_test(rows_are_named_once),
+        cmocka_unit_test(a_bed_without_a_porosity_is_nan),
         cmocka_unit_test(impossible_porosities_are_refused),
         cmocka_unit_test(sampling_error_is_the_first_derivative),
         cmocka_unit_test(sampling_error_of_a_mixture_counts_its_deviations),
