@@ -68,6 +68,8 @@ typedef struct clast_evolve_config {
     char *points;      ///< file of positions in place of that; "": none
     clast_text_list columns; ///< of that file: x, y, z, which units in their names convert
     char *diameter_column;   ///< of that file, in place of curve; "": none
+    int64_t frame;           ///< its snapshot (clast_points_options)
+    char *dataset;           ///< its array or folder, of HDF5; ""
 
     char *domain;
     int32_t floor, sides; ///< clast_border

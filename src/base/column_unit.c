@@ -176,18 +176,19 @@ clx_unit_said clx_column_unit(const char *name, char unit[CLX_COLUMN_UNIT])
     return find_unit(name, "", unit);
 }
 
-/// The unit that a column says, else that of its name.
+/// The unit that a column says, known or not, else that of its name.
 static clx_unit_said own_unit(const clast_column *column, const char *si_unit,
                               char unit[CLX_COLUMN_UNIT])
 {
+    static const char *const none[] = {"", "-", "1", "none", "dimensionless", NULL};
     const clx_unit_said said = find_unit(column->name, si_unit, unit);
-    const bool has_own = column->unit != NULL && strlen(column->unit) < CLX_COLUMN_UNIT;
-    const clx_unit_said own = has_own ? judge(column->unit, si_unit, true) : CLX_UNIT_NONE;
-    if (own == CLX_UNIT_NONE || strcmp(column->unit, unit) == 0) {
+    if (column->unit == NULL || is_one_of(column->unit, none) || strcmp(column->unit, unit) == 0 ||
+        strlen(column->unit) >= CLX_COLUMN_UNIT) {
         return said;
     }
+    const clx_unit_said own = judge(column->unit, si_unit, true);
     (void)snprintf(unit, CLX_COLUMN_UNIT, "%s", column->unit);
-    return own;
+    return own == CLX_UNIT_NONE ? CLX_UNIT_TOLD : own;
 }
 
 bool clx_column_says_length(const char *name, char unit[CLX_COLUMN_UNIT])

@@ -78,6 +78,9 @@ const clast_field clast_evolve_fields[] = {
      "x,y,z are found as x_m, y_m, z_m too",
      "x,y,z"},
     TEXT(diameter_column, "", "its column of volume-equivalent diameters; none: the curve"),
+    {FIELD(I64, frame), 0, -1e12, 1e12, "-",
+     "its snapshot, of a LAMMPS dump or .xyz, from 0; -1: the last", NULL},
+    TEXT(dataset, "", "its array or folder, of an HDF5 file"),
 
     TEXT(domain, "",
          "box:LOW..,HIGH.., cylinder:X,Y,Z,NX,NY,NZ,R,L (base, axis), sphere:R, mesh:FILE; z is up",
@@ -345,7 +348,7 @@ clast_status clx_evolve_idle_check(const clast_evolve_config *c, const clast_evo
          "without meeting diffusive"},
         {c->floor != CLAST_BORDER_DEPOSIT, "bed_width",
          "without a floor that is deposit: nothing lies there"},
-        {input->points == NULL, "columns", "without points"},
+        {input->points == NULL, "columns|frame|dataset", "without points"},
         {input->field == NULL, "field_columns", "without field"},
         {0}};
     CLX_TRY(check_used(c, &collide));

@@ -30,7 +30,10 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
     clx_doubles found = {0};
     char words[200];
     char cure[400] = "";
-    CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
+    clast_mass mass = {0};
+    const bool has_volume = clast_mesh_mass(mesh, &mass) == CLAST_OK && mass.volume > 0.0;
+    CLX_TRY(clast_mesh_require_solid(mesh, path,
+                                     has_volume ? "take it as it is with --accept-faults" : NULL));
     CLX_TRY(clx_find_doubles(mesh, &found));
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
               "%s cuts itself: %s%lld pairs of triangles; see clast mesh check, or --accept-faults",
@@ -214,7 +217,7 @@ clast_status clx_aggregate_list(const clast_aggregate_config *config, clx_sizes_
     clast_status status = CLAST_OK;
     clast_sizes sizes = {0};
     struct stat found;
-    *list = (clast_grading_list){.column = "", .ignored = ""};
+    *list = (clast_grading_list){.column = "", .ignored = "", .size = ""};
     if (config->params.size_law == CLAST_SIZE_LIST && config->sizes[0] != '\0' &&
         stat(config->sizes, &found) == 0 && S_ISREG(found.st_mode)) {
         CLX_TRY(read_sizes(config, columns, &sizes));

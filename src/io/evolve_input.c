@@ -97,8 +97,8 @@ static void tell_unread(const clast_evolve_config *c, const clast_table *table,
                        "(--diameter-column: of diameters)",
                        column);
     }
-    if (snapshot->n > 1) {
-        (void)snprintf(which, sizeof which, "snapshot %lld of %lld", (long long)snapshot->number,
+    if (snapshot->n > 1 && c->frame == 0) {
+        (void)snprintf(which, sizeof which, "the first snapshot of %lld (--frame -1: the last)",
                        (long long)snapshot->n);
     }
     if (sizes[0] != '\0' || which[0] != '\0') {
@@ -116,7 +116,7 @@ static clast_status load_cloud(const clast_evolve_config *c, const char *option,
     clast_table table = {0};
     bool has_faces = false;
     clast_points_snapshot snapshot;
-    const clast_points_options options = {.snapshot = &snapshot};
+    const clast_points_options options = {c->dataset, c->frame, &snapshot};
     const bool is_field = columns->velocity_columns.n > 0;
     clast_cloud *const cloud = is_field ? &made->field : &made->points;
     CLX_TRY(is_field ? clx_points_read(path, NULL, &table, &has_faces)

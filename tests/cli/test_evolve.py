@@ -347,6 +347,20 @@ class Evolve(Case):
                          *(() if command == "decompose" else ("--kernel", "constant", "--constant", 1e-12)))
             self.assertEqual(told.code, 0, told.err)
 
+    def test_points_of_a_snapshot_and_of_an_array(self):
+        """Only the first of a dump's snapshots could be had."""
+        dump = self.folder / "two.dump"
+        dump.write_text("".join(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n"
+                                + "".join(f"{k + 1} {0.1 * k + 0.05} 0.5 0.5\n" for k in range(n)) for step, n in ((0, 3), (10, 5))))
+        run = ("evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s", "--json", "--points", dump)
+        for more, n, said in (((), 3, "points: the first snapshot of 2 (--frame -1: the last)"), (("--frame", -1), 5, ""), (("--frame", 1), 5, "")):
+            made = clast(*run, *more)
+            self.assertEqual((made.code, made.json["n_start"]), (0, n), made.err)
+            self.assertIn(said, made.err)
+            self.assertEqual("snapshot" in made.err, said != "", made.err)
+        self.assert_fails(3, *run, "--frame", 2, says=("points", "no snapshot 2 among 2"))
+        self.assert_fails(2, *run[:-2], "--particles", 3, "--frame", 1, says=("frame does nothing without points",))
+
     def test_frames_and_points(self):
         run = self.folder / "run"
         points = self.folder / "points.csv"

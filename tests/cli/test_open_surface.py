@@ -96,6 +96,14 @@ class OpenSurface(Case):
             self.assertNotRegex(result.err, re.compile("open edges[^ ]|close it"))
             self.assertIn(result.code, (0, 1, 5), result.err)
 
+    def test_what_is_inside_out_is_not_taken_as_it_is(self):
+        """--accept-faults was offered, and ended in "volume is -1.7e-13"."""
+        path = self.folder / "turned.off"
+        path.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n")
+        grow = ("aggregate", "--core", path, "--core-size", "100um", "--unit", "um", "--coat", "sphere", "--sizes", "10um")
+        self.assert_fails(3, *grow, says=["1 part inside out; orient it outward: clast mesh repair"])
+        self.assertNotIn("--accept-faults", clast(*grow).err)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -167,7 +167,8 @@ static void hdf5_arrays_say_their_unit_and_which_way_they_lie(void **state)
     } of[] = {{"/mm", "units", "mm", 1e-3},
               {"/um", "unit", "um", 1e-6},
               {"/spelled", "units", "Millimetres", 1e-3},
-              {"/none", "comment", "mm", 1.0}};
+              {"/none", "comment", "mm", 1.0},
+              {"/plain", "units", "dimensionless", 1.0}};
     static char axes[] = "x,y,z";
     static char *columns[] = {axes};
     const clast_cloud_columns wanted = {.columns = {.n = 1, .item = columns}};
@@ -178,6 +179,7 @@ static void hdf5_arrays_say_their_unit_and_which_way_they_lie(void **state)
         for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
             write_array(file, of[k].name, 20, of[k].key, of[k].text, fixed == 1);
         }
+        write_array(file, "/far", 20, "units", "Mpc", fixed == 1);
         write_array(file, "/across", 3, "units", "mm", fixed == 1);
         assert_true(H5Fclose(file) >= 0);
         for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k) {
@@ -190,6 +192,19 @@ static void hdf5_arrays_say_their_unit_and_which_way_they_lie(void **state)
             clast_cloud_free(&cloud);
             clast_table_free(&table);
         }
+        // a unit that nothing knows was metres, without a word
+        const clast_points_options far = {.dataset = "/far"};
+        clast_cloud_columns asked = wanted;
+        clast_table foreign = {0};
+        clast_cloud cloud = {0};
+        CHECK_OK(clast_cloud_read(path, &far, &foreign));
+        CHECK_STATUS(clast_cloud_from_table(&foreign, &wanted, &cloud), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "unknown unit 'Mpc'"));
+        asked.unit = "mm";
+        CHECK_OK(clast_cloud_from_table(&foreign, &asked, &cloud));
+        CHECK_REL(cloud.x[4], 5e-6, 1e-15);
+        clast_cloud_free(&cloud);
+        clast_table_free(&foreign);
         const clast_points_options across = {.dataset = "/across"};
         clast_table table = {0};
         CHECK_STATUS(clast_cloud_read(path, &across, &table), CLAST_E_FORMAT);
