@@ -88,7 +88,8 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 
 /// What the numbers are of, where that is not all grains in their true surfaces, in `size` bytes:
 /// "largest of 10 clusters, 24 of 40 grains (...)", or that porosity is by the sum of the grains'
-/// volumes, by how much these overlap, and which bodies max_overlap is of; else "".
+/// volumes, by how much these overlap, and which bodies max_overlap is of, or that an envelope is
+/// smaller than the solid; else "".
 ///
 /// @return text
 CLAST_API const char *clast_aggregate_report_scope(const clast_aggregate_report *report,

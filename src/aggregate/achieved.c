@@ -2,6 +2,7 @@
 #include <clast/aggregate.h>
 
 #include "aggregate/config.h"
+#include "aggregate/sizes.h"
 #include "base/alloc.h"
 #include "base/column_unit.h"
 #include "base/field.h"
@@ -89,10 +90,8 @@ static clast_status list_classes(const clast_aggregate_params *c, const clast_si
     int64_t kept = 0;
     CLX_TRY(clx_alloc(list, sizes->n, sizeof **list));
     for (int64_t i = 0; i < sizes->n; ++i) {
-        const double middle = sqrt(sizes->low[i] * sizes->high[i]);
-        const double share = c->size_by_mass ? 1.0 / (middle * middle * middle) : 1.0;
         (*list)[i] = (size_class){
-            .low = sizes->low[i], .high = sizes->high[i], .wanted = share * sizes->count[i]};
+            .low = sizes->low[i], .high = sizes->high[i], .wanted = clx_sizes_number(c, sizes, i)};
         total += (*list)[i].wanted;
     }
     qsort(*list, (size_t)sizes->n, sizeof **list, by_size);

@@ -69,6 +69,24 @@ static void tell_solid(const clast_aggregate_report *report, char text[192])
                    "porosity by the sum of the grains' volumes, which %s; max_overlap %s", by, of);
 }
 
+/// The first envelope that holds less than the grains' volumes; "" where none does.
+static void tell_envelope(const clast_aggregate_report *report, char text[192])
+{
+    text[0] = '\0';
+    for (int32_t i = 0; i < report->n; ++i) {
+        const clast_aggregate_result *r = &report->result[i];
+        for (int32_t k = 0; k < r->n_envelope; ++k) {
+            if (r->porosity[k] < -1e-9) {
+                (void)snprintf(text, 192,
+                               "porosity below 0: %s is smaller than the solid and no envelope of "
+                               "it; d_agg, density and settling velocity are by the first envelope",
+                               clast_envelope_name(r->envelope[k].kind));
+                return;
+            }
+        }
+    }
+}
+
 const char *clast_aggregate_report_scope(const clast_aggregate_report *report, size_t size,
                                          char *text)
 {
@@ -77,13 +95,17 @@ const char *clast_aggregate_report_scope(const clast_aggregate_report *report, s
     }
     char clusters[192] = "";
     char solid[192] = "";
+    char envelope[192] = "";
     text[0] = '\0';
     if (report == NULL || report->n < 1 || report->result == NULL) {
         return text;
     }
     tell_clusters(report, clusters);
     tell_solid(report, solid);
-    (void)snprintf(text, size, "%s%s%s", clusters,
-                   clusters[0] != '\0' && solid[0] != '\0' ? "; " : "", solid);
+    tell_envelope(report, envelope);
+    const bool solid_follows = clusters[0] != '\0' && solid[0] != '\0';
+    const bool envelope_follows = (clusters[0] != '\0' || solid[0] != '\0') && envelope[0] != '\0';
+    (void)snprintf(text, size, "%s%s%s%s%s", clusters, solid_follows ? "; " : "", solid,
+                   envelope_follows ? "; " : "", envelope);
     return text;
 }

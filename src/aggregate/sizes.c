@@ -19,6 +19,14 @@ static double draw_in_bin(const clast_sizes *sizes, int64_t bin, clx_rng *rng)
     return low == high ? low : low * pow(high / low, clx_rng_uniform(rng));
 }
 
+double clx_sizes_number(const clast_aggregate_params *c, const clast_sizes *sizes, int64_t row)
+{
+    const double low = sizes->low[row];
+    const double width = 3.0 * log(sizes->high[row] / low);
+    const double mean_cube = low * low * low * (width > 0.0 ? expm1(width) / width : 1.0);
+    return c->size_by_mass ? sizes->count[row] / mean_cube : sizes->count[row];
+}
+
 static clast_status count_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                                int64_t *total)
 {
@@ -77,10 +85,7 @@ static clast_status cumulate(const clast_aggregate_params *c, const clast_sizes 
     double total = 0.0;
     CLX_TRY(clx_alloc(sum, sizes->n, sizeof **sum));
     for (int64_t i = 0; i < sizes->n; ++i) {
-        const double middle = sqrt(sizes->low[i] * sizes->high[i]);
-        const double number =
-            c->size_by_mass ? sizes->count[i] / (middle * middle * middle) : sizes->count[i];
-        total += number;
+        total += clx_sizes_number(c, sizes, i);
         (*sum)[i] = total;
     }
     CLX_CHECK(total > 0.0 && isfinite(total), CLAST_E_CONFIG, "sizes: the counts sum to %g", total);
@@ -263,7 +268,8 @@ int32_t clx_sizes_shape(const clast_aggregate_params *c, int32_t n_coat, uint64_
     CLAST_ASSERT(particle >= 0 && size > 0.0);
     if (c->class_limit.n > 0) {
         int32_t k = 0;
-        while (k < c->class_limit.n && size > c->class_limit.item[k]) {
+        // 0.03 mm is above 30 um in the last bit
+        while (k < c->class_limit.n && size > c->class_limit.item[k] * (1.0 + 1e-9)) {
             ++k;
         }
         return k;

@@ -99,8 +99,9 @@ clx_size_column clx_size_column_of(const char *name)
     for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
         is = strcmp(text, names[k].name) == 0 ? names[k].is : is;
     }
-    if (unit[0] == '\0' || is_share_unit(unit)) {
-        return is;
+    if (unit[0] == '\0' || is_share_unit(unit)) { // "weight" is any measure, "weight %" a mass
+        const bool is_percent = unit[0] == '%' || unit[0] == 'p';
+        return is_percent && strncmp(text, "weight", 6) == 0 ? CLX_SIZE_COLUMN_MASS : is;
     }
     const bool is_weighed = is == CLX_SIZE_COLUMN_MASS || is == CLX_SIZE_COLUMN_EITHER;
     return is_weighed && is_mass_unit(unit) ? CLX_SIZE_COLUMN_MASS : CLX_SIZE_COLUMN_OTHER;

@@ -620,6 +620,40 @@ class BadInput(Case):
         self.assert_fails(2, *self.sizes("gloss,size_mm\n7,0.02\n"), says=("'gloss' is not understood",))
         self.assertEqual(clast(*self.sizes("gloss,size_mm\n7,0.02\n"), "--size-column", "size_mm").code, 0)
 
+    def test_bins_weigh_as_their_masses_say(self):
+        """A bin of a decade was drawn 3.8 times too often: its grains were weighed by the cube of its geometric middle, not by their mean cube."""
+        run = self.folder / "run"
+        made = clast(*self.sizes("low_um,high_um,mass_g\n10,20,1\n20,200,1\n"), "--size-by-mass", "--size-draw", "--n-particle", 4000, *QUICK,
+                     "--envelope", "gyration_sphere", "--envelope-every", 9999, "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        with open(run / "sizes.csv", encoding="utf-8") as file:
+            fine, coarse = csv.DictReader(file)
+        # mean cubes in (10 um)^3: 7 / 3 ln 2 of the fine, 7992 / 3 ln 10 of the coarse
+        ratio = (7992 / math.log(10)) / (7 / math.log(2))
+        self.assertAlmostEqual(float(fine["wanted"]) / float(coarse["wanted"]), ratio, delta=1e-9 * ratio)
+        self.assertAlmostEqual(float(coarse["placed"]), 4000 / (1 + ratio), delta=5 * math.sqrt(4000 / ratio))
+
+    def test_a_size_at_a_limit_is_below_it_in_every_unit(self):
+        """0.03 mm was above a class_limit of 30um in its last bit, as 442 of the first 1000 um are, and took the other shape."""
+        coats = ("--coat", "ellipsoid:2,1,1", "--class-limit", "30um", "--json")
+        solids = [clast(*self.sizes(text), *coats).json["solid_sum"] for text in ("size_mm\n0.03\n", "size_um\n30\n", "size_m\n3e-5\n")]
+        self.assertLess(max(solids) - min(solids), 1e-22)
+
+    def test_a_porosity_below_zero_is_told(self):
+        """A light coat about a dense core: by the sphere of its radius of gyration, porosity -1.47 and 1472 kg/m3 without a word."""
+        light = (*SPHERES, "--replicate", 60, "--coat-density", "100kg/m^3")
+        says = "porosity below 0: gyration_sphere is smaller than the solid"
+        made = clast(*light, "--envelope", "surface_hull", "--envelope", "gyration_sphere")
+        self.assertIn(says, made.out)
+        self.assertIn(says, clast(*light, "--envelope", "gyration_sphere", "--json").json["scope"])
+        self.assertNotIn("below 0", clast(*light).out)
+
+    def test_percent_by_weight_is_a_mass(self):
+        """Weight percent of a sieve analysis were taken for numbers of grains: 100 of them."""
+        for name in ("weight_percent", "Weight %", "weight (%)"):
+            self.assert_fails(2, *self.sizes(f"low_um,high_um,{name}\n10,20,30\n20,40,70\n"), says=("holds masses, not numbers of grains",))
+        self.assertEqual(clast(*self.sizes("low_um,high_um,weight\n10,20,30\n20,40,70\n"), "--json").json["n_grain"], 101)
+
     def test_drawn_sizes_are_drawn_in_each_replicate(self):
         """The help said "particles to place" of all: a law has other particles in each replicate, a list has n_particle in all."""
         grow = (*SPHERES[:7], "--replicate", 3, "--json", "--n-particle")
