@@ -85,7 +85,7 @@ static clast_status check(const config *c, clast_mesh *mesh, clast_mesh_check_re
 }
 
 static clast_status tell(const cli_common *common, const config *c, const clast_mesh *mesh,
-                         const clast_mesh_check_result *result,
+                         const char *unit, const clast_mesh_check_result *result,
                          const clast_mesh_repair_report *weld)
 {
     char cure[400] = "";
@@ -94,7 +94,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
         CLI_GUARD(clast_mesh_cure(mesh, common->argument[0], sizeof cure, cure));
     }
     if (common->json) {
-        json_t *object = cli_check_json(common->argument[0], result);
+        json_t *object = cli_check_json(common->argument[0], unit, result);
         cli_json_number(object, "weld", weld->weld_distance);
         cli_json_count(object, "n_merged", weld->n_merged);
         cli_json_text(object, "repair", solid ? NULL : cure);
@@ -104,7 +104,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
         (void)printf("merged %d vertices within %g of the extent\n", weld->n_merged,
                      c->weld_tolerance);
     }
-    cli_check_words(common->argument[0], result);
+    cli_check_words(common->argument[0], unit, result);
     if (cure[0] != '\0') {
         (void)printf("  to %s: %s\n", result->closed ? "orient it outward" : "close it", cure);
     }
@@ -117,13 +117,14 @@ static clast_status run(const cli_common *common, void *config_bytes)
     const clast_mesh_repair_config welding = {.weld = c->weld};
     clast_idle rules[CLAST_N_IDLE];
     clast_mesh mesh = {0};
+    clast_mesh_read_report read = {0};
     clast_mesh_check_result result = {0};
     clast_mesh_repair_report weld = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(cli_idle_check(fields, c, clast_mesh_repair_idle(&welding, rules)));
-    CLI_TRY(cli_mesh_input(common, &mesh, NULL));
+    CLI_TRY(cli_mesh_input(common, &mesh, &read));
     CLI_TRY(check(c, &mesh, &result, &weld));
-    CLI_TRY(tell(common, c, &mesh, &result, &weld));
+    CLI_TRY(tell(common, c, &mesh, read.unit, &result, &weld));
     status = clast_mesh_check_passed(&result) ? CLAST_OK : CLAST_E_NO;
 done:
     clast_mesh_check_free(&result);

@@ -109,20 +109,22 @@ done:
 }
 
 static clast_status tell(const cli_common *common, const clast_mesh_repair_config *config,
-                         const clast_mesh_repair_report *report,
+                         const char *unit, const clast_mesh_repair_report *report,
                          const clast_mesh_check_result *check)
 {
+    char words[32];
     if (common->json) {
-        json_t *object = cli_check_json(common->output, check);
+        json_t *object = cli_check_json(common->output, unit, check);
         if (object != NULL) {
             cli_json_text(object, "input", common->argument[0]);
             (void)json_object_set_new(object, "changes", report_json(report));
         }
         return cli_print_json(object);
     }
-    (void)printf("%s (model units):\n", cli_name(common->argument[0]));
+    cli_mesh_unit(unit, words);
+    (void)printf("%s (%s):\n", cli_name(common->argument[0]), words);
     print_changes(report, config->keep == CLAST_KEEP_ALL);
-    cli_check_words(common->output, check);
+    cli_check_words(common->output, unit, check);
     return CLAST_OK;
 }
 
@@ -143,7 +145,7 @@ static clast_status run(const cli_common *common, void *config)
     CLI_TRY(cli_mesh_save(common, &repaired, &read));
     CLI_TRY(check_written(common, &repaired, &check));
     warn_format(common, &report);
-    CLI_TRY(tell(common, c, &report, &check));
+    CLI_TRY(tell(common, c, read.unit, &report, &check));
     status = clast_mesh_check_passed(&check) ? CLAST_OK : CLAST_E_NO;
 done:
     clast_mesh_check_free(&check);

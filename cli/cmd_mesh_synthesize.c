@@ -59,7 +59,7 @@ __attribute__((constructor)) static void join_fields(void)
     }
 }
 
-enum { N_COLUMN = 7 };
+enum { VOLUME = 5, N_COLUMN = 7 };
 
 static double value_at(const clast_synthesize_report *r, int column)
 {
@@ -170,7 +170,9 @@ static clast_status table_words(const cli_common *common, const char *unit,
         double mean = 0.0;
         double deviation = 0.0;
         statistics(table, k, &mean, &deviation);
-        (void)printf("  %-12s %.6g", table->column[k + 1].name, mean);
+        const bool has_unit = k == VOLUME && unit[0] != '\0';
+        (void)printf("  %-12s %.6g%s%s%s", table->column[k + 1].name, mean, has_unit ? " " : "",
+                     has_unit ? unit : "", has_unit ? "^3" : "");
         if (table->n_row > 1) {
             (void)printf(", deviation %.6g", deviation);
         }

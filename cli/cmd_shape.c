@@ -321,6 +321,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
         .spacing = c->spacing,
         .columns = c->columns[0] != '\0' ? c->columns : NULL,
         .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
+        .unit = c->unit,
     };
     const clast_monitor monitor = cli_monitor(common);
     clast_status status = CLAST_OK;

@@ -39,10 +39,11 @@ static json_t *part_list(const clast_mesh_check_result *r)
     return list;
 }
 
-json_t *cli_check_json(const char *file, const clast_mesh_check_result *r)
+json_t *cli_check_json(const char *file, const char *unit, const clast_mesh_check_result *r)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", file);
+    cli_json_text(o, "unit", unit[0] != '\0' ? unit : "model");
     cli_json_count(o, "n_vertex", r->n_vertex);
     cli_json_count(o, "n_triangle", r->n_triangle);
     cli_json_bool(o, "closed", r->closed);
@@ -88,8 +89,10 @@ static const char *yes(bool is)
     return is ? "yes" : "NO";
 }
 
-void cli_check_words(const char *file, const clast_mesh_check_result *r)
+void cli_check_words(const char *file, const char *unit, const clast_mesh_check_result *r)
 {
+    char words[32];
+    cli_mesh_unit(unit, words);
     (void)printf("%s: %s\n", cli_name(file),
                  clast_mesh_check_passed(r) ? "a solid: closed, oriented and manifold"
                                             : "NOT a solid that can be measured");
@@ -97,7 +100,8 @@ void cli_check_words(const char *file, const clast_mesh_check_result *r)
                  r->n_vertex, r->n_triangle, r->n_edge, r->n_part, (long long)r->euler, r->genus);
     (void)printf("  closed %s, oriented %s, manifold %s\n", yes(r->closed), yes(r->oriented),
                  yes(r->manifold));
-    (void)printf("  extent       %.10g (model units: the file's own)\n", r->extent);
+    (void)printf("  extent       %.10g (%s%s)\n", r->extent, words,
+                 unit[0] != '\0' ? "" : ": the file's own");
     (void)printf("  volume       %.10g (four sums differ by %.2g)\n", r->volume, r->volume_spread);
     (void)printf("  area         %.10g (two sums differ by %.2g)\n", r->area,
                  fabs(r->area - r->area_heron));

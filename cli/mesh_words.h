@@ -5,11 +5,12 @@
 #include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 
-/// Everything of a check as a JSON object (DESIGN section 7).
-json_t *cli_check_json(const char *file, const clast_mesh_check_result *result);
+/// Everything of a check as a JSON object (DESIGN section 7); `unit` as the file says it, ""
+/// without.
+json_t *cli_check_json(const char *file, const char *unit, const clast_mesh_check_result *result);
 
 /// The same in words on stdout.
-void cli_check_words(const char *file, const clast_mesh_check_result *result);
+void cli_check_words(const char *file, const char *unit, const clast_mesh_check_result *result);
 
 /// Refuses a missing or unknown output name before any work is done.
 clast_status cli_mesh_output(const cli_common *common);

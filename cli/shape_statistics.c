@@ -111,7 +111,7 @@ json_t *cli_statistics_json(const clast_grain_statistics *statistics)
 static void cell(double value)
 {
     if (isfinite(value)) {
-        (void)printf("%10.4g", value);
+        (void)printf(" %9.4g", value);
     } else {
         (void)printf("%10s", "-");
     }

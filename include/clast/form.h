@@ -245,8 +245,8 @@ CLAST_API clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh
 /// of S/L > 0.03. L = I = S = 1 takes all form and size off: such a mesh, its vertices multiplied
 /// by (L, I, S), has any form.
 ///
-/// @return CLAST_E_CONFIG for lengths that are not finite, not positive, not in order or too small
-///         or large for moments in doubles (1e-56 .. 1e60)
+/// @return CLAST_E_CONFIG for lengths that are not finite, not positive, not in order, too small
+///         or large for moments in doubles (1e-56 .. 1e60), or of S below 1e-6 L
 CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3],
                                          clast_mesh *out);
 

@@ -132,6 +132,7 @@ typedef struct clast_grains_options {
     int64_t least_voxels; ///< volumes: smaller labels and parts are left out and counted
     const char *columns;  ///< table: see clast_form_set_of; NULL or "": by their names
     const char *folder;   ///< write each grain's surface there as PLY; NULL: do not
+    const char *unit;     ///< of surfaces written, where a file does not say its own; NULL: none
 } clast_grains_options;
 
 typedef struct clast_grain_record {

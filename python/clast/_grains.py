@@ -122,7 +122,8 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
                                      has_threshold=threshold is not None,
                                      threshold=0.0 if threshold is None else quantity("threshold", threshold), least_voxels=given["least_voxels"],
                                      columns=encoded("columns", columns) or None,
-                                     folder=None if surfaces is None else output_path("surfaces", surfaces, *files))
+                                     folder=None if surfaces is None else output_path("surfaces", surfaces, *files),
+                                     unit=encoded("unit", given["unit"]))
     volume = options.volume
     volume.type, volume.is_big_endian, volume.skip = choice("voxel_type", given["voxel_type"], words["voxel_type"][5] or ""), given["big_endian"], given["skip"]
     if voxels is not None:

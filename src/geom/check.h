@@ -2,6 +2,9 @@
 // The steps of clast_mesh_check, one file each.
 #include "base/status.h"
 
+/// Below it a product of three lengths is not to be told from 0.
+#define CLX_SMALLEST_EXTENT 1e-95
+
 typedef struct clast_mesh_check_result clast_mesh_check_result;
 typedef struct clast_mesh_part clast_mesh_part;
 typedef struct clast_mesh_repair_report clast_mesh_repair_report;

@@ -9,9 +9,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/// Below it a product of three lengths is not to be told from 0.
-static const double SMALLEST_EXTENT = 1e-95;
-
 /// Times the extent: what welding a file's rounding moves (24 bits), and no word is said of.
 static const double SMALL_MOVE = 1e-6;
 
@@ -124,7 +121,7 @@ static void part_words(clast_mesh_check_result *r)
 static void flat_words(clast_mesh_check_result *r)
 {
     const int32_t n_flat = r->n_flat;
-    if (r->n_edge > 0 && r->extent < SMALLEST_EXTENT) {
+    if (r->n_edge > 0 && r->extent < CLX_SMALLEST_EXTENT) {
         add(r, true, "flat", "an extent of %.3g is too small for a volume; is the unit right?",
             r->extent);
     } else if (r->n_edge > 0 && r->hull_volume == 0.0) {

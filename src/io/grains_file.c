@@ -121,7 +121,9 @@ static clast_status write_surface(const clx_grains_task *task, const char *suffi
     if (task->options->hull || mesh->n_tri == 0) {
         CLX_TRY(clast_mesh_hull(mesh, &hull));
     }
-    const clast_mesh_write_options options = {.unit = task->unit[0] != '\0' ? task->unit : NULL};
+    const char *unit = task->unit[0] != '\0' ? task->unit : task->options->unit;
+    const clast_mesh_write_options options = {.unit =
+                                                  unit != NULL && unit[0] != '\0' ? unit : NULL};
     CLX_TRY(clast_mesh_write(hull.n_tri > 0 ? &hull : mesh, path, &options));
 done:
     clx_free(path);
@@ -308,7 +310,7 @@ done:
 
 static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels,
                                const clast_voxel_label *label, clast_grains_kind kind,
-                               const double offset[3])
+                               const double offset[3], bool *is_parted)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
@@ -322,6 +324,7 @@ static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels
     CLX_TRY(take_mesh(task, kind, suffix, &mesh, label->n_voxel));
     task->grains.record[task->grains.n - 1].is_smoothed =
         !task->options->hull && voxels->grey == NULL;
+    CLX_TRY(clx_grains_find_parted(&mesh, is_parted));
     if (task->options->hull) { // of points; what it adds is told against the voxels
         clast_grain *grain = &task->grains.record[task->grains.n - 1].grain;
         const double *e = voxels->edge;
@@ -333,6 +336,47 @@ done:
     return status;
 }
 
+/// A grain at the volume's border, which may cut it; a volume cropped to its one grain cuts
+/// nothing.
+static bool is_at_border(const clast_voxels *voxels, const clast_voxel_label *label)
+{
+    int n_side = 0;
+    for (int k = 0; k < 3; ++k) {
+        n_side += (label->low[k] == 0) + (label->high[k] == voxels->n[k] - 1);
+    }
+    return n_side > 0 && n_side < 6;
+}
+
+/// Labels that a line names, the first ten of them.
+typedef struct {
+    int32_t n;
+    char names[128];
+} label_list;
+
+static void add_label(label_list *list, int32_t label)
+{
+    const size_t at = strlen(list->names);
+    if (list->n < 10) {
+        (void)snprintf(list->names + at, sizeof list->names - at, " #%d", label);
+    } else if (list->n == 10) {
+        (void)snprintf(list->names + at, sizeof list->names - at, " ...");
+    }
+    ++list->n;
+}
+
+/// "BEFORE 3 of 57 grains AFTER: #2 #5 #9", if there are any.
+static clast_status warn_of(clx_grains_task *task, const label_list *list, int32_t n,
+                            const char *before, const char *after)
+{
+    char text[320];
+    if (list->n == 0) {
+        return CLAST_OK;
+    }
+    (void)snprintf(text, sizeof text, "%s%d of %d grains%s:%s", before, list->n, n, after,
+                   list->names);
+    return warn(task, text);
+}
+
 static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxels,
                                 clast_grains_kind kind, const double offset[3])
 {
@@ -342,12 +386,21 @@ static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxel
     CLX_TRY(clast_voxels_labels(voxels, &labels, &n));
     CLX_CHECK(n > 0, CLAST_E_GEOMETRY, "all voxels are 0: there is no grain");
     int32_t n_small = 0;
+    label_list cut = {0};
+    label_list parted = {0};
     for (int32_t i = 0; i < n; ++i) {
+        bool is_parted = false;
         if (labels[i].n_voxel < task->options->least_voxels) {
             ++n_small;
             continue;
         }
-        const clast_status one = take_label(task, voxels, &labels[i], kind, offset);
+        const clast_status one = take_label(task, voxels, &labels[i], kind, offset, &is_parted);
+        if (is_parted) {
+            add_label(&parted, labels[i].label);
+        }
+        if (kind == CLAST_GRAINS_VOXELS && is_at_border(voxels, &labels[i])) {
+            add_label(&cut, labels[i].label);
+        }
         if (one != CLAST_OK) {
             CLX_TRY(note_fault(task, one)); // the other labels may do
         }
@@ -358,6 +411,9 @@ static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxel
                        n_small, n, (long long)task->options->least_voxels);
         CLX_TRY(clx_grains_note(task, text));
     }
+    CLX_TRY(warn_of(task, &cut, n, "the border of the volume may cut ", ""));
+    CLX_TRY(warn_of(task, &parted, n, "",
+                    " are several bodies that do not hang together, each measured as one"));
 done:
     clast_voxels_labels_free(labels);
     return status;
@@ -366,6 +422,18 @@ done:
 static bool has_dataset(const clx_grains_task *task)
 {
     return task->options->dataset != NULL && task->options->dataset[0] != '\0';
+}
+
+/// Keeps the name of a file's unit for the surfaces written; 0: it says none.
+static void keep_unit(clx_grains_task *task, double unit_m)
+{
+    static const char *const names[] = {"m", "cm", "mm", "um", "nm", "km", "in"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        double metre = 0.0;
+        if (clast_unit_factor(names[k], "m", &metre) == CLAST_OK && metre == unit_m) {
+            (void)snprintf(task->unit, sizeof task->unit, "%s", names[k]);
+        }
+    }
 }
 
 /// A volume of the formats of scanners, as labels.
@@ -407,6 +475,7 @@ static clast_status take_voxel_file(clx_grains_task *task)
         CLX_TRY(read_volume(task, &voxels, &unit_m));
     }
     const int64_t first = task->grains.n;
+    keep_unit(task, unit_m);
     CLX_TRY(take_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0}));
     for (int64_t i = first; i < task->grains.n; ++i) {
         task->grains.record[i].unit_m = unit_m;
@@ -522,6 +591,7 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
         CLX_TRY(has_faces ? refuse_faces(task) : CLAST_OK);
         double unit_m = 0.0;
         CLX_TRY(points_of_table(&table, &points, &unit_m));
+        keep_unit(task, unit_m);
         CLX_TRY(take_points(task, &points));
         for (int64_t i = 0; i < task->grains.n; ++i) {
             task->grains.record[i].unit_m = unit_m;

@@ -1,6 +1,7 @@
 #pragma once
 // Parts of clast_grains_read: one file's task.
 #include <clast/grain.h>
+#include <clast/mesh.h>
 
 #include "base/status.h"
 
@@ -30,6 +31,10 @@ clast_grains_kind clx_grains_kind_of_columns(const clx_grains_task *task, const 
 ///
 /// @return CLAST_E_USAGE with both files
 clast_status clx_grains_check_surfaces(clx_grains_task *task, int32_t n_task);
+
+/// True when two pieces of a surface, joined by vertices, have a positive volume: walls of pores
+/// have a negative one.
+clast_status clx_grains_find_parted(const clast_mesh *mesh, bool *is_parted);
 
 /// The rows of a table as grains.
 clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table);

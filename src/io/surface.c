@@ -179,6 +179,9 @@ clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
     if (found.closed && found.oriented && n_flat == 0) {
         goto done;
     }
+    CLX_CHECK(found.hull_volume > 0.0 || found.extent >= CLX_SMALLEST_EXTENT, CLAST_E_GEOMETRY,
+              "%s: an extent of %.3g is too small for a volume; is the unit right?", path,
+              found.extent);
     CLX_CHECK(found.hull_volume > 0.0, CLAST_E_GEOMETRY,
               "%s is flat: its %d vertices lie in one plane, and what has no thickness is no solid",
               path, found.n_vertex);

@@ -3,6 +3,7 @@
 
 #include "base/status.h"
 #include <clast/volume.h>
+#include <math.h>
 #include <string.h>
 #define ZLIB_CONST // next_in is const
 #include <zlib.h>
@@ -81,6 +82,9 @@ clast_status clast_volume_parse(const void *bytes, size_t n, const clast_volume_
     }
     for (int k = 0; k < 3; ++k) {
         made.edge[k] = options->edge[k] > 0.0 ? options->edge[k] : made.edge[k];
+        CLX_CHECK(made.edge[k] > 0.0 && isfinite(made.edge[k]), CLAST_E_FORMAT,
+                  "a voxel's edge of %g; it must be positive and finite (--voxel-edge)",
+                  made.edge[k]);
     }
     *volume = made;
     made = (clast_volume){0};

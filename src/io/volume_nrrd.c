@@ -3,7 +3,6 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
-#include <clast/field.h>
 #include <clast/volume.h>
 #include <math.h>
 #include <stdio.h>
@@ -131,16 +130,26 @@ static clast_status take_directions(const char *text, header *h)
     return CLAST_OK;
 }
 
-static void take_units(const char *text, header *h)
+/// "mm" "mm" "mm": all axes in one unit.
+static clast_status take_units(const char *all, header *h)
 {
-    char unit[16] = "";
-    const char *open = strchr(text, '"');
-    if (open != NULL) {
-        (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(open + 1, "\""), open + 1);
+    const char *text = all;
+    for (int k = 0; k < 3; ++k) {
+        char unit[32] = "";
+        const char *open = strchr(text, '"');
+        if (open == NULL) {
+            break;
+        }
+        const size_t n = strcspn(open + 1, "\"");
+        (void)snprintf(unit, sizeof unit, "%.*s", n < sizeof unit ? (int)n : 0, open + 1);
+        const double metre = clx_volume_unit(unit);
+        if (k > 0 && metre != h->unit_m) {
+            return clx_fail(CLAST_E_FORMAT, "NRRD: the axes have different units: %.60s", all);
+        }
+        h->unit_m = metre;
+        text = open + 1 + n + (open[1 + n] != '\0');
     }
-    if (clast_unit_factor(unit, "m", &h->unit_m) != CLAST_OK) {
-        h->unit_m = 0.0;
-    }
+    return CLAST_OK;
 }
 
 static clast_status take_encoding(const char *text, header *h)
@@ -174,7 +183,7 @@ static clast_status take_field(const char *name, const char *text, header *h)
         return take_directions(text, h);
     }
     if (strcmp(name, "space units") == 0 || strcmp(name, "units") == 0) {
-        take_units(text, h);
+        return take_units(text, h);
     }
     if (strcmp(name, "encoding") == 0) {
         return take_encoding(text, h);
@@ -244,6 +253,11 @@ clast_status clx_nrrd_parse(const uint8_t *bytes, size_t n, clast_volume *volume
     CLX_CHECK(wanted <= held, CLAST_E_FORMAT,
               "NRRD: %d x %d x %d voxels are %.0f bytes; the file has %zu after its header", h.n[0],
               h.n[1], h.n[2], wanted, n - at);
+    CLX_CHECK(
+        h.is_gzip || wanted == held, CLAST_E_FORMAT,
+        "NRRD: %d x %d x %d voxels are %.0f bytes; the file has %zu, so its sizes or type are "
+        "wrong",
+        h.n[0], h.n[1], h.n[2], wanted, n - at);
     CLX_TRY(clast_volume_alloc(h.n, volume));
     if (h.is_gzip) {
         CLX_TRY(clx_alloc(&unpacked, (int64_t)wanted, 1));

@@ -15,6 +15,8 @@ bool clx_tiff_is(const uint8_t *bytes, size_t n)
 #include "base/alloc.h"
 #include "base/number.h"
 #include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
 #include <tiffio.h>
 
 /// A file in memory, as libtiff reads it, and the first thing that it found wrong.
@@ -31,6 +33,12 @@ typedef struct {
     int size;                     ///< bytes of a value
     clast_volume_type type;
 } page;
+
+/// What a file's description says.
+typedef struct {
+    double n_slice, n_volume; ///< slices that it promises; channels times times, 1 is a volume
+    double edge[3], unit_m;   ///< of a voxel
+} described;
 
 static tmsize_t read_bytes(thandle_t handle, void *to, tmsize_t n)
 {
@@ -187,7 +195,8 @@ static clast_status count_pages(TIFF *file, const source *s, page *first, int32_
     page next;
     for (*n_page = 0; *n_page == 0 || !TIFFLastDirectory(file); ++*n_page) {
         CLX_CHECK(*n_page == 0 || TIFFReadDirectory(file), CLAST_E_FORMAT, "TIFF: page %d: %s",
-                  *n_page + 1, s->fault);
+                  *n_page + 1,
+                  s->fault[0] != '\0' ? s->fault : "pages follow each other in a circle");
         CLX_TRY(read_page(file, *n_page + 1, &next));
         if (*n_page == 0) {
             *first = next;
@@ -202,19 +211,89 @@ done:
     return status;
 }
 
-/// Slices that the description promises (ImageJ: "images=N"); 0 when it says nothing.
-static int64_t promised(TIFF *file)
+/// What stands behind `key` at the begin of a line or word of the text, up to `end`; "" without.
+static void find_value(const char *text, const char *key, char end, char value[32])
 {
-    static const char word[] = "images=";
-    const char *text = NULL;
-    int64_t n = 0;
-    if (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) && text != NULL) {
-        const char *at = strstr(text, word);
-        for (at = at != NULL ? at + sizeof word - 1 : ""; *at >= '0' && *at <= '9'; ++at) {
-            n = n < INT32_MAX ? 10 * n + (*at - '0') : n;
+    const size_t n = strlen(key);
+    value[0] = '\0';
+    for (const char *at = strstr(text, key); at != NULL; at = strstr(at + n, key)) {
+        if (at == text || at[-1] == '\n' || at[-1] == ' ') {
+            const char *stop = strchr(at + n, end);
+            const size_t length = stop != NULL ? (size_t)(stop - at) - n : strlen(at + n);
+            (void)snprintf(value, 32, "%.*s", length < 32 ? (int)length : 31, at + n);
+            return;
         }
     }
-    return n;
+}
+
+static double find_number(const char *text, const char *key, char end)
+{
+    char value[32];
+    char *stop = NULL;
+    find_value(text, key, end, value);
+    return clx_number_read(value, &stop); // 0 of another text
+}
+
+/// An edge that the file states in a sensible way, else what it was.
+static void take_edge(double stated, double *edge)
+{
+    if (stated > 0.0 && isfinite(stated)) {
+        *edge = stated;
+    }
+}
+
+/// ImageJ's lines `images=N`, `unit=micron`, `spacing=` of slices; pixels in a unit are the page's
+/// resolution. A stack without spacing has 1.
+static void read_imagej(TIFF *file, const char *text, described *d)
+{
+    float per_unit[2] = {0.0F, 0.0F};
+    char unit[32];
+    d->n_slice = find_number(text, "images=", '\n');
+    d->n_volume = fmax(1.0, find_number(text, "channels=", '\n')) *
+                  fmax(1.0, find_number(text, "frames=", '\n'));
+    (void)TIFFGetField(file, TIFFTAG_XRESOLUTION, &per_unit[0]);
+    (void)TIFFGetField(file, TIFFTAG_YRESOLUTION, &per_unit[1]);
+    take_edge(1.0 / (double)per_unit[0], &d->edge[0]);
+    take_edge(1.0 / (double)per_unit[1], &d->edge[1]);
+    take_edge(fabs(find_number(text, "spacing=", '\n')), &d->edge[2]);
+    find_value(text, "unit=", '\n', unit);
+    d->unit_m = clx_volume_unit(unit);
+}
+
+/// The same of OME-TIFF's XML; sizes of a pixel without a unit are in micrometres.
+static void read_ome(const char *text, described *d)
+{
+    static const char *const edge[3] = {"PhysicalSizeX=\"", "PhysicalSizeY=\"", "PhysicalSizeZ=\""};
+    static const char *const unit[3] = {"PhysicalSizeXUnit=\"", "PhysicalSizeYUnit=\"",
+                                        "PhysicalSizeZUnit=\""};
+    double metre[3];
+    d->n_slice = find_number(text, "SizeZ=\"", '"');
+    d->n_volume = fmax(1.0, find_number(text, "SizeC=\"", '"')) *
+                  fmax(1.0, find_number(text, "SizeT=\"", '"'));
+    for (int k = 0; k < 3; ++k) {
+        char word[32];
+        find_value(text, unit[k], '"', word);
+        metre[k] = clx_volume_unit(word[0] != '\0' ? word : "um");
+        const double stated = find_number(text, edge[k], '"');
+        d->unit_m = k == 0 && stated > 0.0 ? metre[0] : d->unit_m;
+        take_edge(metre[k] == metre[0] ? stated : stated * metre[k] / metre[0], &d->edge[k]);
+    }
+}
+
+/// What the first page's description says of the volume: edges 1 and no unit where it says nothing.
+static described read_description(TIFF *file)
+{
+    described d = {.edge = {1.0, 1.0, 1.0}, .n_volume = 1.0};
+    const char *text = NULL;
+    if (!TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) || text == NULL) {
+        return d;
+    }
+    if (strncmp(text, "ImageJ=", 7) == 0) {
+        read_imagej(file, text, &d);
+    } else if (strstr(text, "<OME") != NULL) {
+        read_ome(text, &d);
+    }
+    return d;
 }
 
 /// Values of the page into its slice; `scratch` has room for a strip or tile.
@@ -278,14 +357,22 @@ clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume
     page p = {0};
     int32_t n_page = 0;
     CLX_TRY(open_source(&s, &file));
-    const int64_t n_promised = promised(file);
+    const described d = read_description(file);
     CLX_TRY(count_pages(file, &s, &p, &n_page));
-    CLX_CHECK(n_promised <= n_page, CLAST_E_FORMAT,
-              "TIFF: %lld slices are promised and %d have a page; save the stack with a page a "
+    CLX_CHECK(d.n_slice <= n_page, CLAST_E_FORMAT,
+              "TIFF: %.0f slices are promised and %d have a page; save the stack with a page a "
               "slice, or as NRRD or bare values",
-              (long long)n_promised, n_page);
+              d.n_slice, n_page);
+    CLX_CHECK(d.n_volume == 1.0, CLAST_E_FORMAT,
+              "TIFF: %.0f channels or times in one stack; save one of them as a stack of its own "
+              "(ImageJ: Image > Duplicate)",
+              d.n_volume);
     const int32_t size[3] = {(int32_t)p.width, (int32_t)p.height, n_page};
     CLX_TRY(clast_volume_alloc(size, volume));
+    for (int k = 0; k < 3; ++k) {
+        volume->edge[k] = d.edge[k];
+    }
+    volume->unit_m = d.unit_m;
     CLX_CHECK(TIFFSetDirectory(file, 0), CLAST_E_FORMAT, "TIFF: %s", s.fault);
     for (int32_t k = 0; k < n_page; ++k) {
         CLX_CHECK(k == 0 || TIFFReadDirectory(file), CLAST_E_FORMAT, "TIFF: page %d: %s", k + 1,

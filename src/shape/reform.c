@@ -15,6 +15,10 @@
 /// Below it, facets' parts of a moment lose digits.
 static const double LEAST_MOMENT = 1e-280;
 
+/// S by L below which the moments of a sheet or needle lose their digits: their error is
+/// 2e-16 (L/S)^2.
+static const double LEAST_THICKNESS = 1e-6;
+
 /// Second moments by the volume, C/V, from the inertia about the centroid.
 static void second_moments(const clast_mass *mass, double c[3][3])
 {
@@ -144,6 +148,9 @@ clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3], clas
     CLX_CHECK(moment > LEAST_MOMENT && lis[0] < 1e60, CLAST_E_CONFIG,
               "form: of lengths %g, %g, %g the moments are beyond a double; is the unit right?",
               lis[0], lis[1], lis[2]);
+    CLX_CHECK(lis[2] >= (1.0 - 1e-9) * LEAST_THICKNESS * lis[0], CLAST_E_CONFIG,
+              "form: S is %g of L; below %g the moments of so thin a solid lose their digits",
+              lis[2] / lis[0], LEAST_THICKNESS);
     CLX_TRY(clast_reform_principal(mesh, &made, was));
     stretch(&made, (double[3]){lis[0] / was[0], lis[1] / was[1], lis[2] / was[2]});
     CLX_TRY(polish(&made, lis));

@@ -63,6 +63,25 @@ class MeshCheck(Case):
         for text in ["NOT a solid", "closed NO", "triangles 9996", "FAULT open_edges: 32 open edges in 8 loops"]:
             self.assertIn(text, result.out)
 
+    def test_a_unit_that_the_file_says_is_told(self):
+        """"model units: the file's own" for a file of ours in mm."""
+        path = self.folder / "grain.stl"
+        clast("mesh", "convert", DATA / "standin63/grain00.ply", "--unit", "mm", "-o", path)
+        self.assertIn("(lengths in mm)", clast("mesh", "check", path).out)
+        self.assertEqual(clast("mesh", "check", path, "--json").json["unit"], "mm")
+        repaired = clast("mesh", "repair", path, "-o", self.folder / "closed.stl")
+        self.assertIn("grain.stl (lengths in mm):", repaired.out)
+        self.assertNotIn("model units", repaired.out)
+        self.assertEqual(clast("mesh", "check", DATA / "standin63/grain00.ply", "--json").json["unit"], "model")
+
+    def test_a_surface_too_small_for_doubles_is_not_called_flat(self):
+        """1e-160 across: "is flat: its 4 vertices lie in one plane"."""
+        path = self.folder / "tiny.obj"
+        path.write_text("v 0 0 0\nv 1e-160 0 0\nv 0 1e-160 0\nv 0 0 1e-160\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+        for command in (("shape",), ("mesh", "form", "-o", self.folder / "f.ply"), ("fill", "-o", self.folder / "f.csv")):
+            self.assert_fails(3, *command[:2 if command[0] == "mesh" else 1], path, *command[2 if command[0] == "mesh" else 1:],
+                              says=("tiny.obj", "an extent of 1.73e-160 is too small for a volume"))
+
     def test_pyramid_has_55_shells(self):
         path = shared("scarlet/stl/pyramid.stl")
         if path:

@@ -78,6 +78,8 @@ class MeshForm(Case):
         self.assert_fails(2, "mesh", "form", STONE, "--unit-form", "--size", "2", "-o", out, says=["unit_form"])
         self.assert_fails(2, "mesh", "form", STONE, "--hull", "3", "-o", out, says=["4 faces"])
         self.assert_fails(2, "mesh", "form", STONE, "--flatness", "1.5", "-o", out, says=["flatness"])
+        for thin in ("1e-9", "1e-7"):  # blamed the file: "vertex 1 is -0.2, -0.3, inf", or gave another flatness by 0.4 %
+            self.assert_fails(2, "mesh", "form", STONE, "--flatness", thin, "-q", "-o", out, says=["of L; below 1e-06"])
         self.assertFalse(out.exists())
 
 

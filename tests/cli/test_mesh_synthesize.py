@@ -52,6 +52,7 @@ class MeshSynthesize(Case):
         result = clast(*made, "--size", "7mm", "--unit", "mm")
         self.assertEqual(result.code, 0, result.err)
         self.assertIn("1 grain; lengths in mm", result.out)
+        self.assertRegex(result.out, r"\n  volume +[0-9.]+ mm\^3\n")  # said no unit
         self.assertIn(b"unit mm", out.read_bytes()[:200])
         with_unit = clast("mesh", "form", out, "-o", self.folder / "f.ply", "--json").json
         self.assertEqual(with_unit["unit"], "mm")

@@ -33,6 +33,14 @@ class Statistics(Case):
         self.assertIn("20 sphere, 15 disc, 10 rod, 18 blade", out.out)
         self.assertIn("97.3 % in two", out.out)
 
+    def test_columns_do_not_run_together(self):
+        """-1.235e-05 takes ten characters, all of a column."""
+        path = self.folder / "sheets.csv"
+        path.write_text("L (m),I (m),S (m)\n" + "".join(f"1,1,{1e-10 * (1 + 0.1 * k)}\n" for k in range(5)))
+        words = clast("shape", path, "--statistics", self.folder / "run", "--resamples", 50).out
+        rows = [line.split() for line in words.splitlines() if line.startswith("oblate_prolate_index ")]
+        self.assertEqual([len(r) for r in rows], [8], words)
+
     def test_one_grain_has_no_spread_and_no_nan(self):
         path = self.folder / "one.csv"
         path.write_text("flatness,elongation\n0.5,0.6\n")

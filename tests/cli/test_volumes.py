@@ -91,7 +91,7 @@ def differences(data, n_byte, order):
 PACKINGS = {1: bytes, 5: lzw, 8: zlib.compress, 32773: runs}
 
 
-def tiff(order, data, n_byte, packing, text=b"ImageJ=1.54\nimages=20\nslices=20\n\0", big=False, predictor=1, tile=None):
+def tiff(order, data, n_byte, packing, text=b"ImageJ=1.54\nimages=20\nslices=20\n\0", big=False, predictor=1, tile=None, resolution=0):
     """A page a slice, two strips a page or tiles of a size; classic or BigTIFF."""
     mark, link, entry = (43, 8, "Q") if big else (42, 4, "I")
     out = bytearray((b"II" if order == "<" else b"MM") + struct.pack(order + "H", mark))
@@ -118,12 +118,16 @@ def tiff(order, data, n_byte, packing, text=b"ImageJ=1.54\nimages=20\nslices=20\
         out += b"\0" * (len(out) % 2)
         lists = len(out)
         out += struct.pack(f"{order}{2 * len(parts)}I", *offsets, *map(len, parts))
+        out += struct.pack(order + "2I", 10 * resolution, 10)
         struct.pack_into(order + entry, out, link, len(out))
         n = len(parts)
         entries = [(256, 3, 1, SIZE[0]), (257, 3, 1, SIZE[1]), (258, 3, 1, 8 * n_byte), (259, 3, 1, packing), (262, 3, 1, 1),
                    (270, 2, len(text), where), (277, 3, 1, 1), (317, 3, 1, predictor)]
         entries += [(322, 3, 1, tile[0]), (323, 3, 1, tile[1]), (324, 4, n, lists), (325, 4, n, lists + 4 * n)] if tile else \
             [(273, 4, n, lists), (278, 3, 1, SIZE[1] // 2), (279, 4, n, lists + 4 * n)]
+        if resolution:
+            rational = struct.pack(order + "2I", 10 * resolution, 10)
+            entries += [(k, 5, 1, int.from_bytes(rational, "little" if order == "<" else "big") if big else len(out) - 8) for k in (282, 283)]
         out += struct.pack(order + ("Q" if big else "H"), len(entries))
         for tag, kind, count, value in sorted(entries):
             out += struct.pack(order + "HH" + entry, tag, kind, count)
@@ -189,6 +193,52 @@ class Volumes(Case):
             self.assertEqual(out["unit"], "m")
             self.check_sizes(out["grains"], 1e-3)
 
+    def test_tiff_knows_its_edges_and_unit(self):
+        """Edges of ImageJ and OME were dropped without a word: a stack of slices 0.8 apart, pixels 0.5, read as cubes of edge 1."""
+        imagej = b"ImageJ=1.54\nimages=20\nslices=20\nunit=%s\nspacing=0.8\n\0"
+        ome = (b'<?xml version="1.0"?><OME><Image><Pixels SizeX="40" SizeY="28" SizeZ="20" SizeC="1" SizeT="1" PhysicalSizeX="0.5" '
+               b'PhysicalSizeXUnit="mm" PhysicalSizeY="500" PhysicalSizeZ="0.8" PhysicalSizeZUnit="mm"/></Image></OME>\0')
+        for text, unit in ((imagej % b"mm", 1e-3), (imagej % b"micron", 1e-6), (imagej % b"\\u00B5m", 1e-6), (imagej % b"pixel", 0), (ome, 1e-3)):
+            for big in (False, True):
+                path = self.file("e.tif", tiff("<", U8, 1, 5, text, big=big, resolution=(0 if text is ome else 2)))
+                out = self.grains(path, "--threshold", "100")
+                self.assertEqual(out["unit"], "m" if unit else "model", text)
+                self.check_sizes(out["grains"], unit or 1.0)
+        given = self.grains(path, "--threshold", "100", "--voxel-edge", "1,1,1.6")
+        self.check_sizes(given["grains"], 2e-3)
+        for text in (b"ImageJ=1.54\nimages=20\nslices=10\nframes=2\n\0", b"ImageJ=1.54\nimages=20\nchannels=2\n\0",
+                     ome.replace(b'SizeT="1"', b'SizeT="2"').replace(b'SizeZ="20"', b'SizeZ="10"')):
+            # two times were one grain of both volumes
+            self.assert_fails(3, "shape", self.file("t.tif", tiff("<", U8, 1, 5, text)), "--threshold", "100", says=("2 channels or times",))
+
+    def test_units_of_volumes(self):
+        for word, metre in (("micron", 1e-6), ("microns", 1e-6), ("millimeter", 1e-3)):
+            data = nrrd("raw", U8).replace(b'"mm" "mm" "mm"', b'"%s" ' % word.encode() * 3)
+            self.check_sizes(self.grains(self.file("u.nrrd", data), "--threshold", "100")["grains"], metre)  # were of no unit
+        mixed = nrrd("raw", U8).replace(b'"mm" "mm" "mm"', b'"mm" "mm" "um"')  # was mm
+        self.assert_fails(3, "shape", self.file("m.nrrd", mixed), says=('different units: "mm" "mm" "um"',))
+        for edge in (b"0", b"-0.8"):  # was CLAST_E_USAGE of a function's argument
+            data = nrrd("raw", U8).replace(b"space directions: (0.5,0,0) (0,0.5,0) (0,0,0.8)", b"spacings: 0.5 0.5 " + edge)
+            self.assert_fails(3, "shape", self.file("z.nrrd", data), "--threshold", "100", says=("a voxel's edge of " + edge.decode(),))
+
+    def test_surfaces_of_volumes_say_their_unit(self):
+        for name, data, unit, arguments in (("own", nrrd("raw", U8), b"unit mm", ()), ("given", nrrd("raw", U8).replace(b'"mm"', b'""'), b"unit um",
+                                                                                    ("--unit", "um"))):
+            (self.folder / name).mkdir()
+            self.grains(self.file("s.nrrd", data), "--threshold", "100", "--surfaces", self.folder / name, *arguments)
+            self.assertIn(unit, (self.folder / name / "s#1.ply").read_bytes()[:80])  # was none
+
+    def test_what_the_border_may_cut_and_what_hangs_apart_is_said(self):
+        labels = bytearray(1 if v > 100 else 0 for v in VALUES)
+        out = self.grains(self.file("apart.nrrd", nrrd("raw", bytes(labels))))
+        self.assertEqual([w["text"].split(": ", 1)[1] for w in out["warnings"]],
+                         ["1 of 1 grains are several bodies that do not hang together, each measured as one: #1"])
+        cut = b"".join(U8[i * 40 + 12:i * 40 + 40] for i in range(560))  # through the middle of one of two
+        out = self.grains(self.file("cut.raw", cut), "--voxels", "28,28,20", "--threshold", "100")
+        self.assertEqual([w["text"].split(": ", 1)[1] for w in out["warnings"]], ["the border of the volume may cut 1 of 2 grains: #2"])
+        box = self.grains(self.file("box.raw", bytes([1]) * 1000), "--voxels", "10,10,10")  # cropped to it
+        self.assertEqual(box["warnings"], [])
+
     def test_a_mask_is_smoothed_as_labels(self):
         # The cookbook's own mask of an ellipsoid had 24 % too much area, at any resolution, and a roundness of 0.187 or 0.366 by
         # the unit of its edge.
@@ -234,6 +284,7 @@ class Volumes(Case):
         self.assert_fails(3, "shape", grey_file, "--voxels", "40,28,20", "--threshold", "255", says=("all voxels are 0",))
         whole = nrrd("raw", U8)
         self.assert_fails(3, "shape", self.file("short.nrrd", whole[:-1]), says=("22400 bytes", "22399 after its header"))
+        self.assert_fails(3, "shape", self.file("long.nrrd", whole + bytes(1120)), says=("22400 bytes", "23520", "sizes or type are wrong"))
         self.assert_fails(3, "shape", self.file("hex.nrrd", whole.replace(b"raw", b"hex")), says=("encoding 'hex'",))
         self.assert_fails(3, "shape", self.file("bad.nrrd", nrrd("gzip", gzip.compress(U8)[:-100])), says=("damaged",))
         stack = tiff("<", U8, 1, 1)
