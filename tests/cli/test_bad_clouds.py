@@ -185,7 +185,7 @@ class BadClouds(Case):
         self.assertEqual(clast(*bodies, sized, "--diameter-column", "volume_diameter_m").err, "")
         frames = self.folder / "two.xyz"
         frames.write_text(2 * (f"{len(rows)}\n\n" + "".join("A {} {} {}\n".format(*p) for p in rows)))
-        self.assertEqual(clast(*bodies, frames).err, "clast evolve: warning: points: snapshot 1 of 2\n")
+        self.assertEqual(clast(*bodies, frames).err, "clast evolve: warning: points: the first snapshot of 2 (--frame -1: the last)\n")
 
     def test_files_of_other_codes_say_so(self):
         """particles.geo was "not a text: byte 8 is 0", a positions file "has FoamFile (texts)"."""
