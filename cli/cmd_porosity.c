@@ -64,8 +64,8 @@ static const clast_field fields[] = {
      "what a grain fills: its true shape, or the sphere of its volume (published)", "exact|spheres",
      .group = "bulk porosity", .common = true},
     {FIELD(CLAST_FIELD_TEXT, layer), 0, 0, 0, "-",
-     "height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run "
-     "without unit, whose lengths are bare numbers here too",
+     "height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter where that "
+     "is below 1 mm, or of a run without unit, whose lengths are bare numbers here too",
      "0", .common = true},
     {FIELD(CLAST_FIELD_F64, cut), 0.5, 0, 1, "-",
      "the bed ends where the porosity rises through this (n_cut)", NULL, .common = true},
@@ -195,9 +195,9 @@ static clast_status read_lengths(const porosity_config *config, const char *unit
     return CLAST_OK;
 }
 
-/// Reads a run and measures it.
+/// Reads a run and measures it; where no layer is given, with that of another run (0: its own).
 static clast_status measure_run(const cli_common *common, const char *input,
-                                const porosity_config *config, measured_run *s)
+                                const porosity_config *config, double layer, measured_run *s)
 {
     clast_bed_options options = {.porosity = {.method = (clast_porosity_method)config->method,
                                               .cut = config->cut,
@@ -209,6 +209,7 @@ static clast_status measure_run(const cli_common *common, const char *input,
                                  .chains = config->chains};
     CLI_GUARD(read_input(common, input, config, s));
     CLI_GUARD(read_lengths(config, s->assembly.unit, &options));
+    options.porosity.layer = options.porosity.layer == 0.0 ? layer : options.porosity.layer;
     if (config->bed[0] != '\0') {
         CLI_GUARD(cli_check_bed_lengths(config->bed, s->assembly.unit));
         CLI_GUARD(clast_bed_load(config->bed, &s->bed, &s->surface));
@@ -229,22 +230,25 @@ static clast_status measure_run(const cli_common *common, const char *input,
                : cli_fail(status, "%s: %s", input, clast_error_detail()); // which of them
 }
 
-/// The findings of run i join those of the runs before.
+/// The findings of run i join those of the runs before: the first gives the bed and the slices.
 static clast_status gather_one(const cli_common *common, int32_t i, const porosity_config *config,
-                               cli_bed_runs *runs, clast_bed *first)
+                               cli_bed_runs *runs, clast_bed_findings *first)
 {
     const char *input = common->argument[i];
     measured_run s = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(common, input, config, &s));
-    *first = i == 0 ? s.found.bed : *first;
-    CLI_CHECK(s.found.bed.kind == first->kind, CLAST_E_USAGE,
+    CLI_TRY(measure_run(common, input, config, first->options.porosity.layer, &s));
+    if (i == 0) {
+        *first = (clast_bed_findings){.bed = s.found.bed, .options = s.found.options};
+    }
+    CLI_CHECK(s.found.bed.kind == first->bed.kind, CLAST_E_USAGE,
               "%s and %s lie in containers of two kinds: they are no realisations of one bed",
               common->argument[0], input);
-    CLI_CHECK(s.found.bed.is_part == first->is_part, CLAST_E_USAGE,
+    CLI_CHECK(s.found.bed.is_part == first->bed.is_part, CLAST_E_USAGE,
               "--bed holds the grains of %s and is a part of the packing of %s: no realisations of "
               "one bed; give a greater or a smaller one",
-              common->argument[first->is_part ? i : 0], common->argument[first->is_part ? 0 : i]);
+              common->argument[first->bed.is_part ? i : 0],
+              common->argument[first->bed.is_part ? 0 : i]);
     CLI_TRY(cli_bed_runs_add(runs, input, s.assembly.unit, cli_porosity_json(&s.assembly, &s.found),
                              &s.found.profile, &s.found.radial));
 done:
@@ -297,7 +301,7 @@ static clast_status run_several(const cli_common *common, const porosity_config 
                                 clast_run_folder *run)
 {
     cli_bed_runs runs = {0};
-    clast_bed first = {0};
+    clast_bed_findings first = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(check_different(common));
     for (int32_t i = 0; i < common->n_argument; ++i) {
@@ -330,7 +334,7 @@ static clast_status run_one(const cli_common *common, const porosity_config *con
 {
     measured_run s = {0};
     clast_status status = CLAST_OK;
-    CLI_TRY(measure_run(common, common->argument[0], config, &s));
+    CLI_TRY(measure_run(common, common->argument[0], config, 0.0, &s));
     if (run != NULL) {
         CLI_TRY(write_one(common, config, &s, run));
     }

@@ -211,6 +211,7 @@ typedef struct clast_grading_list {
     double total;        ///< sum of the column, n_row without one
     const char *column;  ///< that counts or weighs the rows, borrowed; "": one grain a row
     const char *ignored; ///< columns that were not looked at, ", " between them, borrowed
+    const char *size;    ///< column of the sizes, or of their lower ends, borrowed
 } clast_grading_list;
 
 /// The list that clast_grading_load read, by "list:FILE" or "masses:FILE"; its texts live as long

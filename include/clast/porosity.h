@@ -411,8 +411,8 @@ typedef struct clast_bed_known {
 
 /// What is measured beside profile, bulk, side walls, overlaps and fabric; 0: not.
 typedef struct clast_bed_options {
-    clast_porosity_options porosity; ///< layer 0: 1 mm, or where lengths have no unit a tenth of
-                                     ///< the diameter of the grains' mean volume
+    clast_porosity_options porosity; ///< layer 0: 1 mm, or a tenth of the diameter of the grains'
+                                     ///< mean volume, where that is below 1 mm or has no unit
     double floor;  ///< height of the bottom of a given bed that has none of its own [m]
     double gap;    ///< grains this close touch [m]
     double core;   ///< grain sizes from the side walls

@@ -584,6 +584,8 @@ def evolve(
         points: Text | None = None,
         columns: Texts | None = None,
         diameter_column: Text | None = None,
+        frame: int | None = None,
+        dataset: Text | None = None,
         domain: Text | None = None,
         floor: Literal["deposit", "reflect", "periodic"] | None = None,
         sides: Literal["deposit", "reflect", "periodic"] | None = None,
@@ -656,6 +658,8 @@ def evolve(
         points: file of positions x, y, z to start from instead (CSV, VTK, PLY, dump, HDF5) (no default)
         columns: its columns of coordinates, three; units in their names count (x_mm), else they are in m; x,y,z are found as x_m, y_m, z_m too (default x,y,z)
         diameter_column: its column of volume-equivalent diameters; none: the curve (no default)
+        frame: its snapshot, of a LAMMPS dump or .xyz, from 0; -1: the last (-1e+12 to 1e+12; default 0)
+        dataset: its array or folder, of an HDF5 file (no default)
         domain: box:LOW..,HIGH.., cylinder:X,Y,Z,NX,NY,NZ,R,L (base, axis), sphere:R, mesh:FILE; z is up (no default)
         floor: what is below: it stays there, comes back, or enters at the top (deposit, reflect, periodic; default deposit)
         sides: the same of the sides; periodic: a box alone (deposit, reflect, periodic; default periodic)
@@ -1211,7 +1215,7 @@ def pack(
         load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)
         max_load_time: give up when a stage has not come to its end by then (s; 0 to 1e+09; default 20.0)
         energy: record the work of all forces by kind: load.csv, energy_book.svg (default False)
-        layer: slices of the porosity profile (h_p) (m; 1e-12 to 1e+06; default 0.001)
+        layer: slices of the porosity profile (h_p); for grains below 1 mm a tenth of their size (m; 1e-12 to 1e+06; default 0.001)
         cut: the bed ends where the porosity is this (n cut-off) (0 to 1; default 0.5)
         trim: left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0 (m; -1 to 1e+06; default -1.0)
         series_time: between rows of series.csv (s; 1e-12 to 1e+09; default 0.01)
@@ -1252,7 +1256,7 @@ def porosity(
         bed: container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT] (all directions; images above lie farther along x by SHIFT) or mesh:FILE,UNIT (m where the grains' lengths have no unit); none: the run's (no default)
         floor: height of the bottom, with --bed (as 5mm) (default 0)
         method: what a grain fills: its true shape, or the sphere of its volume (published) (exact, spheres; default exact)
-        layer: height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run without unit, whose lengths are bare numbers here too (default 0)
+        layer: height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter where that is below 1 mm, or of a run without unit, whose lengths are bare numbers here too (default 0)
         cut: the bed ends where the porosity rises through this (n_cut) (0 to 1; default 0.5)
         trim: left out at both ends (h_pd; published for periodic beds: 31.5mm) (default 0)
         at_slice: end the bed with a slice, as the reference program; else between slices (default False)
@@ -1311,7 +1315,8 @@ def predict_beds(
 ) -> Table:
     """One porosity a row, each a bed of that one form (`clast predict --each`) or of the columns that a model of one's own takes.
 
-    Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
+    Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing. Porosity and
+    standard_error are NaN where the model gives a porosity outside 0 to 1.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         model: auto, single, mixture, or a model file of clast fit; auto: mixture where the forms vary, else single (default auto)

@@ -349,6 +349,8 @@ static void note_columns(const reader *r, clx_sizes_columns *c)
         } else if (i != r->low && i != r->high && i != r->density) {
             const size_t n = strlen(c->ignored);
             (void)snprintf(c->ignored + n, sizeof c->ignored - n, "%s%s", n > 0 ? ", " : "", name);
+        } else if (i == r->low) {
+            (void)snprintf(c->size, sizeof c->size, "%s", name);
         }
     }
 }
@@ -512,8 +514,10 @@ clast_status clast_sizes_parse(const char *name, const char *text, const char *c
 
 clast_grading_list clx_sizes_list(const clast_sizes *sizes, const clx_sizes_columns *columns)
 {
-    clast_grading_list list = {
-        .n_row = sizes->n, .column = columns->count, .ignored = columns->ignored};
+    clast_grading_list list = {.n_row = sizes->n,
+                               .column = columns->count,
+                               .ignored = columns->ignored,
+                               .size = columns->size};
     for (int64_t i = 0; i < sizes->n; ++i) {
         list.total += sizes->count[i];
     }

@@ -18,6 +18,7 @@ typedef struct clx_sizes_use {
 typedef struct clx_sizes_columns {
     char count[128];    ///< counts or weighs the rows; "": one grain a row
     char ignored[1024]; ///< not looked at, ", " between them
+    char size[128];     ///< has the sizes, or their lower ends
 } clx_sizes_columns;
 
 /// What the list held, for those who tell it; borrows the columns' names.

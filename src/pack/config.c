@@ -158,7 +158,8 @@ const clast_field clast_pack_fields[] = {
     NUMBER(max_load_time, 20, 0, 1e9, "s", "give up when a stage has not come to its end by then"),
     FLAG(energy, 0, "record the work of all forces by kind: load.csv, energy_book.svg"),
 
-    NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)",
+    NUMBER(layer, 1e-3, 1e-12, 1e6, "m",
+           "slices of the porosity profile (h_p); for grains below 1 mm a tenth of their size",
            .group = "measures"),
     NUMBER(cut, 0.5, 0, 1, "-", "the bed ends where the porosity is this (n cut-off)"),
     NUMBER(trim, -1, -1, 1e6, "m",

@@ -13,7 +13,7 @@ enum { PORE_BINS = 50 };
 static const double MOST_BEYOND = 0.01; ///< of the solid that counts
 static const double LEAST = -1e-2;      ///< porosity: overlaps of grains count twice
 static const double SAME = 1e-3;        ///< share by which a given period may differ
-static const double LAYER = 0.1;        ///< of the grains' mean diameter, where it has no unit
+static const double LAYER = 0.1; ///< of the grains' mean diameter, where it has no unit or is small
 
 typedef struct {
     clast_assembly *assembly;
@@ -237,6 +237,19 @@ static clast_status measure_more(const measurement *m)
     return options->chains ? clast_bed_chains(bed, m->assembly, m->contacts, &f->chains) : CLAST_OK;
 }
 
+/// Height of a slice where none is given: as published, or for finer grains a tenth of one.
+static double usual_layer(const clast_assembly *assembly)
+{
+    const double published = clast_porosity_options_default().layer;
+    if (assembly->n_grain == 0) {
+        return published;
+    }
+    const double mean = clast_assembly_volume(assembly) / assembly->n_grain;
+    const double diameter = cbrt(6.0 / CLAST_PI * mean);
+    const bool is_coarse = strcmp(assembly->unit, "m") == 0 && diameter >= published;
+    return is_coarse ? published : LAYER * diameter;
+}
+
 clast_status clast_bed_measure(clast_assembly *assembly, const clast_bed_known *known,
                                const clast_bed_options *options, clast_bed_findings *findings)
 {
@@ -257,13 +270,7 @@ clast_status clast_bed_measure(clast_assembly *assembly, const clast_bed_known *
     clast_porosity_options *slices = &made.options.porosity;
     CLX_TRY(check_options(&m));
     made.bed.floor = options->floor != 0.0 ? options->floor : made.bed.floor;
-    if (slices->layer == 0.0) {
-        slices->layer =
-            strcmp(assembly->unit, "m") == 0 || assembly->n_grain == 0
-                ? clast_porosity_options_default().layer
-                : LAYER * (2.0 * cbrt(0.75 / CLAST_PI * clast_assembly_volume(assembly) /
-                                      assembly->n_grain));
-    }
+    slices->layer = slices->layer == 0.0 ? usual_layer(assembly) : slices->layer;
     CLX_TRY(measure_slices(&m));
     made.walls = clast_bed_side_walls(&made.bed, assembly);
     if (options->core > 0.0) {

@@ -6,9 +6,9 @@
 #include "assembly/whole.h"
 #include "base/column_unit.h"
 #include "base/status.h"
-#include "math/vec3.h"
 #include "porosity/whole.h"
 #include <clast/shape.h>
+#include <math.h>
 
 enum { POINTS = 512, RING_LIMIT = 1000000 };
 
@@ -34,18 +34,20 @@ static void add_point(const rings *r, const double x[3], double volume)
     r->error[ring] += volume * volume;
 }
 
-static void add_grain(const rings *r, const clx_touch_body *body, double volume)
+/// Each grain has other points, or the errors of grains that lie alike add up.
+static void add_grain(const rings *r, int32_t i, const clx_touch_body *body, double volume)
 {
-    double c[3] = {0.5, 0.5, 0.5};
+    double c[3];
     double point[3];
     int32_t n = 0;
     // A surface fills at least a thousandth of its box, or its points are few.
+    clx_lattice_begin((int64_t)r->n_point * i, c);
     for (int64_t tried = 0; n < r->n_point && tried < 1000LL * r->n_point; ++tried) {
         clx_lattice_step(c);
         n += clx_body_draw(body, c, point) ? 1 : 0;
     }
     const int32_t n_found = n;
-    v3_set(c, 0.5, 0.5, 0.5);
+    clx_lattice_begin((int64_t)r->n_point * i, c);
     for (n = 0; n < n_found;) { // the same points again, now that their number is known
         clx_lattice_step(c);
         if (clx_body_draw(body, c, point)) {
@@ -65,9 +67,9 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set,
             const double upright[4] = {1.0, 0.0, 0.0, 0.0};
             clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume));
             clx_touch_body_place(&ball, a->position[i], upright, 1.0);
-            add_grain(r, &ball, volume);
+            add_grain(r, i, &ball, volume);
         } else {
-            add_grain(r, clx_touch_scene_body(set->scene, i), volume);
+            add_grain(r, i, clx_touch_scene_body(set->scene, i), volume);
         }
     }
 }

@@ -45,13 +45,13 @@ struct clast_grading {
     double mean_cube; ///< m^3
     int64_t n_row;    ///< of the list that it was loaded from, or 0
     double total;
-    char *column, *ignored; ///< of that list, or NULL
+    char *column, *ignored, *size_column; ///< of that list, or NULL
 };
 
 void clast_grading_destroy(clast_grading *grading)
 {
     if (grading != NULL) {
-        CLX_FREE(grading->item, grading->column, grading->ignored, grading);
+        CLX_FREE(grading->item, grading->column, grading->ignored, grading->size_column, grading);
     }
 }
 
@@ -431,6 +431,7 @@ clast_status clx_grading_note_list(const clast_grading_list *list, clast_grading
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc_text(&grading->column, list->column));
     CLX_TRY(clx_alloc_text(&grading->ignored, list->ignored));
+    CLX_TRY(clx_alloc_text(&grading->size_column, list->size));
     grading->n_row = list->n_row;
     grading->total = list->total;
 done:
@@ -441,8 +442,8 @@ clast_grading_list clast_grading_list_of(const clast_grading *grading)
 {
     const bool is_list = grading != NULL && grading->n_row > 0;
     return is_list ? (clast_grading_list){grading->n_row, grading->total, grading->column,
-                                          grading->ignored}
-                   : (clast_grading_list){.column = "", .ignored = ""};
+                                          grading->ignored, grading->size_column}
+                   : (clast_grading_list){.column = "", .ignored = "", .size = ""};
 }
 
 double clast_grading_mean_cube(const clast_grading *grading)

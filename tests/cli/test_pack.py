@@ -390,6 +390,20 @@ class Pack(Case):
         sizes.write_text("size_mm\n5\n")
         self.assert_fails(2, "pack", "--curve", f"list:{sizes}", "--density-of", "list", *bed, says=("column density",))
 
+    def test_volume_diameters_as_sieve_sizes_are_noted(self):
+        sizes = self.folder / "sizes.csv"
+        sizes.write_text("volume_diameter_mm\n2\n3\n")
+        bed = ("--curve", f"list:{sizes}", "--mass", "1g", "--width", "2cm", "--height", "6cm", "--max-steps", 1)
+        form = ("--shapes", "ellipsoid:1,0.5,0.3")
+        for words, n in ((form, 1), ((*form, "--size-meaning", "volume"), 0), ((), 0)):
+            result = clast("pack", *bed, *words)
+            self.assertEqual((result.code, result.err.count("column 'volume_diameter_mm'")), (0, n), result.err)
+
+    def test_first_example_warns_of_nothing(self):
+        made = clast("pack", "examples/u1.yaml", "-q", cwd=ROOT)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertNotIn("warning", made.out)
+
     def test_example_of_heavy_minerals(self):
         # higher, so that one fill makes all of its grains
         run = self.folder / "heavy"

@@ -76,6 +76,33 @@ class Porosity(Case):
         self.assert_fails(2, "porosity", path, "--bed", "box:0,0,4,4", "--layer", 0.1, "--rings", 5,
                           says=["cylindrical bed"])
 
+    def test_slices_of_fine_grains(self):
+        beds = []
+        for i, size in enumerate((0.2, 0.1999)):
+            beds.append(self.folder / f"{i}.csv")
+            rows = [f"{x},{y},{z},{size}" for x in (0.1, 0.3) for y in (0.1, 0.3) for z in (0.1, 0.3)]
+            beds[-1].write_text("\n".join(["x_mm,y_mm,z_mm,diameter_mm", *rows]) + "\n")
+        bed, out = ("--bed", "box:0,0,0.4mm,0.4mm"), self.folder / "out"
+        found = clast("porosity", beds[0], *bed, "--cut", 0.9, "--json")
+        self.assertEqual(found.code, 0, found.err)
+        self.assertAlmostEqual(found.json["profile"][1]["z"], 0.3e-4, 12)  # a tenth of 0.2 mm
+        self.assertEqual(len(found.json["profile"]), 21)
+        self.assertAlmostEqual(found.json["top"], 4e-4, delta=1e-5)
+        several = clast("porosity", *beds, *bed, "-o", out)  # both in the slices of the first
+        self.assertEqual(several.code, 0, several.err)
+        rows = list(csv.DictReader((out / "mean_profile.csv").read_text().splitlines()))
+        self.assertAlmostEqual(float(rows[1]["z_low_m"]), 2e-5, 15)
+
+    def test_rings_of_grains_that_lie_alike(self):
+        path = self.spheres([(0, 0, k + 0.5, 0.5) for k in range(200)])
+        out = self.folder / "out"
+        found = clast("porosity", path, "--bed", "cylinder:0.5", "--cut", 1, "--rings", 10, "-o", out)
+        self.assertEqual(found.code, 0, found.err)
+        for row in csv.DictReader((out / "radial.csv").read_text().splitlines()):
+            low, high = float(row["r_low"]), float(row["r_high"])
+            solid = 4 / 3 * (abs(0.25 - low**2) ** 1.5 - abs(0.25 - high**2) ** 1.5) / (high**2 - low**2)
+            self.assertLess(abs(float(row["porosity"]) - (1 - solid)), 4 * float(row["porosity_error"]), row)
+
     def test_folder_says_what_it_holds_and_where_it_came_from(self):
         path, one, two = self.lattice(3), self.folder / "one", self.folder / "two"
         bed = ["--bed", "periodic:0,0,3,3", "--layer", 0.1]
