@@ -75,7 +75,7 @@ static void tell_envelope(const clast_aggregate_report *report, char text[192])
     text[0] = '\0';
     for (int32_t i = 0; i < report->n; ++i) {
         const clast_aggregate_result *r = &report->result[i];
-        for (int32_t k = 0; k < r->n_envelope; ++k) {
+        for (int32_t k = 0; k < r->n_envelope && k < CLAST_N_ENVELOPE; ++k) {
             if (r->porosity[k] < -1e-9) {
                 (void)snprintf(text, 192,
                                "porosity below 0: %s is smaller than the solid and no envelope of "

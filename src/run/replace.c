@@ -18,7 +18,9 @@
 #include <ftw.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/syscall.h>
@@ -211,6 +213,31 @@ done:
     return status;
 }
 
+enum { FEW_TRIES = 10, MOST_TRIES = 500 }; ///< of a fiftieth of a second
+
+/// Locks an old run that is to be removed, waiting for some tries where another process is at it;
+/// -1 where it is not there or the disk knows no locks. *is_busy: the other still is.
+static int lock_old(const char *old, int most_tries, bool *is_busy)
+{
+    const struct timespec pause = {0, 20000000};
+    const int descriptor = open(old, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    *is_busy = descriptor >= 0;
+    for (int k = 0; k < most_tries && *is_busy; ++k) {
+        *is_busy = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (*is_busy) {
+            (void)nanosleep(&pause, NULL);
+        }
+    }
+    return descriptor;
+}
+
+static void unlock_old(int descriptor)
+{
+    if (descriptor >= 0) {
+        (void)close(descriptor); // and with it the lock
+    }
+}
+
 static int exchange(const char *made, const char *old)
 {
     char aside[CLX_PATH_LIMIT + 4];
@@ -248,12 +275,16 @@ clast_status clx_run_replace(const char *made, const char *old)
     clast_status status = CLAST_OK;
     char mark[CLX_PATH_LIMIT];
     struct stat found;
+    bool is_busy = false;
+    int lock = -1;
     if (lstat(old, &found) != 0) { // gone meanwhile
         CLX_CHECK(rename(made, old) == 0, CLAST_E_DISK, "cannot rename %s to %s: %s", made, old,
                   clx_errno_text());
         return CLAST_OK;
     }
     CLX_TRY(clx_path_join(mark, old, MARK));
+    lock = lock_old(old, MOST_TRIES,
+                    &is_busy); // one that is busy is read at most: it is no less replaced
     status = clx_file_write_all(mark, "", 0);
     if (status != CLAST_OK) { // perhaps only the sync of its folder
         (void)unlink(mark);
@@ -269,6 +300,7 @@ clast_status clx_run_replace(const char *made, const char *old)
     }
     CLX_TRY(clear_old(made, old));
 done:
+    unlock_old(lock);
     return status;
 }
 
@@ -293,18 +325,26 @@ clast_status clx_run_replace_recover(const char *made, const char *old)
     clx_run_state state = {0};
     char name[256];
     struct stat found;
-    if (lstat(made, &found) != 0) {
-        return CLAST_OK;
+    bool is_busy = false;
+    int lock = -1;
+    status = clx_run_state_read(made, &state); // before the lock, which it would see
+    clx_run_state_line(made, &state, line);
+    lock = lock_old(made, is_marked(made) ? MOST_TRIES : FEW_TRIES, &is_busy);
+    if (lstat(made, &found) != 0) { // gone meanwhile, perhaps while it was read
+        status = CLAST_OK;
+        goto done;
     }
-    if (is_marked(made)) {
-        return clear_old(made, old);
+    CLX_TRY(status);
+    if (is_marked(made) && !is_busy) {
+        CLX_TRY(clear_old(made, old));
+        goto done;
     }
-    CLX_TRY(clx_run_state_read(made, &state));
+    CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; it will replace %s", line, old);
+    CLX_CHECK(!is_busy, CLAST_E_DISK, "%s: another process is there; it will replace %s", made,
+              old);
     const bool is_empty = !state.is_run && !find_foreign(made, NULL, name); // cut off at once
     CLX_CHECK(is_empty || strcmp(state.replaces, clx_path_name(old)) == 0, CLAST_E_USAGE,
               "%s is in the way: a run that replaces %s is made there; move it", made, old);
-    clx_run_state_line(made, &state, line);
-    CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; it will replace %s", line, old);
     CLX_CHECK(!state.can_resume, CLAST_E_USAGE, "%s; or remove %s", line, made);
     if (state.is_whole) {
         CLX_TRY(clx_run_replace(made, old));
@@ -313,5 +353,6 @@ clast_status clx_run_replace_recover(const char *made, const char *old)
     }
 done:
     clx_run_state_free(&state);
+    unlock_old(lock);
     return status;
 }

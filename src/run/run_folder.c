@@ -349,6 +349,7 @@ static clast_status lock_folder(clast_run_folder *run)
     clast_status status = CLAST_OK;
     const struct timespec pause = {0, 20000000};
     run->lock = open(run->path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool is_gone = run->lock < 0 && errno == ENOENT;
     bool is_busy = true;
     for (int tries = 0; tries < 10 && is_busy && run->lock >= 0;
          ++tries) { // readers ask in passing
@@ -357,7 +358,7 @@ static clast_status lock_folder(clast_run_folder *run)
             (void)nanosleep(&pause, NULL);
         }
     }
-    CLX_CHECK((run->lock < 0 || !is_busy) && is_as_found(run), CLAST_E_DISK,
+    CLX_CHECK(!is_gone && (run->lock < 0 || !is_busy) && is_as_found(run), CLAST_E_DISK,
               "%s: another process has begun a run there; take another folder", run->path);
 done:
     return status;

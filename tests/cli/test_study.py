@@ -99,7 +99,7 @@ class Study(Case):
         """They were still writing their checkpoints, and the new ones failed; both wrote one messages.txt."""
         if not sys.platform.startswith("linux"):
             self.skipTest("SKIPPED LOUDLY: only Linux tells a process that its parent has gone")
-        plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g, max_steps=6000]\nseeds: 2\n")
+        plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g, max_steps=12000]\nseeds: 2\n")
         runs = self.folder / "out/runs"
         with self.start(plan, "-j", "2", "-q") as study:
             while len(list(runs.glob("*.part/out/checkpoint-*"))) < 2 and study.poll() is None:
