@@ -181,6 +181,24 @@ class Grow(page.Live):
         self.assertEqual(self.text("grow-error"), "")
         self.assertEqual(self.browser.value("rooms.grow.result.json.n_grain"), 8)
 
+    def test_surfaces_say_their_own_units(self):
+        """Every run had `--unit um`, which is refused beside a surface that clast has written in millimetres."""
+        with page.Folder() as folder:
+            for unit in ("mm", "cm"):
+                self.native(folder, "mesh", "convert", jobs.GRAIN["grain01.ply"], "--unit", unit, "-o", f"in-{unit}.stl")
+            self.drop("in-mm.stl", (folder / "in-mm.stl").read_bytes())
+            self.drop("in-cm.stl", (folder / "in-cm.stl").read_bytes())
+        self.browser.value("document.getElementById('grow-coat_in-mm.stl').click()")
+        self.grow()
+        with page.Folder() as folder:
+            self.command(folder)
+            self.assertEqual(hashlib.sha256((folder / "aggregate/history.csv").read_bytes()).hexdigest(), self.text("grow-hash"))
+
+    def test_a_cluster_has_no_core(self):
+        """Its figure was of grains `with the core`."""
+        self.grow(core="-", more="--mode cluster")
+        self.assertRegex(self.text("grow-figures"), "^12grains[^,]")
+
     def test_refusals_and_damaged_files_are_the_commands_own_line(self):
         self.set(cone="far")
         self.run_room()

@@ -76,6 +76,18 @@ class Pour(page.Live):
                 self.assertEqual(self.text("pour-command").count("max"), 1)
                 self.assertIn(f"--max-steps {n}", self.text("pour-command"))
                 self.same()
+        self.drop("limit.yaml", b"max_steps: 800\n")
+        for more, steps, n in (("--set max_steps=700", "", 700), ("--set=max-steps=900 --energy", "300", 900), ("limit.yaml", "", 800), ("limit.yaml", "500", 500)):
+            with self.subTest(more):  # the bed came to rest, and its command stopped before
+                self.set(**SMALL, max_steps=steps, more=more)
+                self.run_room()
+                self.assertEqual(self.text("pour-error"), "")
+                self.assertEqual(self.browser.value("rooms.pour.result.json.n_step"), n)
+                self.same()
+        self.set(**SMALL, max_steps="0", more="limit.yaml")
+        self.run_room()
+        self.assertEqual(self.browser.value("rooms.pour.result.json.phase"), "done")
+        self.same()
         for more, steps in (("--max-steps many", ""), ("", "many"), ("--max-steps", "5"), ("--max-steps -3", ""), ("", "2.5")):
             with self.subTest(more + steps):
                 self.set(**SMALL, max_steps=steps, more=more)
@@ -133,6 +145,22 @@ class Pour(page.Live):
         self.set(curve="U7", mass="100kg", width="500mm", height="2m")
         self.run_room()
         self.assertRegex(self.text("pour-error"), r"^about 220,000 grains .* in a terminal: clast pack ")
+
+    def test_a_size_of_nothing_is_the_commands_own_line(self):
+        """About \u221e grains were more than a page takes."""
+        self.set(**{**SMALL, "size": "0mm"})
+        self.run_room()
+        self.assertRegex(self.text("pour-error"), "^clast pack: .* size of 0 mm")
+
+    def test_a_configuration_is_no_shape(self):
+        """It became the grains' form, and the form had to be set back."""
+        self.drop("bed.yaml", b"friction: 0.3\n")
+        self.assertEqual(self.browser.value("rooms.pour.value('shape')"), "sphere")
+        self.assertRegex(self.text("pour-error"), "^bed.yaml is a configuration")
+        self.set(**SMALL, friction="", max_steps="400", more="bed.yaml")
+        self.run_room()
+        self.assertEqual(self.text("pour-error"), "")
+        self.same()
 
     def test_a_scene_that_is_too_large_says_so(self):
         self.set(size="1mm", mass="1kg")

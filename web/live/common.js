@@ -174,6 +174,12 @@ function shellWords(text) {
     .replace(/'([^']*)'|"((?:\\.|[^"\\])*)"|\\(.)/g, (_, single, double, one) => single ?? double?.replace(/\\([\\"$`])/g, '$1') ?? one));
 }
 
+/// Words of more options; `--set KEY=VALUE` is the same as `--KEY=VALUE`.
+function moreWords(text) {
+  const words = shellWords(text).map((word) => word.replace(/^--set=/, '--'));
+  return words.flatMap((word, k) => (word === '--set' && words[k + 1]?.includes('=') ? [] : [words[k - 1] === '--set' && word.includes('=') ? `--${word}` : word]));
+}
+
 async function digestOf(bytes) {
   const digest = globalThis.crypto?.subtle ? await crypto.subtle.digest('SHA-256', bytes) : null;
   return digest ? [...new Uint8Array(digest)].map((b) => b.toString(16).padStart(2, '0')).join('') : 'not known to this browser';

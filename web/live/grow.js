@@ -13,7 +13,7 @@ class GrowRoom extends Room {
   listFiles() {
     const own = [...this.files.keys()];
     const shapes = [...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]} (${name})`]), ['sphere', 'sphere'],
-      ...own.filter((name) => !this.isTable(name)).map((name) => [name, name])];
+      ...own.filter((name) => this.isSurface(name)).map((name) => [name, name])];
     this.setOptions('core', [...shapes, ['-', 'none (--mode cluster)']]);
     this.setOptions('sizes', [['', 'one size, by the slider'], ...own.filter((name) => this.isTable(name)).map((name) => [name, name])]);
     const kept = new Map([...this.$('coats').querySelectorAll('input')].map((box) => [box.id, box.checked]));
@@ -123,7 +123,7 @@ class GrowRoom extends Room {
     const envelopes = Object.keys(h).filter((name) => name.startsWith('porosity_'));
     const speed = h['settling_velocity_m/s'];
     this.$('figures').replaceChildren(
-      figure(String(h.n_grain[n]), h.n_grain[n] === 1 ? 'grain: the core' : 'grains, with the core'),
+      figure(String(h.n_grain[n]), `grain${h.n_grain[n] === 1 ? '' : 's'}${this.words.includes('--core') ? ', with the core' : ''}`),
       figure(withUnit(h.d_agg_m[k], 'm'), 'equivalent diameter'),
       figure(h[envelopes[0]][k].toFixed(4), `porosity in its ${envelopes[0].slice(9).replace('_', ' ')}`),
       figure(`${h['density_kg/m^3'][k].toFixed(0)} kg/m\u00b3`, 'density'),

@@ -26,7 +26,7 @@ class PourRoom extends Room {
     this.setOptions('curve', [['one', 'one size'], ['uniform', 'uniform between two sizes'], ['lognormal', 'lognormal'],
       ...['U1', 'U3', 'U5', 'U7', 'B30', 'B50', 'B70'].map((name) => [name, `published curve ${name}`]), ...own.filter((name) => this.isTable(name)).map((name) => [name, `${name}: sieve curve`])]);
     this.setOptions('shape', [['sphere', 'spheres'], ['ellipsoid', 'ellipsoids'], ...[...GRAINS.keys()].map((name) => [name, `${GRAIN_NAMES[name]}, convex hull (${name})`]),
-      ...own.filter((name) => !this.isTable(name)).map((name) => [name, `${name}, convex hull`])]);
+      ...own.filter((name) => this.isSurface(name)).map((name) => [name, `${name}, convex hull`])]);
     this.$('given').textContent = own.length > 0 ? `own files: ${own.join(', ')}` : '';
   }
 
@@ -88,10 +88,12 @@ class PourRoom extends Room {
     return words.filter((word, k) => !MAX_STEPS.test(word) && !/^--max[-_]steps$/.test(words[k - 1] ?? ''));
   }
 
-  /// Reads how many steps are wanted, in their field or among more options, where the last counts, as in a terminal; 0: no limit.
+  /// Reads how many steps are wanted, in a configuration, their field or among more options, where the last counts, as in a terminal; 0: no limit.
   /// A refusal is the command's own.
   async readLimit() {
-    const text = [this.value('max_steps') || '0', ...this.givenIn(super.more(), 'max-steps')].pop();
+    const configuration = this.words.find((word) => CONFIGURATION.test(word) && this.inputs[word]);
+    this.configured = configuration && /^max_steps\s*:\s*["']?([^\s"'#]+)/m.exec(textOf(this.inputs[configuration]))?.[1];
+    const text = [this.value('max_steps') || this.configured || '0', ...this.givenIn(super.more(), 'max-steps')].pop();
     this.limit = Number(text) || Infinity;
     if (/^\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && Number.isInteger(Number(text)) && Number(text) <= 9e15) return null;
     const ended = await this.engine.run([...this.words, `--max-steps=${text}`], this.inputs);
@@ -268,7 +270,7 @@ class PourRoom extends Room {
       this.view.frame();
       this.view.draw();
     }
-    this.words = [...this.wordsOfRun(), ...(isWhole ? [] : ['--max-steps', String(json.n_step)])];
+    this.words = [...this.wordsOfRun(), ...(isWhole && !this.configured ? [] : ['--max-steps', isWhole ? '0' : String(json.n_step)])];
     fillTable(this.$('numbers'), ['of the bed', ''], [['grains', short(json.n_grain)], ['mass', withUnit(json.mass * 1e3, 'g')], ['bulk porosity', short(json.porosity_bulk)],
       ['porosity with nothing left out', short(json.porosity_untrimmed)], ['touching grains a grain', short(json.coordination)], ['contacts of grains', short(json.n_contact)],
       ['contacts with walls', short(json.n_wall_contact)], ['deepest overlap', withUnit(json.max_overlap, 'm')], ['fastest grain', withUnit(json.max_speed, 'm/s')],

@@ -1,6 +1,7 @@
 // What Grow and Pour are made of: a form of options that becomes a command line, files beside it, undo, link, zip, the 3-D view.
 const UNDO = 60; // states of the form that are kept
 const LONG = 30; // s of work that are not lost without a question
+const CONFIGURATION = /\.ya?ml$/i;
 
 const GRAINS = new Map(); // bundled surfaces by name
 
@@ -23,6 +24,8 @@ class Room {
   }
 
   isTable(name) { return /\.(csv|tsv|txt)$/i.test(name); }
+
+  isSurface(name) { return !this.isTable(name) && !CONFIGURATION.test(name); }
 
   /// Options of a list; what is chosen stays chosen.
   setOptions(id, options) {
@@ -111,7 +114,8 @@ class Room {
         this.files.set(name, await bytesOfFile(file, this.command));
         this.names.set(name, file.name);
         this.listFiles();
-        this.given(name);
+        if (CONFIGURATION.test(name)) this.fail(`${name} is a configuration: name it in More options; what stands in a field counts more`);
+        else this.given(name);
       } catch (fault) {
         this.fail(fault.message);
       }
@@ -126,7 +130,7 @@ class Room {
     return Object.fromEntries([...GRAINS, ...this.files].filter(([name]) => named(name)));
   }
 
-  more() { return shellWords(this.value('more')); }
+  more() { return moreWords(this.value('more')); }
 
   /// Values that more options give to --NAME, where the last counts.
   givenIn(words, name) {
@@ -213,7 +217,7 @@ class Room {
 
   /// Why a page does not begin with the scene, or null.
   tooLarge(n) {
-    if (!(n > this.most)) return null;
+    if (!(n > this.most && n < Infinity)) return null;
     return `about ${Number(n.toPrecision(2)).toLocaleString('en')} grains are more than the ${this.most.toLocaleString('en')} of this page (one thread, 2 GB); in a terminal: ${commandOf(this.words)}`;
   }
 

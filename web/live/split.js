@@ -391,7 +391,7 @@ function wordsNow() {
     const value = $(key).value.trim();
     if (value) words.push(`--${key.replace('_', '-')}=${value}`);
   }
-  return [...words, ...shellWords($('more').value), '-o', 'cells'];
+  return [...words, ...moreWords($('more').value), '-o', 'cells'];
 }
 
 const splitter = new Engine(() => { say('ready'); setReady(); }, (text) => { say(''); setReady(); fail(text); });
@@ -480,7 +480,8 @@ function shared() {
 }
 
 function openSplit(kept) {
-  const text = String(kept.text);
+  const { text } = kept;
+  if (typeof text !== 'string') throw new Error('it holds no points');
   note();
   setPoints(plainName(String(kept.name), 'points'), text, String(kept.domain));
   for (const key of FIELDS) $(key).value = String(kept[key] ?? '');
