@@ -148,14 +148,32 @@ def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
     return made
 
 
-def output_path(name: str, path: str | os.PathLike[str], *inputs: Any) -> bytes:
-    """A path to write to as C reads it: no file of a run, and none of the inputs that are files, as the commands refuse it."""
+def output_path(name: str, path: str | os.PathLike[str], *inputs: Any, is_folder: bool = False) -> bytes:
+    """A path to write to as C reads it: no file of a run, none of the inputs that are files, and one that can be written, as the commands refuse it."""
     made = encoded(name, path)
     check(call("clast_run_folder_check_output")(name.encode(), made))
     for one in inputs:
         if isinstance(one, (str, os.PathLike)):
             check(call("clast_run_folder_check_input")(name.encode(), made, encoded(name, one)))
+    if not is_folder:
+        require_writable(os.fsdecode(path))
     return made
+
+
+def require_writable(place: str) -> None:
+    """Before the work: a file can be written there; what a link names is left to the writing, as is a pipe."""
+    folder, is_link = place[:place.rfind("/") + 1] or ".", os.path.islink(place)
+    if os.path.isdir(place) and not is_link:
+        why = "it is a folder"
+    elif is_link or (os.path.exists(place) and not os.path.isfile(place)):
+        return
+    elif not os.path.isdir(folder):
+        why = f"there is no folder {folder}"
+    elif not os.access(folder, os.W_OK | os.X_OK):
+        why = f"the folder {folder} cannot be written into"
+    else:
+        return
+    raise Error("CLAST_E_DISK", f"cannot write {place}: {why}".replace("\n", " "))
 
 
 def run_path(output: str | os.PathLike[str] | None, keys: dict[str, Any]) -> bytes | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import (Error, Floats, Monitor, Owner, Progress, call, changed, check, choice, encoded, html_table, items, note, output_path, quantity, refuse,
-                    refuse_idle, settled, status_name, view, warn)
+                    refuse_idle, require_writable, settled, status_name, view, warn)
 from ._html import file_html
 from ._tables import Path, Table, given_table, table_of
 
@@ -30,8 +30,9 @@ class GrainStatistics:
 
     def write(self, folder: Path, charts: str = "svg") -> None:
         """Writes the tables and charts of `clast shape --statistics` into a folder, which is made."""
+        place = output_path("folder", folder, is_folder=True)
         os.makedirs(folder, exist_ok=True)
-        check(call("clast_grain_statistics_write")(ctypes.byref(self._owner.struct), output_path("folder", folder), encoded("charts", charts)))
+        check(call("clast_grain_statistics_write")(ctypes.byref(self._owner.struct), place, encoded("charts", charts)))
 
     def _repr_html_(self) -> str:
         def zingg(path: str) -> None:
@@ -122,7 +123,7 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
                                      has_threshold=threshold is not None,
                                      threshold=0.0 if threshold is None else quantity("threshold", threshold), least_voxels=given["least_voxels"],
                                      columns=encoded("columns", columns) or None,
-                                     folder=None if surfaces is None else output_path("surfaces", surfaces, *files),
+                                     folder=None if surfaces is None else output_path("surfaces", surfaces, *files, is_folder=True),
                                      unit=encoded("unit", given["unit"]))
     volume = options.volume
     volume.type, volume.is_big_endian, volume.skip = choice("voxel_type", given["voxel_type"], words["voxel_type"][5] or ""), given["big_endian"], given["skip"]
@@ -140,6 +141,8 @@ def shapes(*files: Path, axes: str = "ellipsoid", hull: bool = False, unit: str 
     metres = ctypes.c_double()
     if given["unit"]:
         check(call("clast_unit_factor")(encoded("unit", given["unit"]), b"m", ctypes.byref(metres)))
+    if surfaces is not None:
+        require_writable(os.path.join(os.fsdecode(surfaces), "*.ply"))
     return _measure(files, options, names, metres.value, Monitor(progress), choice("axes", given["axes"], words["axes"][5] or ""))
 
 

@@ -50,6 +50,7 @@ class MeshCheck(Equal):
 
     @property
     def is_solid(self) -> bool:
+        """Closed, oriented and manifold: it bounds a volume."""
         return self.closed and self.oriented and self.manifold
 
 
@@ -232,25 +233,28 @@ class Mesh:
         return pinned(mesh, owner)
 
     def __reduce__(self) -> Any:
-        return Mesh, (np.array(self.vertices), np.array(self.triangles))
+        return Mesh, (np.array(self.vertices), np.array(self.triangles)), {"_unit": self._unit}
 
     @property
     def vertices(self) -> Floats:
+        """Corners (n, 3) float64, in the mesh's own unit: a view, which can be written into."""
         self._struct()
         return self._arrays[0]
 
     @property
     def triangles(self) -> NDArray[np.int32]:
+        """Rows of `vertices` (m, 3) int32, counted from 0, counterclockwise from outside: a view, which cannot."""
         self._struct()
         return self._arrays[1]
 
     @property
     def volume(self) -> float:
-        """Signed: below 0 when inside out, meaningless when open."""
+        """In the cube of the mesh's own unit; signed: below 0 when inside out, meaningless when open."""
         return float(call("clast_mesh_volume")(self._struct()))
 
     @property
     def area(self) -> float:
+        """In the square of the mesh's own unit."""
         return float(call("clast_mesh_area")(self._struct()))
 
     def hull(self) -> Mesh:
@@ -261,10 +265,8 @@ class Mesh:
 
     def write(self, path: Path) -> None:
         """Writes STL, OBJ, PLY or OFF by the name's end; mesh_convert writes 3MF too, which needs the unit."""
-        if os.fsdecode(encoded("path", path)).lower().endswith(".3mf"):
-            raise refuse("path: 3MF is in millimetres and a mesh has no unit; mesh_convert(mesh, path, unit='mm') writes it")
-        options = c.clast_mesh_write_options(unit=encoded("unit", self._unit) or None)
-        check(call("clast_mesh_write")(self._struct(), output_path("path", path), ctypes.byref(options)))
+        options, place = c.clast_mesh_write_options(unit=encoded("unit", self._unit) or None), surface_path("path", path)
+        check(call("clast_mesh_write")(self._struct(), place, ctypes.byref(options)))
 
     def check(self) -> MeshCheck:
         """What is this surface, and can it be trusted?"""
@@ -296,6 +298,17 @@ class Mesh:
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
+
+
+def surface_path(name: str, path: Path, *inputs: Any) -> bytes:
+    """A path to write a surface to, by the name's end STL, OBJ, PLY or OFF."""
+    made = output_path(name, path, *inputs)
+    kind = call("clast_mesh_format_of_path")(made)
+    if kind == c.VALUES["CLAST_MESH_3MF"]:
+        raise refuse(f"{name}: 3MF is in millimetres and a mesh has no unit; mesh_convert(mesh, path, unit='mm') writes it")
+    if kind == c.VALUES["CLAST_MESH_ANY"]:
+        raise refuse(f"{name}: {os.fspath(path)} is no surface format by its name; write .stl, .obj, .ply or .off")
+    return made
 
 
 def warn_of_doubles(found: MeshCheck, name: str, effect: str = "") -> None:

@@ -251,6 +251,7 @@ class Run:
 
     @property
     def grains(self) -> Assembly:
+        """Its grains as they lie at the end, read anew at each call."""
         try:
             return Assembly.read(self.folder)
         except Error as error:

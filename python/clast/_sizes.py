@@ -20,6 +20,8 @@ class _Handle:
         self._as_parameter_ = pointer
         self._destroy = call("clast_grading_destroy")
 
+    __reduce__ = Owner.__reduce__
+
     def __del__(self) -> None:
         self._destroy(self._as_parameter_)
 

@@ -41,6 +41,7 @@ class Study:
 
     @property
     def plan(self) -> Table:
+        """A row a run: what varies, and its seed."""
         return read_table(os.path.join(self.folder, "plan.csv"))
 
     def _repr_html_(self) -> str:

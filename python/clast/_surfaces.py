@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import Config, Error, Owner, call, changed, check, encoded, length, output_path, refuse, refuse_idle, settled, single, warn, whole
-from ._mesh import Mesh, MeshCheck, warn_of_doubles
+from ._mesh import Mesh, MeshCheck, surface_path, warn_of_doubles
 from ._runs import Result
 from ._tables import Path
 
@@ -27,9 +27,9 @@ class SurfaceResult(Result):
 
 
 def _read(surface: Surface, output: Path | None, weld: bool = True) -> Mesh:
-    """The surface, once the output is known to take no place of its own."""
+    """The surface, once the output is known to be one that can be written and to take no place of its own."""
     if output is not None:
-        output_path("output", output, surface)
+        surface_path("output", output, surface)
     return surface if isinstance(surface, Mesh) else Mesh.read(surface, weld)
 
 
@@ -166,6 +166,8 @@ def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
 def mesh_synthesize(index: int = 0, *, output: Path | None = None, size: float | str = 1.0, unit: str = "", **keys: Any) -> SurfaceResult:
     """A grain of a wanted form, size and roughness that nobody scanned: the one of this index and seed (`--count` makes 0, 1, 2 ...)."""
     index = whole("index", index, 0, 2**64 - 1)
+    if output is not None:
+        surface_path("output", output)
     struct, report = c.clast_mesh(), c.clast_synthesize_report()
     if encoded("unit", unit):
         _metres(unit)
@@ -182,7 +184,8 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     of_path = call("clast_mesh_format_of_path")(encoded("output", output))
     if of_path == c.VALUES["CLAST_MESH_ANY"]:
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
-    mesh = _read(surface, output, weld=False)
+    output_path("output", output, surface)
+    mesh = _read(surface, None, weld=False)
     check(call("clast_mesh_require_unit")(b"the surface", ctypes.byref(c.clast_mesh_read_report(unit=mesh._unit.encode())), encoded("unit", unit)))
     unit = unit or mesh._unit
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):

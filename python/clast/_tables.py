@@ -47,6 +47,7 @@ class Table(NDArray[Any]):
 
     @property
     def columns(self) -> tuple[str, ...]:
+        """Their names; those of numbers end in their unit where they have one (diameter_m)."""
         return self.dtype.names or ()
 
     def to_pandas(self) -> Any:

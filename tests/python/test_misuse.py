@@ -15,6 +15,7 @@ import sys
 import tempfile
 import threading
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -124,8 +125,19 @@ class Lives(unittest.TestCase):
     def test_meshes_and_clouds_can_be_pickled(self):
         mesh = pickle.loads(pickle.dumps(clast.Mesh.read(GRAIN)))
         self.assertEqual(mesh.volume, clast.Mesh.read(GRAIN).volume)
+        named = os.path.join(FOLDER.name, "named.ply")
+        clast.mesh_synthesize(size="5mm", unit="mm", output=named)
+        for again in (pickle.loads(pickle.dumps(clast.Mesh.read(named))), copy.deepcopy(clast.Mesh.read(named))):
+            self.assertAlmostEqual(clast.mesh_form(again, size="7000um")["after"]["D"], 7.0)  # in the unit that its file named
         cloud = pickle.loads(pickle.dumps(clast.Cloud(X, domain=BOX)))
         self.assertEqual(cloud.decompose().pair_integral, clast.decompose(X, domain=BOX).pair_integral)
+
+    def test_what_cannot_be_pickled_says_so_in_one_line(self):
+        """A Grading left "Exception ignored in ... __del__" on the error stream besides."""
+        for use in (pickle.dumps, copy.deepcopy):
+            with mock.patch("sys.unraisablehook") as ignored, self.assertRaisesRegex(TypeError, "neither copied nor pickled"):
+                use(clast.Grading("U1"))
+            ignored.assert_not_called()
 
     def test_points_without_triangles(self):
         path = os.path.join(FOLDER.name, "points.ply")

@@ -4,8 +4,11 @@ import pathlib
 import shutil
 import tempfile
 import unittest
+from unittest import mock
 
 import clast
+from clast import _grains, _mesh, _surfaces
+from clast._core import call
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRAIN = ROOT / "data/standin63/grain00.ply"
@@ -57,6 +60,32 @@ class Outputs(unittest.TestCase):
         clast.export(run, run / "own.csv")
         clast.export(run, run / "own.csv")
         clast.report(run, output=run / "report.html")
+
+    def test_one_that_cannot_be_written_is_refused_before_the_work(self):
+        def idle(name):
+            self.assertNotIn(name, ("clast_mesh_hull", "clast_mesh_simplify", "clast_mesh_repair", "clast_reform_principal", "clast_synthesize_grain",
+                                    "clast_grains_read", "clast_mesh_read"))
+            return call(name)
+
+        (self.folder / "is.ply").mkdir()
+        for module in (_grains, _mesh, _surfaces):
+            patch = mock.patch.object(module, "call", idle)
+            patch.start()
+            self.addCleanup(patch.stop)
+        for name, says in (("none/g.ply", "^cannot write .*g.ply: there is no folder .*none/$"), ("is.ply", "^cannot write .*is.ply: it is a folder$"),
+                           ("g.foo", "^output: .*g.foo is no surface format by its name; write .stl, .obj, .ply"), ("g", "^output: .*g is no surface")):
+            to = self.folder / name
+            self.refused(says, lambda: clast.mesh_hull(GRAIN, output=to), lambda: clast.mesh_simplify(GRAIN, 50, output=to),
+                         lambda: clast.mesh_repair(GRAIN, output=to), lambda: clast.mesh_form(GRAIN, flatness=0.6, output=to),
+                         lambda: clast.mesh_synthesize(output=to), lambda: clast.mesh_convert(GRAIN, to))
+        self.refused("^cannot write .*: there is no folder .*none/$", lambda: clast.shapes(GRAIN, surfaces=self.folder / "none"))
+        self.refused("^output: 3MF is in millimetres", lambda: clast.mesh_hull(GRAIN, output=self.folder / "g.3mf"))
+
+    def test_a_link_is_left_to_the_writing(self):
+        (self.folder / "real").mkdir()
+        (self.folder / "to.ply").symlink_to("real/g.ply")
+        clast.mesh_hull(GRAIN, output=self.folder / "to.ply")
+        self.assertGreater((self.folder / "real/g.ply").stat().st_size, 0)
 
 
 if __name__ == "__main__":
