@@ -278,14 +278,18 @@ def pipeline_of(beds, command):
     terms = {t["term"]: t for t in second["terms"]}
     off = [float(bed["porosity_bulk"]) - eq_17(bed) for bed in beds]
     equant = [bed for bed in beds if inverse_equancy(bed) < FLAT]
-    sloped = fit_of(equant, command, "--use", "inverse_equancy,inverse_elongation")["terms"][1]
+    if len(equant) < 10:
+        slope = f"too few beds ({len(equant)})"
+    else:
+        sloped = fit_of(equant, command, "--use", "inverse_equancy,inverse_elongation")["terms"][1]
+        slope = f"{sloped['coefficient']:.4f} ± {2 * sloped['standard_error']:.4f} ({len(equant)})"
     return [f"{len(beds)} of 63",
             ", ".join(f"{r['feature']} {r['r']:.3f}" for r in first["ranking"][:3]),
             *(f"{terms[t]['coefficient']:.4f} ± {2 * terms[t]['standard_error']:.4f}" for t in ("inverse_equancy", "inverse_elongation", "intercept")),
             f"{1e3 * second['trials'][0]['cv_mean_error']:.2f}, {1e3 * second['cv_mean_error']:.2f}",
             ", ".join(t["term"] for t in chosen["terms"][1:]),
             f"{mean(off):+.4f}; {spread(off):.4f}",
-            f"{sloped['coefficient']:.4f} ± {2 * sloped['standard_error']:.4f} ({len(equant)})"]
+            slope]
 
 
 FLAT = 3.7  # 1/EQ of the forms that the paper's Fig. 8 has few of
