@@ -29,7 +29,7 @@ clast_grains_kind clx_grains_kind_of_columns(const clx_grains_task *task, const 
 
 /// Refuses files whose surfaces would have one name in the folder.
 ///
-/// @return CLAST_E_USAGE with both files
+/// @return CLAST_E_USAGE with both files, CLAST_E_DISK where the folder cannot be written into
 clast_status clx_grains_check_surfaces(clx_grains_task *task, int32_t n_task);
 
 /// True when two pieces of a surface, joined by vertices, have a positive volume: walls of pores

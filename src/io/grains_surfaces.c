@@ -10,6 +10,7 @@
 #include <clast/table.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /// How a file's surfaces are named: not at all (tables), by the file, by the file and a label.
 typedef enum { NAMES_UNKNOWN, NAMES_NONE, NAMES_FILE, NAMES_LABELS } surface_names;
@@ -144,6 +145,8 @@ clast_status clx_grains_check_surfaces(clx_grains_task *task, int32_t n_task)
 {
     clast_status status = CLAST_OK;
     surface_name *name = NULL;
+    const char *folder = n_task > 0 ? task[0].options->folder : "."; // one for all
+    char inside[CLX_PATH_LIMIT];
     CLX_TRY(clx_alloc(&name, n_task, sizeof *name));
     for (int32_t i = 0; i < n_task; ++i) {
         name[i] = name_surface(&task[i], i);
@@ -156,6 +159,9 @@ clast_status clx_grains_check_surfaces(clx_grains_task *task, int32_t n_task)
         }
         CLX_TRY(check_group(&name[i], end - i));
     }
+    CLX_TRY(clx_path_join(inside, folder, "."));
+    CLX_CHECK(access(inside, W_OK | X_OK) == 0, CLAST_E_DISK, "cannot write surfaces into %s: %s",
+              folder, clx_errno_text());
 done:
     clx_free(name);
     return status;

@@ -283,8 +283,7 @@ clast_status clx_run_replace(const char *made, const char *old)
         return CLAST_OK;
     }
     CLX_TRY(clx_path_join(mark, old, MARK));
-    lock = lock_old(old, MOST_TRIES,
-                    &is_busy); // one that is busy is read at most: it is no less replaced
+    lock = lock_old(old, MOST_TRIES, &is_busy); // where it stays busy, it is replaced all the same
     status = clx_file_write_all(mark, "", 0);
     if (status != CLAST_OK) { // perhaps only the sync of its folder
         (void)unlink(mark);
@@ -328,13 +327,13 @@ clast_status clx_run_replace_recover(const char *made, const char *old)
     bool is_busy = false;
     int lock = -1;
     status = clx_run_state_read(made, &state); // before the lock, which it would see
-    clx_run_state_line(made, &state, line);
     lock = lock_old(made, is_marked(made) ? MOST_TRIES : FEW_TRIES, &is_busy);
     if (lstat(made, &found) != 0) { // gone meanwhile, perhaps while it was read
         status = CLAST_OK;
         goto done;
     }
     CLX_TRY(status);
+    clx_run_state_line(made, &state, line);
     if (is_marked(made) && !is_busy) {
         CLX_TRY(clear_old(made, old));
         goto done;

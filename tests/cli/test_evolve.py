@@ -358,6 +358,12 @@ class Evolve(Case):
             self.assertEqual((made.code, made.json["n_start"]), (0, n), made.err)
             self.assertIn(said, made.err)
             self.assertEqual("snapshot" in made.err, said != "", made.err)
+        bed = self.folder / "bed"
+        self.assertEqual(clast("pack", ROOT / "examples/u1.yaml", "--mass", "20g", "--max-steps", 100, "-o", bed).code, 0)
+        array = (*run[:2], "box:-1,-1,-1,1,1,1", *run[3:-1], bed / "state.h5", "--dataset")
+        made = clast(*array, "/assembly/position")
+        self.assertEqual((made.code, made.json["n_start"]), (0, json.loads((bed / "summary.json").read_text())["n_grain"]), made.err)
+        self.assert_fails(3, *array, "/none", says=("points", "/none"))
         self.assert_fails(3, *run, "--frame", 2, says=("points", "no snapshot 2 among 2"))
         self.assert_fails(2, *run[:-2], "--particles", 3, "--frame", 1, says=("frame does nothing without points",))
 

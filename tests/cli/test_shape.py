@@ -163,6 +163,12 @@ class Shape(Case):
         self.assert_fails(3, "shape", self.folder / "none.stl", says=["none.stl"])
         self.assert_fails(2, "shape", opened, "--unit", "parsec", says=["parsec"])
 
+    def test_a_missing_folder_of_surfaces_is_told_before_the_work(self):
+        """It was told of each file, once all had been measured."""
+        grains, none = [ROOT / f"data/standin63/grain0{k}.ply" for k in (0, 1)], self.folder / "none"
+        self.assert_fails(4, "shape", *grains, "--surfaces", none, "-o", self.folder / "t.csv", says=(f"cannot write surfaces into {none}: No such file",))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_surfaces_are_written(self):
         result = clast("shape", DATA / "shapes/sh-grains/fdot57-A-anm-00001.dat", "--level", "2", "--surfaces",
                        self.folder)
@@ -472,8 +478,9 @@ class Output(Case):
         """Each was taken, and the numbers were those without it; no surface of a table was written."""
         table = self.folder / "t.csv"
         table.write_text("L,I,S\n3,2,1\n4,3,2\n")
+        (self.folder / "out").mkdir()
         for file, option in ((ROOT / "data/standin63/grain00.ply", ("--columns", "L,I,S")), (ROOT / "data/standin63/grain00.ply", ("--voxel-edge", 2)),
-                             (table, ("--hull",)), (table, ("--axes", "feret")), (table, ("--surfaces", self.folder / "none"))):
+                             (table, ("--hull",)), (table, ("--axes", "feret")), (table, ("--surfaces", self.folder / "out"))):
             self.assert_fails(2, "shape", file, *option, says=(f"{option[0]} does nothing with files of these kinds",))
 
 
