@@ -3,6 +3,7 @@
 #include "dem/body.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include "pack/load.h"
 #include "pack/pack.h"
 #include <clast/form.h>
 #include <math.h>
@@ -276,12 +277,41 @@ done:
     return status;
 }
 
+/// Grains that begin faster than contacts of the smallest stop end the run in its first step; the
+/// constants told are for a fall through the whole height.
+static clast_status check_initial_speed(const clast_pack *p, double radius, double mass)
+{
+    const clast_dem_config *d = &p->config.dem;
+    const double u = p->config.initial_speed;
+    const double limit = clx_pack_stopped_speed(p, radius, mass);
+    char stiffer[160] = "a larger young with a shorter time_step";
+    if (d->domain == CLAST_DEM_CELL || u <= limit) {
+        return CLAST_OK;
+    }
+    if (d->law == CLAST_DEM_LINEAR) {
+        const double time = d->collision_time * limit / sqrt(u * u + 2.0 * d->gravity * d->height);
+        const double digit = pow(10.0, floor(log10(time)));
+        const double even = floor(time / digit) * digit;
+        (void)snprintf(stiffer, sizeof stiffer,
+                       "a shorter collision_time (%s suits a fall through the height) with "
+                       "time_step %s",
+                       clx_unit_text(even, "s"),
+                       clx_unit_text(even / d->collision_time * d->time_step, "s"));
+    }
+    return clx_fail(CLAST_E_CONFIG,
+                    "initial_speed %s: contacts of the smallest grain (%s) stop no more than %s "
+                    "within half its radius; take a lower initial_speed, or %s",
+                    clx_unit_text(u, "m/s"), clx_unit_text(2.0 * radius, "m"),
+                    clx_unit_text(limit, "m/s"), stiffer);
+}
+
 clast_status clx_pack_check_draws(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const clast_dem_config *d = &p->config.dem;
     draws all = {.limit = largest_bounding_radius(d)};
     double mass = 0.0;
+    double least[2] = {INFINITY, 0.0}; // bounding radius and mass of the smallest grain
     CLX_TRY(clx_alloc(&all.principal, p->input.n_shape, sizeof *all.principal));
     for (int64_t i = 0; mass < p->config.mass; ++i) {
         CLX_TRY(measure_draw(p, &all, i));
@@ -295,12 +325,17 @@ clast_status clx_pack_check_draws(clast_pack *p)
                                                     : "the width",
                   clx_unit_text(fmin(d->width, d->depth > 0.0 ? d->depth : d->width), "m"));
         mass += all.mass;
+        if (all.bounding_radius < least[0]) {
+            least[0] = all.bounding_radius;
+            least[1] = all.mass;
+        }
         CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,
                   "%s of such grains are about %.2g, at most %g are packed; take less mass or "
                   "larger grains",
                   clx_unit_text(p->config.mass, "kg"), p->config.mass / mass * (double)i,
                   MOST_GRAINS);
     }
+    CLX_TRY(check_initial_speed(p, least[0], least[1]));
 done:
     for (int32_t i = 0; all.principal != NULL && i < p->input.n_shape; ++i) {
         clast_mesh_free(&all.principal[i]);

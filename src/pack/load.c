@@ -39,6 +39,17 @@ static double fastest_of(const clast_pack_config *c, const clx_stage *s)
     return sqrt(square) + shear * side[2];
 }
 
+double clx_pack_stopped_speed(const clast_pack *p, double radius, double mass)
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < p->dem->n_body; ++i) {
+        for (int32_t k = 0; k < clx_n_law(p->dem); ++k) {
+            least = fmin(least, clx_law_speed(clx_law_at(p->dem, i, k), mass, radius, radius));
+        }
+    }
+    return least;
+}
+
 double clx_pack_speed_limit(const clast_pack *p)
 {
     double low = 0.0;
@@ -49,13 +60,7 @@ double clx_pack_speed_limit(const clast_pack *p)
     clx_pack_densities(p, &min_density, &max_density);
     const double r = 0.5 * low;
     const double mass = max_density * 4.0 / 3.0 * CLAST_PI * r * r * r;
-    double least = INFINITY;
-    for (int32_t i = 0; i < p->dem->n_body; ++i) {
-        for (int32_t k = 0; k < clx_n_law(p->dem); ++k) {
-            least = fmin(least, clx_law_speed(clx_law_at(p->dem, i, k), mass, r, r));
-        }
-    }
-    return FASTEST * least;
+    return FASTEST * clx_pack_stopped_speed(p, r, mass);
 }
 
 static bool moves_at_rate(const clx_stage *s, int k)

@@ -26,7 +26,11 @@ clast_status clx_stage_read(const clast_pack_config *config, int32_t number, clx
 clast_status clx_pack_load_check(const clast_pack *pack);
 clast_status clx_pack_load_begin(clast_pack *pack);
 
-/// Half of the speed that contacts of the smallest grains stop [m/s].
+/// Speed at which the softest contact still stops a grain of this bounding radius within half of
+/// it, without its dashpot [m/s].                        [docs/theory/dem.md "When a run explodes"]
+double clx_pack_stopped_speed(const clast_pack *pack, double radius, double mass);
+
+/// Half of that for the smallest grains [m/s].
 double clx_pack_speed_limit(const clast_pack *pack);
 
 /// Every CLX_SERVO_STEPS: sets the cell's rates; goes to the next stage, or is done.

@@ -658,7 +658,17 @@ class Pack(Case):
         self.assert_fails(2, *SMALL, "--shapes", "ellipsoid:1,1,0", says=("three numbers above 0",))
 
     def test_contacts_too_soft_for_their_load_end_with_a_line(self):
-        self.assert_fails(5, *SMALL, "--initial-speed", "80m/s", says=("explodes in step", "contacts too soft"))
+        soft = ("--collision-time", "8ms", "--initial-speed")
+        self.assert_fails(5, *SMALL, *soft, "0.7m/s", says=("explodes in step", "contacts too soft"))
+        self.assert_fails(2, *SMALL, *soft, "0.8m/s", says=("stop no more than", "lower initial_speed"))
+
+    def test_fine_grains_are_told_which_constants_suit(self):
+        fine = ["pack", "--curve", "0.2mm", "--mass", "0.2mg", "--width", "2mm", "--height", "10mm", "--shaking-time", "0s", "--seed", "3",
+                "--quiet", "-j", "1", "--max-steps", "20000"]
+        self.assert_fails(2, *fine, says=("contacts of the smallest grain (200 um) stop no more than 973.765 mm/s",
+                                          "collision_time (100 us suits a fall through the height) with time_step 2.5 us"))
+        told = clast(*fine, "--collision-time", "100us", "--time-step", "2.5us")
+        self.assertEqual(told.code, 0, told.err)
 
     def test_trimmed_away_says_what_to_do(self):
         result = clast("pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "30g",
