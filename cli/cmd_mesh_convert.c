@@ -28,7 +28,7 @@ static const clast_field fields[] = {
 
 typedef struct {
     const char *input, *output;
-    const char *out_unit; ///< NULL: not known
+    const char *unit, *out_unit; ///< NULL: not known
     clast_mesh mesh;
     clast_mesh_read_report report;
     clast_mesh_format out_format;
@@ -42,6 +42,7 @@ static clast_status find_factor(const convert_config *config, job *j)
     double out = 1.0;
     const char *own = j->report.unit[0] != '\0' ? j->report.unit : NULL;
     const char *unit = config->unit[0] != '\0' ? config->unit : own;
+    j->unit = unit;
     j->out_unit = config->out_unit[0] != '\0' ? config->out_unit : unit;
     j->factor = config->scale;
     if (unit == NULL && j->out_unit != NULL) {
@@ -167,6 +168,8 @@ static clast_status print_json(const job *j)
     cli_json_count(o, "n_concave", r->n_concave);
     cli_json_count(o, "n_zero_normal", r->n_zero_normal);
     cli_json_count(o, "n_wrong_normal", r->n_wrong_normal);
+    cli_json_text(o, "unit", j->unit != NULL ? j->unit : "model");
+    cli_json_text(o, "out_unit", j->out_unit != NULL ? j->out_unit : "model");
     cli_json_number(o, "factor", j->factor);
     cli_json_text(o, "output", j->output);
     cli_json_text(o, "output_format", clast_mesh_format_name(j->out_format));

@@ -67,17 +67,39 @@ static clast_status shape_of(const char *path, char *name, clast_mesh *mesh, cla
     return status == CLAST_E_GEOMETRY ? bare_shape(path, name, mesh, shape) : status;
 }
 
+/// Surfaces are drawn at the coordinates of their files, so those that say a unit say one and the
+/// same, which the picture's is unless one is given.
+static clast_status note_unit(const char *path, const clast_mesh_read_report *report,
+                              clast_render_config *config, char own[16])
+{
+    if (own[0] != '\0' && report->unit[0] != '\0' && strcmp(own, report->unit) != 0) {
+        return cli_fail(CLAST_E_CONFIG,
+                        "%s says that it is in %s, a surface before it that it is in %s; make them "
+                        "one: clast mesh convert %s --out-unit %s -o OTHER",
+                        path, report->unit, own, path, own);
+    }
+    CLI_GUARD(clast_mesh_require_unit(path, report, config->unit));
+    if (report->unit[0] != '\0' && config->unit[0] == '\0') {
+        (void)snprintf(own, 16, "%s", report->unit);
+        return clast_field_set(clast_fields_find(clast_render_fields, "unit"), config, own, false);
+    }
+    return CLAST_OK;
+}
+
 /// A surface at the place it has in its file.
-static clast_status add_surface(const char *path, clast_assembly *assembly)
+static clast_status add_surface(const char *path, clast_render_config *config, char own[16],
+                                clast_assembly *assembly)
 {
     static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
     char name[256];
     clast_mesh mesh = {0};
     clast_shape shape = {0};
+    clast_mesh_read_report read = {0};
     int32_t id = 0;
     name_of(path, assembly, name, sizeof name);
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLI_TRY(clast_mesh_read(path, &mesh, &read));
+    CLI_TRY(note_unit(path, &read, config, own));
     CLI_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles: %d points are no surface",
               path, mesh.n_vert);
     CLI_TRY(shape_of(path, name, &mesh, &shape));
@@ -126,7 +148,8 @@ static clast_status load_state(const char *path, clast_assembly *assembly)
     return status;
 }
 
-static clast_status load(const cli_common *common, clast_assembly *assembly)
+static clast_status load(const cli_common *common, clast_render_config *config, char own[16],
+                         clast_assembly *assembly)
 {
     char path[CLAST_RUN_PATH];
     (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
@@ -138,7 +161,7 @@ static clast_status load(const cli_common *common, clast_assembly *assembly)
         CLI_GUARD(clast_run_folder_state(input, path));
         const char *dot = strrchr(path, '.');
         if (dot == NULL || strcmp(dot, ".h5") != 0) {
-            CLI_GUARD(add_surface(path, assembly));
+            CLI_GUARD(add_surface(path, config, own, assembly));
         } else if (common->n_argument == 1) {
             CLI_GUARD(load_state(path, assembly));
         } else {
@@ -186,6 +209,7 @@ static clast_status run(const cli_common *common, void *config)
     CLI_GUARD(cli_idle_check(clast_render_fields, config, clast_render_idle(config, rules)));
     clast_assembly assembly = {0};
     clast_image image = {0};
+    char unit[16] = "";
     const double start = cli_clock();
     const clast_monitor monitor = cli_monitor(common);
     if (common->output == NULL) {
@@ -193,7 +217,7 @@ static clast_status run(const cli_common *common, void *config)
     }
     CLI_GUARD(cli_check_ending(common->output, "pictures", "png"));
     clast_status status = CLAST_OK;
-    CLI_TRY(load(common, &assembly));
+    CLI_TRY(load(common, config, unit, &assembly));
     CLI_TRY(clast_render_assembly(&assembly, config, &monitor, &image));
     CLI_TRY(clast_image_write_png(&image, common->output));
     CLI_TRY(report(common, &assembly, ((const clast_render_config *)config)->unit, &image,

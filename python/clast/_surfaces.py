@@ -192,7 +192,7 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
         raise refuse(f"unit: is missing; {'out_unit needs it' if out_unit else '3MF is in millimetres'}")
     refuse_idle(changed("mesh convert", wanted), "clast_mesh_write_idle", of_path)
     factor, out_unit = wanted["scale"], out_unit or unit
-    if unit and unit != out_unit:
+    if unit:
         factor *= _metres(unit) / _metres(out_unit)
     if factor != 1.0:
         mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
@@ -200,7 +200,8 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     check(call("clast_mesh_write")(mesh._struct(), encoded("output", output), ctypes.byref(options)))
     if _is_stl(output):
         _warn_of_loss(mesh, output)
-    return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "factor": factor})
+    return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "unit": unit or "model",
+                                "out_unit": out_unit or "model", "factor": factor})
 
 
 def _warn_of_loss(mesh: Mesh, output: Path) -> None:

@@ -68,7 +68,9 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     clast_mesh hull = {0};
-    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    clast_mesh_read_report report = {0};
+    CLX_TRY(clast_mesh_read(path, &mesh, &report));
+    CLX_TRY(clast_mesh_require_unit(path, &report, config->unit));
     CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
     if (config->faces > 0) {
         status = clast_reform_hull(&mesh, config->faces, &hull);

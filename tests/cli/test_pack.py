@@ -670,6 +670,11 @@ class Pack(Case):
         told = clast(*fine, "--collision-time", "100us", "--time-step", "2.5us")
         self.assertEqual(told.code, 0, told.err)
 
+    def test_a_unit_against_the_file_s_own_is_refused(self):
+        surface = self.folder / "mm.stl"
+        clast("mesh", "convert", ROOT / "data/standin63/grain10.ply", "--unit", "mm", "-o", surface)
+        self.assert_fails(2, *SMALL, "--shapes", surface, "--unit", "um", says=("mm.stl says that it is in mm, not in um",))
+
     def test_trimmed_away_says_what_to_do(self):
         result = clast("pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "30g",
                        "--shaking-time", "0s", "--quiet")

@@ -136,6 +136,16 @@ class Render(Case):
         at = data.index(b"IDAT")
         return data[at + 4:at + 4 + struct.unpack(">I", data[at - 4:at])[0]]
 
+    def test_surfaces_that_say_their_unit_have_it(self):
+        mm, um, picture = self.folder / "mm.stl", self.folder / "um.stl", self.folder / "a.png"
+        clast("mesh", "convert", STL / "Menger2.stl", "--unit", "mm", "-o", mm)
+        said = clast("mesh", "convert", mm, "--out-unit", "um", "-o", um, "--json").json
+        self.assertEqual((said["unit"], said["out_unit"]), ("mm", "um"))
+        drawn = clast("render", mm, STL / "Menger2.stl", "-o", picture, "--json", *SMALL)
+        self.assertEqual(drawn.json["unit"], "mm", drawn.err)
+        self.assert_fails(2, "render", mm, um, "-o", picture, says=["um.stl says that it is in um, a surface before it that it is in mm"])
+        self.assert_fails(2, "render", mm, "-o", picture, "--unit", "um", says=["says that it is in mm, not in um"])
+
     def test_what_has_no_triangles_is_named(self):
         points, dot = self.folder / "points.off", self.folder / "dot.off"
         points.write_text("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")

@@ -307,6 +307,7 @@ class Commands(unittest.TestCase):
         self.assertEqual((self.folder / "one.3mf").read_bytes(), (self.folder / "two.3mf").read_bytes())
         for call, line in ((lambda: clast.mesh_convert(GRAIN, "x.3mf"), "^unit: is missing; 3MF is in millimetres"),
                            (lambda: clast.mesh_convert(GRAIN, "x.doc"), "^output: x.doc is no surface format"),
+                           (lambda: clast.mesh_convert(GRAIN, "x.ply", unit="parsec"), "^unknown unit 'parsec'"),
                            (lambda: clast.mesh_form(GRAIN, flatness=2), "^flatness: 2.0 lies outside 0 to 1"),
                            (lambda: clast.mesh_form(GRAIN, unit_form=True, size=3), "^unit_form: "),
                            (lambda: clast.mesh_simplify(GRAIN, "few"), "few")):
