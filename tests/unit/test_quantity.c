@@ -191,6 +191,17 @@ static void what_is_printed_can_be_read(void **state)
     }
     CHECK_OK(clast_unit_parse("60/min", "1/s", &value)); /* of rates only /s was read so */
     CHECK_REL(value, 1.0, 1e-15);
+    static const struct { /* the number itself in SI, not one beside it: runs have the same bytes */
+        const char *text, *si;
+        double value;
+    } same[] = {{"5us", "s", 5e-6},     {"200us", "s", 2e-4},   {"104mm", "m", 0.104},
+                {"50 nm", "m", 50e-9},  {"35%", "-", 0.35},     {"3/min", "1/s", 0.05},
+                {"7mm^2", "m^2", 7e-6}, {"2.5g", "kg", 2.5e-3}, {"36km/h", "m/s", 10.0},
+                {"4um^3", "m^3", 4e-18}};
+    for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
+        CHECK_OK(clast_unit_parse(same[k].text, same[k].si, &value));
+        CHECK_REL(value, same[k].value, 0.0);
+    }
     const char *of = NULL; /* a number's dimension is its unit's */
     assert_true(clx_unit_is_number("3 phi", &value, &of));
     assert_string_equal(of, "m");
