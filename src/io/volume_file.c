@@ -14,26 +14,30 @@ clast_status clx_inflate(const uint8_t *bytes, size_t n, uint8_t *out, size_t n_
     z_stream stream = {0};
     size_t taken = 0;
     size_t given = 0;
+    uint8_t beyond = 0; // where a byte after the last would go
+    bool is_more = false;
     int code = inflateInit2(&stream, ANY_HEADER);
     if (code != Z_OK) {
         return clx_fail(CLAST_E_MEMORY, "no memory to unpack %zu bytes", n);
     }
     while (code == Z_OK) { // counts of zlib have 32 bits
         const size_t in = n - taken < (1u << 30) ? n - taken : (1u << 30);
-        const size_t room = n_out - given < (1u << 30) ? n_out - given : (1u << 30);
+        const size_t left = n_out - given < (1u << 30) ? n_out - given : (1u << 30);
         stream.next_in = bytes + taken;
         stream.avail_in = (uInt)in;
-        stream.next_out = out + given;
-        stream.avail_out = (uInt)room;
-        code = inflate(&stream, Z_NO_FLUSH);
+        stream.next_out = left > 0 ? out + given : &beyond;
+        stream.avail_out = left > 0 ? (uInt)left : 1;
+        code = inflate(&stream, Z_NO_FLUSH); // Z_BUF_ERROR where the file ends before its checksum
         taken += in - stream.avail_in;
-        given += room - stream.avail_out;
-        if (code == Z_OK && (taken == n || given == n_out)) {
-            break;
-        }
+        is_more = is_more || (left == 0 && stream.avail_out == 0);
+        given += left > 0 ? left - stream.avail_out : 0;
+        code = is_more ? Z_DATA_ERROR : code;
     }
     (void)inflateEnd(&stream);
-    return (code == Z_OK || code == Z_STREAM_END) && given == n_out
+    return is_more
+               ? clx_fail(CLAST_E_FORMAT,
+                          "packed values are more than the %zu bytes of its sizes and type", n_out)
+           : code == Z_STREAM_END && given == n_out
                ? CLAST_OK
                : clx_fail(CLAST_E_FORMAT, "packed values are damaged: %zu of %zu bytes came out",
                           given, n_out);

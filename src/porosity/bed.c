@@ -56,10 +56,11 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
     } else {
         const bool is_box = word == 3 && strncmp(text, "box", word) == 0;
         const bool is_periodic = word == 8 && strncmp(text, "periodic", word) == 0;
-        CLX_CHECK(((is_box || is_periodic) && n == 4) || (is_periodic && n >= 6), CLAST_E_CONFIG,
-                  "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or, in "
-                  "all three directions, periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT], not '%s'",
-                  text);
+        CLX_CHECK(
+            ((is_box || is_periodic) && n == 4) || (is_periodic && n >= 6), CLAST_E_CONFIG,
+            "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1, in "
+            "all three directions, periodic:X0,Y0,Z0,X1,Y1,Z1[,SHIFT], or mesh:FILE,UNIT, not '%s'",
+            text);
         made.kind = is_box ? CLAST_BED_BOX : n >= 6 ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC;
         for (int k = 0; k < 2; ++k) {
             made.low[k] = number[k];

@@ -287,6 +287,8 @@ class Volumes(Case):
         self.assert_fails(3, "shape", self.file("long.nrrd", whole + bytes(1120)), says=("22400 bytes", "23520", "sizes or type are wrong"))
         self.assert_fails(3, "shape", self.file("hex.nrrd", whole.replace(b"raw", b"hex")), says=("encoding 'hex'",))
         self.assert_fails(3, "shape", self.file("bad.nrrd", nrrd("gzip", gzip.compress(U8)[:-100])), says=("damaged",))
+        self.assert_fails(3, "shape", self.file("cut.nrrd", nrrd("gzip", gzip.compress(U8)[:-4])), says=("damaged",))
+        self.assert_fails(3, "shape", self.file("more.nrrd", nrrd("gzip", gzip.compress(U8 + b"x"))), says=("more than the",))
         stack = tiff("<", U8, 1, 1)
         self.assert_fails(3, "shape", self.file("short.tif", stack[:-30]), says=("TIFF: page 20",))
         self.assert_fails(3, "shape", self.file("strip.tif", tiff("<", U8, 1, 5).replace(lzw(U8[:560])[:40], bytes(40))), says=("TIFF: page 1,",))
