@@ -77,10 +77,12 @@ static bool print_group(FILE *out, const char *word)
 /// The release, and which build of it: the source's commit and the optional parts.
 static void print_version(void)
 {
-    static const char lacks[] = CLAST_LACKS;
-    (void)printf("clast %s\nsource %s\nwith %s\n", clast_version(), clast_source(), CLAST_HAS);
-    if (lacks[0] != '\0') {
-        (void)printf("without %s\n", lacks);
+    static const char *const parts[2][2] = {{"with", CLAST_HAS}, {"without", CLAST_LACKS}};
+    (void)printf("clast %s\nsource %s\n", clast_version(), clast_source());
+    for (int k = 0; k < 2; ++k) {
+        if (parts[k][1][0] != '\0') {
+            (void)printf("%s %s\n", parts[k][0], parts[k][1]);
+        }
     }
 }
 
