@@ -450,6 +450,20 @@ clast_status clx_run_tell_list(clast_run_folder *run, const clast_monitor *monit
                        : CLAST_OK;
 }
 
+void clx_run_tell_meaning(const clast_monitor *monitor, const char *file,
+                          const clast_grading_list *list, const char *taken)
+{
+    char text[512];
+    if (strncmp(list->size, "volume", 6) == 0 && monitor != NULL && monitor->note != NULL) {
+        (void)snprintf(
+            text, sizeof text,
+            "%.127s: its sizes are column '%.127s', and are taken as %s; as diameters of "
+            "equal volume: --size-meaning volume",
+            file, list->size, taken);
+        monitor->note(monitor->context, text);
+    }
+}
+
 clast_status clx_run_tell_curve(clast_run_folder *run, const clast_monitor *monitor,
                                 const char *curve, const clast_grading *grading)
 {

@@ -76,6 +76,11 @@ CLX_SHARED clast_status clx_run_tell_list(clast_run_folder *run, const clast_mon
                                           const char *sizes, bool by_mass,
                                           const clast_grading_list *list);
 
+/// Sizes that are volume-equivalent by their column's name and not taken so, which of spheres are
+/// the same.
+CLX_SHARED void clx_run_tell_meaning(const clast_monitor *monitor, const char *file,
+                                     const clast_grading_list *list, const char *taken);
+
 /// The same of an option `curve`, "list:FILE" or "masses:FILE", whose curve is `grading`.
 CLX_SHARED clast_status clx_run_tell_curve(clast_run_folder *run, const clast_monitor *monitor,
                                            const char *curve, const clast_grading *grading);

@@ -367,9 +367,16 @@ static clast_status tell_list(const run *r)
     clast_status status = CLAST_OK;
     clx_sizes_columns columns;
     clast_grading_list list;
+    bool has_other = false;
     CLX_TRY(clx_aggregate_list(r->config, &columns, &list));
     CLX_TRY(clx_run_tell_list(r->own, r->monitor, r->config->sizes, r->config->params.size_by_mass,
                               &list));
+    for (int32_t i = 0; i < r->config->coat.n; ++i) {
+        has_other = has_other || strcmp(r->config->coat.item[i], "sphere") != 0;
+    }
+    if (has_other && r->config->params.size_meaning == 0) {
+        clx_run_tell_meaning(r->monitor, "sizes", &list, "maximum lengths");
+    }
 done:
     return status;
 }

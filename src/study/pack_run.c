@@ -258,24 +258,15 @@ static clast_status check_ranks(const run *r)
     return clx_run_check_ranks(r->comm, &inputs);
 }
 
-/// A list whose sizes are volume-equivalent by its column's name, where they are taken as sieve
-/// sizes, which of spheres are the same.
 static void tell_meaning(const run *r)
 {
     const clast_grading_list list = clast_grading_list_of(r->source.grading);
-    const bool is_volume = strncmp(list.size, "volume", 6) == 0;
     bool has_other = r->config->form_law;
     for (int32_t i = 0; i < r->source.input.n_shape; ++i) {
         has_other = has_other || r->source.input.shape[i].kind != CLAST_SHAPE_SPHERE;
     }
-    if (is_volume && has_other && r->config->size_meaning == 0 && r->monitor != NULL &&
-        r->monitor->note != NULL) {
-        char text[512];
-        (void)snprintf(text, sizeof text,
-                       "curve: its sizes are column '%.127s', and are taken as sieve sizes; as "
-                       "diameters of equal volume: --size-meaning volume",
-                       list.size);
-        r->monitor->note(r->monitor->context, text);
+    if (has_other && r->config->size_meaning == 0) {
+        clx_run_tell_meaning(r->monitor, "curve", &list, "sieve sizes");
     }
 }
 

@@ -771,6 +771,13 @@ class BadInput(Case):
         self.assertFalse(run.exists())
         self.assert_fails(4, *SPHERES, "-o", "/proc/run", says=("/proc/run",))
 
+    def test_volume_diameters_as_lengths_are_noted(self):
+        sizes = self.folder / "volume.csv"
+        sizes.write_text("volume_diameter_um,number\n30,2\n40,1\n")
+        for coat, more, n in (("ellipsoid:1,0.8,0.6", (), 1), ("ellipsoid:1,0.8,0.6", ("--size-meaning", "volume"), 0), ("sphere", (), 0)):
+            done = clast("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", coat, "--sizes", sizes, *more)
+            self.assertEqual((done.code, done.err.count("column 'volume_diameter_um', and are taken as maximum lengths")), (0, n), done.err)
+
 
 if __name__ == "__main__":
     unittest.main()
