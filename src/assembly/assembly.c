@@ -9,6 +9,7 @@
 #include <clast/mesh.h>
 #include <clast/shape.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 void clast_assembly_free(clast_assembly *assembly)
@@ -103,9 +104,7 @@ clast_status clast_assembly_copy(const clast_assembly *assembly, clast_assembly 
     memcpy(made.unit, assembly->unit, sizeof made.unit);
     made.no_density = assembly->no_density;
     made.has_ids = assembly->has_ids;
-    for (int32_t s = 0; s < assembly->n_shape; ++s) {
-        CLX_TRY(clast_assembly_add_shape(&made, &assembly->shape[s], NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&made, assembly->n_shape, assembly->shape, sizeof *made.shape));
     CLX_TRY(copy_grains(assembly, &made));
     *copy = made;
     made = (clast_assembly){0};
@@ -121,23 +120,51 @@ clast_status clast_assembly_add_shape(clast_assembly *assembly, const clast_shap
     CLX_WHOLE(arrays, assembly);
     CLX_WHOLE(shape, shape);
     clast_status status = CLAST_OK;
-    clast_shape made = {0};
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         CLX_CHECK(assembly->shape[s].name != NULL, CLAST_E_ARGUMENT, "%s: shape %d has no name",
                   __func__, s);
         CLX_CHECK(strcmp(assembly->shape[s].name, shape->name) != 0, CLAST_E_USAGE,
                   "two shapes of one assembly are called %s", shape->name);
     }
-    CLX_TRY(clast_shape_copy(shape, &made));
     CLX_TRY(clx_realloc(&assembly->shape, assembly->n_shape + 1, sizeof *assembly->shape));
-    assembly->shape[assembly->n_shape] = made;
-    made = (clast_shape){0};
+    CLX_TRY(clast_shape_copy(shape, &assembly->shape[assembly->n_shape]));
     if (shape_id != NULL) {
         *shape_id = assembly->n_shape;
     }
     ++assembly->n_shape;
 done:
-    clast_shape_free(&made);
+    return status;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+clast_status clx_assembly_add_shapes(clast_assembly *assembly, int32_t n, const clast_shape *shape,
+                                     size_t stride)
+{
+    CLAST_ASSERT(assembly->n_shape == 0 && assembly->shape == NULL);
+    clast_status status = CLAST_OK;
+    const char **name = NULL;
+    if (n == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&name, n, sizeof *name));
+    CLX_TRY(clx_alloc(&assembly->shape, n, sizeof *assembly->shape));
+    for (int32_t s = 0; s < n; ++s) {
+        const void *item = (const char *)shape + (size_t)s * stride;
+        name[s] = ((const clast_shape *)item)->name;
+        CLX_TRY(clast_shape_copy(item, &assembly->shape[s]));
+        ++assembly->n_shape;
+    }
+    qsort(name, (size_t)n, sizeof *name, by_name);
+    for (int32_t s = 1; s < n; ++s) {
+        CLX_CHECK(strcmp(name[s - 1], name[s]) != 0, CLAST_E_USAGE,
+                  "two shapes of one assembly are called %s", name[s]);
+    }
+done:
+    clx_free(name);
     return status;
 }
 

@@ -92,9 +92,7 @@ static clast_status make_images(const clast_assembly *a, const clast_period *per
     clast_status status = CLAST_OK;
     double largest = 0.0;
     CLX_TRY(clx_alloc(&m->shift, a->n_grain, sizeof *m->shift));
-    for (int32_t s = 0; s < a->n_shape; ++s) {
-        CLX_TRY(clast_assembly_add_shape(&m->all, &a->shape[s], NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&m->all, a->n_shape, a->shape, sizeof *a->shape));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         largest = fmax(largest, bounding_radius_of(a, i));
         find_shift(a, i, period, m->shift[i]);

@@ -1,6 +1,7 @@
 // Groups of grains that contacts join, and one of them alone.
 #include "assembly/pieces.h"
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "geom/union_find.h"
 #include <clast/assembly.h>
@@ -52,9 +53,7 @@ clast_status clx_assembly_part(const clast_assembly *assembly, const int32_t *of
     int32_t *at = NULL;
     CLX_TRY(clx_alloc(&at, assembly->n_grain, sizeof *at));
     memcpy(made.unit, assembly->unit, sizeof made.unit);
-    for (int32_t s = 0; s < assembly->n_shape; ++s) {
-        CLX_TRY(clast_assembly_add_shape(&made, &assembly->shape[s], NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&made, assembly->n_shape, assembly->shape, sizeof *made.shape));
     CLX_TRY(copy_grains(assembly, of, which, at, &made));
     for (int32_t c = 0; c < assembly->n_contact; ++c) {
         const int32_t i = at[assembly->contact[c][0]];

@@ -75,14 +75,16 @@ static void add_share(profile *p, int32_t k, double volume, double variance, dou
     p->error[k] += variance;
 }
 
-/// Points even in the grain; the shells below `first` are known, the others share what is left (of
-/// a grain that ends within them nothing is left but the error of their sum).
-static void add_points(profile *p, const clx_touch_body *body, const double centre[3],
+/// Points even in grain i, other ones in each, or the errors of grains that lie alike add up; the
+/// shells below `first` are known, the others share what is left (of a grain that ends within them
+/// nothing is left but the error of their sum).
+static void add_points(profile *p, int32_t i, const clx_touch_body *body, const double centre[3],
                        int32_t first, double left, double density)
 {
-    double c[3] = {0.5, 0.5, 0.5};
+    double c[3];
     int32_t bin[POINTS_A_GRAIN];
     int32_t n = 0;
+    clx_lattice_begin((int64_t)POINTS_A_GRAIN * i, c);
     for (int64_t tried = 0; n < POINTS_A_GRAIN && tried < 1000LL * POINTS_A_GRAIN; ++tried) {
         double x[3];
         clx_lattice_step(c);
@@ -92,13 +94,13 @@ static void add_points(profile *p, const clx_touch_body *body, const double cent
             n += bin[n] >= first;
         }
     }
-    for (int32_t i = 0; i < n; ++i) { // 1 / n each; variance at most that of random points
-        add_share(p, bin[i], left / n, left / n * (left / n), density);
+    for (int32_t k = 0; k < n; ++k) { // 1 / n each; variance at most that of random points
+        add_share(p, bin[k], left / n, left / n * (left / n), density);
     }
 }
 
-static void add_grain(profile *p, const clx_touch_body *body, const double centre[3], double volume,
-                      double density)
+static void add_grain(profile *p, int32_t i, const clx_touch_body *body, const double centre[3],
+                      double volume, double density)
 {
     double left = volume;
     int32_t k = 0;
@@ -112,7 +114,7 @@ static void add_grain(profile *p, const clx_touch_body *body, const double centr
         left -= fmin(part, left);
     }
     if (left > 0.0) {
-        add_points(p, body, centre, k, left, density);
+        add_points(p, i, body, centre, k, left, density);
     }
 }
 
@@ -126,7 +128,7 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set, const 
             add_ball(p, s * shape->semi_axes[0], v3_distance(a->position[i], centre),
                      a->density[i]);
         } else {
-            add_grain(p, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
+            add_grain(p, i, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
                       a->density[i]);
         }
     }

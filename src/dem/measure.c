@@ -1,4 +1,5 @@
 // Sums over a simulation, its grains as an assembly, its digest, and what exploded.
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
 #include "dem/dem.h"
@@ -179,9 +180,8 @@ clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out)
     CLX_ARGUMENTS(dem, out);
     clast_status status = CLAST_OK;
     clast_assembly made = {.unit = "m"};
-    for (int32_t i = 0; i < dem->n_body; ++i) {
-        CLX_TRY(clast_assembly_add_shape(&made, &dem->body[i].shape, NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&made, dem->n_body, dem->n_body > 0 ? &dem->body->shape : NULL,
+                                    sizeof *dem->body));
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         const clx_grain *g = &dem->grain[i];
         const clx_motion *m = &dem->motion[i];

@@ -1,6 +1,7 @@
 // A bed to begin with: a run's state, or grains of another program.
 #include "io/start_file.h"
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/path.h"
 #include "io/packing.h"
@@ -273,9 +274,7 @@ clast_status clx_start_of_poses(const clast_pack_config *config, const clast_tab
     CLX_CHECK(name != NULL, CLAST_E_FORMAT, "there is no column shape");
     CLX_TRY(refuse_options(config, "table"));
     CLX_TRY(find_places(table, x, made.unit));
-    for (int32_t i = 0; i < n_shape; ++i) {
-        CLX_TRY(clast_assembly_add_shape(&made, &shape[i], NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&made, n_shape, shape, sizeof *shape));
     for (int64_t i = 0; i < table->n_row; ++i) {
         CLX_TRY(add_row(table, i, name, x, &made));
     }

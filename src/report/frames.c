@@ -1,6 +1,7 @@
 // Frames of a run (frames.pvd, frames/*.vtu) as poses of the 3-D view's grains.
 #include "report/frames.h"
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/path.h"
@@ -363,9 +364,8 @@ clast_status clx_frames_last(const clx_run *run, const clast_assembly *from, cla
     if (n > 0) {
         CLX_TRY(read_frame(run, &list[n - 1], from, NULL, &frame, &has_poses));
     }
-    for (int32_t s = 0; s < from->n_shape && frame.n > 0; ++s) {
-        CLX_TRY(clast_assembly_add_shape(&made, &from->shape[s], NULL));
-    }
+    CLX_TRY(clx_assembly_add_shapes(&made, frame.n > 0 ? from->n_shape : 0, from->shape,
+                                    sizeof *from->shape));
     for (int32_t i = 0; i < frame.n; ++i) {
         CLX_TRY(clast_assembly_add_grain(&made, frame.shape[i], frame.position[i],
                                          frame.orientation[i], frame.scale[i], 1.0));

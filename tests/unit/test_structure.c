@@ -147,6 +147,41 @@ static void extents_are_lengths_and_widths(void **state)
     clast_assembly_free(&a);
 }
 
+/* A thousand balls that are called ellipsoids, side by side with the exact profile of as many
+   balls: with the same points in each they were up to 34 of their errors off, now 0.3. */
+static void radial_errors_are_of_independent_grains(void **state)
+{
+    (void)state;
+    enum { N = 1000, N_BIN = 16 };
+    clast_assembly a[2] = {{.unit = "m"}, {.unit = "m"}};
+    clast_table t[2] = {{0}};
+    const double axes[3] = {1.0, 1.0, 1.0};
+    const double centre[3] = {0.0, 0.0, 0.0};
+    const double at[3] = {2.3, 0.4, 0.1};
+    const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+    for (int k = 0; k < 2; ++k) {
+        clast_shape shape = {0};
+        CHECK_OK(k == 0 ? clast_shape_ellipsoid("ball", axes, &shape)
+                        : clast_shape_sphere("ball", 1.0, &shape));
+        CHECK_OK(clast_assembly_add_shape(&a[k], &shape, NULL));
+        for (int i = 0; i < N; ++i) {
+            CHECK_OK(clast_assembly_add_grain(&a[k], 0, at, upright, 1.0, 1.0));
+        }
+        CHECK_OK(clast_assembly_radial_profile(&a[k], centre, N_BIN, &t[k]));
+        clast_shape_free(&shape);
+    }
+    const double *solid = clast_table_numbers(&t[0], "solid_m3");
+    const double *error = clast_table_numbers(&t[0], "solid_error_m3");
+    const double *exact = clast_table_numbers(&t[1], "solid_m3");
+    for (int b = 0; b < N_BIN; ++b) {
+        CHECK_ABS(solid[b], exact[b], 2.0 * error[b] + 1e-12 * exact[b]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        clast_assembly_free(&a[k]);
+        clast_table_free(&t[k]);
+    }
+}
+
 static void radial_profile_cuts_balls_exactly(void **state)
 {
     (void)state;
@@ -492,6 +527,7 @@ int main(void)
         cmocka_unit_test(shadows_tell_their_error),
         cmocka_unit_test(mean_shadow_is_a_quarter_of_the_surface),
         cmocka_unit_test(extents_are_lengths_and_widths),
+        cmocka_unit_test(radial_errors_are_of_independent_grains),
         cmocka_unit_test(radial_profile_cuts_balls_exactly),
         cmocka_unit_test(chain_has_dimension_one),
         cmocka_unit_test(lattice_has_dimension_three),
