@@ -6,13 +6,13 @@
 #include "io/state.h"
 #include "run/checkpoint.h"
 #include "run/run.h"
+#include "study/frames.h"
 #include <clast/assembly.h>
 #include <clast/run_folder.h>
 #include <clast/state.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static clast_status write_tables(const char *folder, const clast_evolve *evolve)
 {
@@ -153,27 +153,18 @@ done:
     return status;
 }
 
-static void frame_name(char name[64], int32_t row)
-{
-    (void)snprintf(name, 64, "frames/frame-%06d.vtu", row);
-}
-
 clast_status clx_evolve_write_frame(const char *folder, int32_t row, const clast_evolve *evolve)
 {
     enum { MOST_SURFACES = 5000 };
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
-    char name[64];
     clast_assembly assembly = {0};
     clast_table values = {0};
     clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1, .values = &values};
-    CLX_TRY(clx_path_join(path, folder, "frames"));
-    CLX_TRY(clx_folder_make(path));
+    CLX_TRY(clx_frame_path(folder, row, path));
     CLX_TRY(clast_evolve_assembly(evolve, &assembly, &values));
     if (assembly.n_grain > 0) {
         options.points = assembly.n_grain > MOST_SURFACES;
-        frame_name(name, row);
-        CLX_TRY(clx_path_join(path, folder, name));
         CLX_TRY(clast_assembly_write(&assembly, path, &options, NULL));
     }
 done:
@@ -187,33 +178,12 @@ clast_status clx_evolve_write_collection(const char *folder, const clast_evolve 
 {
     clast_status status = CLAST_OK;
     clast_table balance = {0};
-    char path[CLX_PATH_LIMIT];
-    char **file = NULL;
-    double *time = NULL;
-    int32_t n = 0;
+    int64_t n = 0;
     CLX_TRY(clast_evolve_table(evolve, CLAST_EVOLVE_BALANCE, &balance));
-    CLX_TRY(clx_alloc(&file, balance.n_row, sizeof *file));
-    CLX_TRY(clx_alloc(&time, balance.n_row, sizeof *time));
-    for (int64_t row = 0; row < balance.n_row; ++row) {
-        char name[64];
-        frame_name(name, (int32_t)row);
-        CLX_TRY(clx_path_join(path, folder, name));
-        if (access(path, F_OK) == 0) {
-            time[n] = clast_table_numbers(&balance, "time_s")[row];
-            CLX_TRY(clx_alloc_text(&file[n], name));
-            ++n;
-        }
-    }
-    if (n > 0) {
-        CLX_TRY(clx_path_join(path, folder, "frames.pvd"));
-        CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
-    }
-    *n_frame = n;
+    CLX_TRY(
+        clx_frames_collect(folder, 0, balance.n_row, clast_table_numbers(&balance, "time_s"), &n));
+    *n_frame = (int32_t)n;
 done:
-    for (int32_t k = 0; file != NULL && k < n; ++k) {
-        clx_free(file[k]);
-    }
-    CLX_FREE(file, time);
     clast_table_free(&balance);
     return status;
 }

@@ -3,12 +3,12 @@
 
 #include "base/alloc.h"
 #include "base/column_unit.h"
-#include "base/file.h"
 #include "base/path.h"
 #include "plot/series.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
 #include "run/run.h"
+#include "study/frames.h"
 #include <clast/assembly.h>
 #include <clast/chart.h>
 #include <clast/form.h>
@@ -18,7 +18,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static clast_status write_profile(const char *folder, const clast_pack *pack,
                                   const clast_pack_config *c, const clast_pack_result *r)
@@ -386,24 +385,13 @@ done:
     return status;
 }
 
-/// Path of frame `index` within its run.
-static void frame_name(char name[64], int64_t index)
-{
-    CLAST_ASSERT(index >= 0);
-    (void)snprintf(name, 64, "frames/frame-%06lld.vtu", (long long)index);
-}
-
 clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
-    char name[64];
     clast_assembly a = {0};
     const clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1};
-    CLX_TRY(clx_path_join(path, folder, "frames"));
-    CLX_TRY(clx_folder_make(path));
-    frame_name(name, index);
-    CLX_TRY(clx_path_join(path, folder, name));
+    CLX_TRY(clx_frame_path(folder, index, path));
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_assembly_write(&a, path, &options, NULL));
 done:
@@ -415,31 +403,13 @@ clast_status clx_pack_write_collection(const char *folder, int64_t last, double 
                                        int64_t *n_frame)
 {
     clast_status status = CLAST_OK;
-    char path[CLX_PATH_LIMIT];
     double *time = NULL;
-    char **file = NULL;
-    int64_t n = 0;
     CLX_TRY(clx_alloc(&time, last, sizeof *time));
-    CLX_TRY(clx_alloc(&file, last, sizeof *file));
-    for (int64_t i = 1; i <= last; ++i) {
-        char name[64];
-        frame_name(name, i);
-        CLX_TRY(clx_path_join(path, folder, name));
-        if (access(path, F_OK) == 0) { // none while there was no grain
-            time[n] = (double)i * interval;
-            CLX_TRY(clx_alloc_text(&file[n], name));
-            ++n;
-        }
+    for (int64_t k = 0; k < last; ++k) {
+        time[k] = (double)(k + 1) * interval;
     }
-    if (n > 0) {
-        CLX_TRY(clx_path_join(path, folder, "frames.pvd"));
-        CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
-    }
-    *n_frame = n;
+    CLX_TRY(clx_frames_collect(folder, 1, last, time, n_frame));
 done:
-    for (int64_t i = 0; file != NULL && i < n; ++i) {
-        clx_free(file[i]);
-    }
-    CLX_FREE(file, time);
+    clx_free(time);
     return status;
 }
