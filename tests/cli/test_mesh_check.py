@@ -1,4 +1,5 @@
 """CLI: clast mesh check says what is wrong, in words, numbers and exit codes."""
+import math
 import unittest
 
 from clitest import ROOT, Case, clast, shared
@@ -93,6 +94,18 @@ class MeshCheck(Case):
             result = clast("mesh", "check", path, "--json")
             self.assertEqual((result.code, result.json["closed"], result.json["oriented"]), (1, True, False))
             self.assertEqual(result.json["faults"][0]["code"], "inside_out")
+
+    def test_a_fan_of_one_plane_is_searched(self):
+        """Two caps of a cylinder with 1500 corners, aslant: a million pairs that share a corner, all of one plane by exact zeros."""
+        n, tilt = 1500, 0.3
+        corners = [(math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), z) for z in (0, 1) for i in range(n)]
+        corners = [(x, math.cos(tilt) * y - math.sin(tilt) * z, math.sin(tilt) * y + math.cos(tilt) * z) for x, y, z in corners]
+        faces = [range(n - 1, -1, -1), range(n, 2 * n), *((i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n))]
+        path = self.folder / "cylinder.off"
+        path.write_text("\n".join(["OFF", f"{2 * n} {n + 2} 0", *(" ".join(map(repr, c)) for c in corners),
+                                   *(" ".join(map(str, (len(f), *f))) for f in faces)]) + "\n")
+        found = clast("mesh", "check", path, "--json").json
+        self.assertEqual((found["intersection_complete"], found["n_intersection"], found["faults"]), (True, 0, []))
 
     def test_no_triangles_is_an_answer(self):
         result = clast("mesh", "check", DATA / "broken-meshes/trimesh/empty.stl", "--json")
