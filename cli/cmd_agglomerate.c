@@ -137,7 +137,7 @@ static void free_loaded(loaded *l)
 }
 
 /// What the fluid is at the particles of snapshot k.
-static clast_status take_flow(const cli_common *common, const config *c, const clast_table *table,
+static clast_status read_flow(const cli_common *common, const config *c, const clast_table *table,
                               int32_t k, loaded *l)
 {
     const char *const name[N_FLOW] = {c->speed_rms_column, c->temperature_column, c->shear_column,
@@ -172,7 +172,7 @@ static clast_status load_snapshot(const cli_common *common, const config *c, int
                             &(clast_packing_report){0}));
     CLI_TRY(clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]));
     l->input.n_snapshot = k + 1;
-    CLI_TRY(take_flow(common, c, table, k, l));
+    CLI_TRY(read_flow(common, c, table, k, l));
 done:
     clast_table_free(&later);
     return status;
@@ -342,9 +342,9 @@ static void print_words(const config *c, const clast_agglomeration *r)
     }
 }
 
-static clast_status keep_results(const cli_common *common, const config *c,
-                                 const clast_agglomeration *r, const json_t *out,
-                                 clast_run_folder *folder)
+static clast_status write_results(const cli_common *common, const config *c,
+                                  const clast_agglomeration *r, const json_t *out,
+                                  clast_run_folder *folder)
 {
     clast_status status = CLAST_OK;
     const cli_input inputs[] = {{"domain", cli_domain_file(c->agglomerate.decompose.domain)},
@@ -414,7 +414,7 @@ static clast_status run(const cli_common *common, void *values)
     cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
     cli_json_seed(out, "seed", c->agglomerate.decompose.seed);
     if (folder != NULL) {
-        CLI_TRY(keep_results(common, c, &result, out, folder));
+        CLI_TRY(write_results(common, c, &result, out, folder));
     }
     if (common->json) {
         CLI_TRY(cli_print_json(json_incref(out)));

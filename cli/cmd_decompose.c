@@ -57,9 +57,9 @@ __attribute__((constructor)) static void join_fields(void)
     cli_joined_append_all(&joined, clast_decompose_fields, 0);
 }
 
-static clast_status keep_results(const cli_common *common, const config *c,
-                                 const cli_decompose_job *j, const json_t *summary,
-                                 clast_run_folder *run)
+static clast_status write_results(const cli_common *common, const config *c,
+                                  const cli_decompose_job *j, const json_t *summary,
+                                  clast_run_folder *run)
 {
     const cli_input inputs[] = {{"points", common->argument[0]},
                                 {"domain", cli_domain_file(c->decompose.domain)},
@@ -136,7 +136,7 @@ static clast_status tell(const cli_common *common, const config *c, const cli_de
     clast_status status = CLAST_OK;
     json_t *summary = cli_decompose_json(j, f);
     if (folder != NULL) {
-        CLI_TRY(keep_results(common, c, j, summary, folder));
+        CLI_TRY(write_results(common, c, j, summary, folder));
     }
     if (common->json) {
         cli_json_number(summary, "wall_s", cli_clock() - f->begun);

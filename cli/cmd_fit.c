@@ -283,8 +283,8 @@ static int32_t tell(const config *c, const job *j, const clast_porosity_fit *fit
     return n_told;
 }
 
-static clast_status keep_results(const cli_common *common, const config *c, const job *j,
-                                 clast_run_folder *folder)
+static clast_status write_results(const cli_common *common, const config *c, const job *j,
+                                  clast_run_folder *folder)
 {
     const cli_input inputs[] = {{"table", common->argument[0]},
                                 {"grains", cli_is_folder(c->grains) ? NULL : c->grains},
@@ -316,7 +316,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(clast_porosity_fit_data(&j.data, c->name, source, &c->fit, &j.fit));
     (void)tell(c, &j, &j.fit, n_told);
     if (folder != NULL) {
-        CLI_TRY(keep_results(common, c, &j, folder));
+        CLI_TRY(write_results(common, c, &j, folder));
     }
     if (common->json) {
         CLI_TRY(cli_print_json(summary(&j)));

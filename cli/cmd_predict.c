@@ -201,8 +201,8 @@ static clast_status answer(const config *c, const cli_common *common, cli_predic
     return predict_table(c, j);
 }
 
-static clast_status keep_results(const cli_common *common, const config *c, const cli_prediction *j,
-                                 clast_run_folder *folder)
+static clast_status write_results(const cli_common *common, const config *c,
+                                  const cli_prediction *j, clast_run_folder *folder)
 {
     const cli_input inputs[] = {
         {"table", j->has_table ? common->argument[0] : NULL},
@@ -226,7 +226,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(answer(c, common, &j));
     tell_beds(&j);
     if (folder != NULL) {
-        CLI_TRY(keep_results(common, c, &j, folder));
+        CLI_TRY(write_results(common, c, &j, folder));
     }
     if (common->json) {
         CLI_TRY(cli_print_json(cli_prediction_json(&j)));

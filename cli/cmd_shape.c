@@ -162,9 +162,9 @@ done:
 }
 
 /// The folder of the statistics: manifest, tables, charts, summary.
-static clast_status keep_statistics(const cli_common *common, const config *c, bool in_metres,
-                                    const clast_grain_statistics *statistics,
-                                    clast_run_folder *folder)
+static clast_status write_statistics(const cli_common *common, const config *c, bool in_metres,
+                                     const clast_grain_statistics *statistics,
+                                     clast_run_folder *folder)
 {
     clast_status status = CLAST_OK;
     json_t *summary = cli_statistics_json(statistics);
@@ -213,7 +213,7 @@ static clast_status add_statistics(const cli_common *common, const config *c,
     if (folder != NULL && shape->grains.n > 0) {
         CLI_TRY(clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table));
         CLI_TRY(cli_shape_statistics(common->command, &table, &bootstrap, statistics));
-        CLI_TRY(keep_statistics(common, c, shape->in_metres, statistics, folder));
+        CLI_TRY(write_statistics(common, c, shape->in_metres, statistics, folder));
         if (!shape->in_metres) {
             tell_units(common, shape);
         }

@@ -226,7 +226,7 @@ static clast_status read_configs(cli_parser *p, int argc, char **argv)
 }
 
 /// Positional arguments of the configurations, where the command line has none.
-static void take_arguments(cli_parser *p)
+static void parse_arguments(cli_parser *p)
 {
     const clast_text_list named = cli_configs_arguments(&p->configs, p->config);
     if (p->common.n_argument == 0 && named.n > 0) {
@@ -253,7 +253,7 @@ clast_status cli_parse(cli_parser *p, int argc, char **argv)
         }
     }
 done:
-    take_arguments(p);
+    parse_arguments(p);
     return status;
 }
 

@@ -13,13 +13,13 @@ static json_t *triple(const double value[3])
     return list;
 }
 
-static void put_triple(json_t *object, const char *key, const double value[3])
+static void set_triple(json_t *object, const char *key, const double value[3])
 {
     (void)json_object_set_new(object, key, triple(value));
 }
 
 /// The class by the lengths; null where they are not known.
-static void put_zingg(json_t *object, const double lis[3])
+static void set_zingg(json_t *object, const double lis[3])
 {
     const clast_zingg zingg = clast_form_zingg(lis[2] / lis[1], lis[1] / lis[0]);
     if (zingg < CLAST_N_ZINGG) {
@@ -30,7 +30,7 @@ static void put_zingg(json_t *object, const double lis[3])
 }
 
 /// L, I, S, or nulls.
-static void put_lengths(json_t *object, const clast_grain_record *r, const double lis[3])
+static void set_lengths(json_t *object, const clast_grain_record *r, const double lis[3])
 {
     static const char *const letters[3] = {"L", "I", "S"};
     for (int k = 0; k < 3; ++k) {
@@ -38,7 +38,7 @@ static void put_lengths(json_t *object, const clast_grain_record *r, const doubl
     }
 }
 
-static void put_factors(json_t *object, const double lis[3])
+static void set_factors(json_t *object, const double lis[3])
 {
     double value[CLAST_N_FORM_FEATURE];
     json_t *inverses = json_object();
@@ -49,17 +49,17 @@ static void put_factors(json_t *object, const double lis[3])
         cli_json_number(inverses, about->name, value[CLAST_N_FORM_FACTOR + f]);
     }
     (void)json_object_set_new(object, "inverse", inverses);
-    put_zingg(object, lis);
+    set_zingg(object, lis);
 }
 
-static void put_surface(json_t *object, const clast_grain_record *r)
+static void set_surface(json_t *object, const clast_grain_record *r)
 {
     const clast_grain *g = &r->grain;
     json_t *axes = json_object();
     cli_json_number(object, "sphericity", g->sphericity);
     cli_json_number(object, "convexity", g->convexity);
-    put_triple(object, "moments", g->moments);
-    put_triple(object, "centroid", g->centroid);
+    set_triple(object, "moments", g->moments);
+    set_triple(object, "centroid", g->centroid);
     cli_json_number(object, "roundness", g->roundness);
     cli_json_number(object, "roundness_deviation", g->roundness_deviation);
     cli_json_count(object, "n_outline", g->n_outline);
@@ -85,7 +85,7 @@ static void put_surface(json_t *object, const clast_grain_record *r)
     for (int a = 0; a < CLAST_N_AXES; ++a) {
         json_t *one = json_object();
         json_t *direction = json_array();
-        put_lengths(one, r, g->axes[a].lis);
+        set_lengths(one, r, g->axes[a].lis);
         for (int k = 0; k < 3; ++k) {
             (void)json_array_append_new(direction, triple(g->axes[a].direction[k]));
         }
@@ -105,11 +105,11 @@ static json_t *grain_json(const cli_shape_result *shape, const clast_grain_recor
     cli_json_number(object, "area", r->has_surface ? r->grain.area : (double)NAN);
     cli_json_number(object, "pore_volume", r->has_surface ? r->grain.pore_volume : (double)NAN);
     cli_json_number(object, "pore_area", r->has_surface ? r->grain.pore_area : (double)NAN);
-    put_lengths(object, r, lis);
+    set_lengths(object, r, lis);
     cli_json_number(object, "D", r->has_size ? clast_form_sieve_size(lis[1], lis[2]) : (double)NAN);
-    put_factors(object, lis);
+    set_factors(object, lis);
     if (r->has_surface) {
-        put_surface(object, r);
+        set_surface(object, r);
     }
     return object;
 }

@@ -98,7 +98,7 @@ static _Noreturn void end_job(int32_t lost, int32_t n_lost, const watched *w)
 }
 
 /// Takes a datagram; rank 0 answers it.
-static void take_beat(double at)
+static void note_beat(double at)
 {
     beat got;
     struct sockaddr_in from;
@@ -130,7 +130,7 @@ static void listen_for(double seconds)
         const struct timeval timeout = {
             .tv_sec = (time_t)left, .tv_usec = (suseconds_t)(1e6 * (left - (double)(time_t)left))};
         (void)setsockopt(watch.socket, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
-        take_beat(now());
+        note_beat(now());
     }
 }
 

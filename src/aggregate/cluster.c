@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-static clast_status give_contacts(clast_aggregate *a, const double *cluster)
+static clast_status add_contacts(clast_aggregate *a, const double *cluster)
 {
     clast_status status = CLAST_OK;
     for (int32_t k = 0; k < a->assembly.n_contact; ++k) {
@@ -157,7 +157,7 @@ static clast_status restore_members(clast_aggregate *a, const clast_table *membe
     memset(all->cluster, 0, (size_t)n * sizeof *all->cluster);
     all->n = n;
     CLX_TRY(read_members(a, cluster, place));
-    CLX_TRY(give_contacts(a, cluster));
+    CLX_TRY(add_contacts(a, cluster));
     for (int32_t c = 0; c < n; ++c) {
         sum_up(a, &all->cluster[c]);
     }

@@ -176,7 +176,7 @@ static void shuffle(double *size, int64_t n, uint64_t seed)
     }
 }
 
-static void put_in_order(const clast_aggregate_params *c, uint64_t seed, double *size, int64_t n)
+static void sort_sizes(const clast_aggregate_params *c, uint64_t seed, double *size, int64_t n)
 {
     if (n == 0) {
         return;
@@ -224,7 +224,7 @@ clast_status clx_sizes_plan(const clast_aggregate_params *c, const clast_sizes *
     const bool whole_list = c->size_law == CLAST_SIZE_LIST && !c->size_draw;
     CLX_TRY(c->size_law == CLAST_SIZE_LIST ? list_sizes(c, sizes, seed, &plan, &total)
                                            : draw_laws(c, seed, &plan, &total));
-    put_in_order(c, seed, plan, total);
+    sort_sizes(c, seed, plan, total);
     if (whole_list && c->n_particle > 0) {
         CLX_CHECK(c->n_particle <= total, CLAST_E_CONFIG,
                   "n_particle: %d particles are wanted, the list holds %lld; raise replicate",

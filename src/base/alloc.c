@@ -257,7 +257,7 @@ void clx_pool_destroy(clx_pool *pool)
     clx_free(pool);
 }
 
-static void *take_bytes(size_t bytes)
+static void *allocate_bytes(size_t bytes)
 {
     if (current != NULL) {
         void *got = pool_take(current, bytes);
@@ -292,7 +292,7 @@ clast_status clx_alloc(void *block, int64_t n, size_t size)
     if (!may_take(n, size, &bytes)) {
         return fail(n, size);
     }
-    got = take_bytes(bytes);
+    got = allocate_bytes(bytes);
     if (got == NULL) {
         return fail(n, size);
     }
@@ -358,7 +358,7 @@ clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size)
 enum { LINE = 64, LARGE_PAGE = 1 << 21 };
 
 /// A block that begins with a cache line, or with a large page where there are several of them.
-static void *take_lines(size_t bytes)
+static void *allocate_lines(size_t bytes)
 {
     const size_t unit = bytes >= 2 * (size_t)LARGE_PAGE ? LARGE_PAGE : LINE;
     const size_t whole = (bytes + unit - 1) / unit * unit;
@@ -388,7 +388,7 @@ clast_status clx_grow_lines(void *block, int64_t *capacity, int64_t need, size_t
     if (!may_take(next, size, &bytes)) {
         return fail(next, size);
     }
-    void *got = take_lines(bytes);
+    void *got = allocate_lines(bytes);
     if (got == NULL) {
         return fail(next, size);
     }

@@ -108,7 +108,7 @@ static clast_status complain(const char *path, const char *lock)
                     who);
 }
 
-clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy)
+clast_status clx_lock_acquire(const char *path, double patience, clx_lock *lock, bool *is_busy)
 {
     CLAST_ASSERT(lock->path == NULL && patience >= 0.0);
     clast_status status = CLAST_OK;

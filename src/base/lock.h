@@ -15,8 +15,8 @@ typedef struct clx_lock {
 /// Takes the lock of PATH, waiting for up to `patience` seconds while another process has it.
 ///
 /// @return CLAST_E_DISK when it cannot be taken; who has it is in the message, and *is_busy is true
-CLX_SHARED clast_status clx_lock_take(const char *path, double patience, clx_lock *lock,
-                                      bool *is_busy);
+CLX_SHARED clast_status clx_lock_acquire(const char *path, double patience, clx_lock *lock,
+                                         bool *is_busy);
 
 enum { CLX_PROCESS_NAME = 300 };
 

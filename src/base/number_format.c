@@ -102,7 +102,7 @@ static int place_of(uint64_t mantissa, int exponent)
 }
 
 /// Digits as printf's %g writes them: plain from 1e-4 up to the precision, no zeros at the end.
-static int put_digits(uint64_t word, int n_digit, int place, char *text)
+static int write_digits(uint64_t word, int n_digit, int place, char *text)
 {
     CLAST_ASSERT(n_digit >= LEAST_DIGITS && n_digit <= MOST_DIGITS && word < power_of_ten(n_digit));
     char digit[MOST_DIGITS] = {0};
@@ -165,7 +165,7 @@ int clx_number_format(double value, char text[CLX_NUMBER_SIZE])
             word /= 10;
             ++place;
         }
-        n += put_digits(word, n_digit, place, text + n);
+        n += write_digits(word, n_digit, place, text + n);
         break;
     }
     text[n] = '\0';

@@ -131,7 +131,7 @@ static uint64_t n_at(uint64_t state)
     return state & (OPEN - 1);
 }
 
-static void take_blocks(int32_t worker)
+static void run_blocks(int32_t worker)
 {
     const int64_t n_block = (team.n + team.block - 1) / team.block;
     for (int64_t b = 0; (b = atomic_fetch_add(&team.next, 1)) < n_block;) {
@@ -189,7 +189,7 @@ static void leave(void)
 static void work_along(int32_t worker)
 {
     const double begun[2] = {clx_clock(), clx_clock_thread()};
-    take_blocks(worker);
+    run_blocks(worker);
     const double busy = clx_clock_thread() - begun[1];
     const int64_t off_ns = (int64_t)(1e9 * (clx_clock() - begun[0] - busy));
     int64_t most = atomic_load(&team.off_ns);
@@ -348,7 +348,7 @@ void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context
     } else {
         grow_team(n_thread - 1);
         open_work(n, block, kernel, context);
-        take_blocks(0);
+        run_blocks(0);
         const double worked = clx_clock();
         close_work();
         judge(begun, worked, clx_clock());

@@ -102,7 +102,7 @@ void clx_queue_serve(clx_queue *q)
     }
 }
 
-bool clx_queue_take(clx_queue *q, int64_t *item)
+bool clx_queue_next(clx_queue *q, int64_t *item)
 {
     if (q->comm->rank == 0 && !q->is_stopping && !q->is_empty) {
         *item = next_open(q); // before any other rank's, so that the first item is rank 0's

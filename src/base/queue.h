@@ -32,7 +32,7 @@ CLX_SHARED clx_queue clx_queue_begin(const clast_comm *comm, int64_t n, clx_queu
 
 /// The next item of this rank into *item: true; the first item is always rank 0's. False when none
 /// has come yet, or, by is_empty or is_stopping, none will.
-CLX_SHARED bool clx_queue_take(clx_queue *queue, int64_t *item);
+CLX_SHARED bool clx_queue_next(clx_queue *queue, int64_t *item);
 
 /// Tells rank 0 that an item of this rank has ended.
 CLX_SHARED void clx_queue_end(clx_queue *queue, int64_t item, int64_t code);

@@ -202,7 +202,7 @@ uint64_t clx_depth_key(double z)
     return key;
 }
 
-static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
+static void compute_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const key_context *c = context;
     double held[3];
@@ -253,7 +253,7 @@ clast_status clx_depths_sort(const clx_depth_law *law, const clx_part *part, int
     clast_status status = CLAST_OK;
     key_context c = {law, part, axis, NULL};
     CLX_TRY(clast_comm_agree(part->comm, clx_alloc(&c.key, part->n, sizeof *c.key), NULL));
-    clx_parallel_for(part->n, POINTS_A_BLOCK, take_keys, &c);
+    clx_parallel_for(part->n, POINTS_A_BLOCK, compute_keys, &c);
     CLX_TRY(clx_depths_of_keys(part->comm, &c.key, part->n, depths));
 done:
     clx_free(c.key);

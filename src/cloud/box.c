@@ -52,7 +52,7 @@ void clx_box_end(clx_box *s)
     *s = (clx_box){0};
 }
 
-void clx_box_put(clx_box *s, int64_t i, int64_t m)
+void clx_box_set(clx_box *s, int64_t i, int64_t m)
 {
     const clast_collider seen = clx_collider_of_size(&s->collide, (double)m * s->unit);
     s->population.monomers[i] = m;
@@ -168,7 +168,7 @@ int clx_box_enter(clx_box *s, clx_rng *rng, int64_t live[1])
         return 0;
     }
     live[0] = new_slot(s);
-    clx_box_put(s, live[0], m);
+    clx_box_set(s, live[0], m);
     s->added += m;
     clx_box_watch(s, m, 1);
     return 1;
@@ -190,7 +190,7 @@ int clx_box_change(clx_box *s, int64_t i, clx_rng *rng, int64_t live[CLX_MOST_FR
     for (int32_t k = 0; k < s->n_fragment; ++k) {
         if (part[k] > 0) {
             live[n] = n == 0 ? i : new_slot(s);
-            clx_box_put(s, live[n++], part[k]);
+            clx_box_set(s, live[n++], part[k]);
             clx_box_watch(s, part[k], 1);
         }
     }

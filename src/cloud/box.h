@@ -41,7 +41,7 @@ clast_status clx_box_begin(clx_box *box, int64_t n);
 void clx_box_end(clx_box *box);
 
 /// Particle i gets mass m, and the radius and mass of that size.
-void clx_box_put(clx_box *box, int64_t i, int64_t m);
+void clx_box_set(clx_box *box, int64_t i, int64_t m);
 
 /// Takes the particles [0, population.n) as a new start.
 void clx_box_restart(clx_box *box);

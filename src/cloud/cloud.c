@@ -239,7 +239,7 @@ done:
 }
 
 /// d columns as rows, in SI; `asked` is the unit of those that name none.
-static clast_status take_columns(const clast_table *table, double *column[3], int32_t d,
+static clast_status copy_columns(const clast_table *table, double *column[3], int32_t d,
                                  const char *si_unit, const char *asked, double **taken)
 {
     clast_status status = CLAST_OK;
@@ -261,7 +261,7 @@ done:
 }
 
 /// Sizes in phi as lengths [m], as clast_unit_parse reads one.
-static clast_status take_phi(const double *phi, int64_t n, double **taken)
+static clast_status convert_phi(const double *phi, int64_t n, double **taken)
 {
     const clast_status status = clx_alloc(taken, n, sizeof **taken);
     for (int64_t i = 0; i < n && status == CLAST_OK; ++i) {
@@ -270,7 +270,7 @@ static clast_status take_phi(const double *phi, int64_t n, double **taken)
     return status;
 }
 
-static clast_status take_property(const clast_table *table, const char *name, const char *si_unit,
+static clast_status read_property(const clast_table *table, const char *name, const char *si_unit,
                                   double share, double **taken)
 {
     clast_status status = CLAST_OK;
@@ -278,8 +278,8 @@ static clast_status take_property(const clast_table *table, const char *name, co
     CLX_TRY(clast_cloud_column(table, name, &column[0]));
     if (column[0] != NULL) {
         CLX_TRY(is_phi(column_of(table, column[0]), si_unit)
-                    ? take_phi(column[0], table->n_row, taken)
-                    : take_columns(table, column, 1, si_unit, NULL, taken));
+                    ? convert_phi(column[0], table->n_row, taken)
+                    : copy_columns(table, column, 1, si_unit, NULL, taken));
         for (int64_t i = 0; i < table->n_row; ++i) {
             (*taken)[i] *= share;
         }
@@ -316,23 +316,23 @@ clast_status clx_cloud_from_part(const clast_table *table, const clast_cloud_col
     CLX_TRY(find_columns(table, &columns->columns, column, &made.dimension));
     CLX_CHECK(made.dimension >= 1, CLAST_E_FORMAT, "%s: no coordinate column is named",
               table->name);
-    CLX_TRY(take_columns(table, column, made.dimension, "m", columns->unit, &made.x));
+    CLX_TRY(copy_columns(table, column, made.dimension, "m", columns->unit, &made.x));
     CLX_TRY(find_columns(table, &columns->velocity_columns, column, &n_velocity));
     CLX_CHECK(n_velocity == 0 || n_velocity == made.dimension, CLAST_E_FORMAT,
               "%s: %d velocity columns for %d coordinates", table->name, n_velocity,
               made.dimension);
     if (n_velocity > 0) {
-        CLX_TRY(take_columns(table, column, n_velocity, "m/s", NULL, &made.velocity));
+        CLX_TRY(copy_columns(table, column, n_velocity, "m/s", NULL, &made.velocity));
     }
     CLX_CHECK(!is_named(columns->radius_column) || !is_named(columns->diameter_column),
               CLAST_E_CONFIG, "give a radius column or a diameter column, not both");
-    CLX_TRY(take_property(table, columns->radius_column, "m", 1.0, &made.radius));
+    CLX_TRY(read_property(table, columns->radius_column, "m", 1.0, &made.radius));
     if (made.radius == NULL) {
-        CLX_TRY(take_property(table, columns->diameter_column, "m", 0.5, &made.radius));
+        CLX_TRY(read_property(table, columns->diameter_column, "m", 0.5, &made.radius));
     }
-    CLX_TRY(take_property(table, columns->mass_column, "kg", 1.0, &made.mass));
-    CLX_TRY(take_property(table, columns->weight_column, "-", 1.0, &made.weight));
-    CLX_TRY(take_property(table, columns->variable_column, "-", 1.0, &made.variable));
+    CLX_TRY(read_property(table, columns->mass_column, "kg", 1.0, &made.mass));
+    CLX_TRY(read_property(table, columns->weight_column, "-", 1.0, &made.weight));
+    CLX_TRY(read_property(table, columns->variable_column, "-", 1.0, &made.variable));
     clx_cloud_find_weight(table, columns, &made);
     *cloud = made;
     made = (clast_cloud){0};

@@ -66,7 +66,7 @@ static int64_t find_kind(const clx_block *b, const clx_kind *seen)
     return k;
 }
 
-static void put_particle(clx_block *b, int64_t kind, int64_t particle)
+static void append_particle(clx_block *b, int64_t kind, int64_t particle)
 {
     CLAST_ASSERT(kind >= 0 && particle >= 0);
     b->next[particle] = b->kind[kind].n > 0 ? b->kind[kind].head : -1;
@@ -74,7 +74,7 @@ static void put_particle(clx_block *b, int64_t kind, int64_t particle)
     ++b->kind[kind].n;
 }
 
-static int64_t take_particle(clx_block *b, int64_t kind)
+static int64_t draw_particle(clx_block *b, int64_t kind)
 {
     CLAST_ASSERT(b->kind[kind].n > 0 && b->kind[kind].head >= 0);
     const int64_t particle = b->kind[kind].head;
@@ -95,7 +95,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
             }
             b->kind[b->n_kind++] = seen;
         }
-        put_particle(b, k, b->member[m]);
+        append_particle(b, k, b->member[m]);
     }
     for (int64_t k = 0; k < b->n_kind; ++k) {
         let_settle(b, &b->kind[k]);
@@ -151,7 +151,7 @@ int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
         clx_box_watch(b->box, b->population->monomers[live[0]], 1);
     }
     if (b->box != NULL && b->box->changes) { // equal sizes are equal to the last bit: one kind
-        clx_box_put(b->box, live[0], b->population->monomers[live[0]]);
+        clx_box_set(b->box, live[0], b->population->monomers[live[0]]);
     }
     if (b->ranges != 0) {
         clx_range_add(b->ranges, b->config, b->medium, pair, b->n_real - before, &b->range);
@@ -264,17 +264,17 @@ static void load(clx_block *b, int64_t particle)
     const int64_t kind = find_kind(b, &seen);
     if (kind == b->n_kind) {
         b->kind[b->n_kind++] = seen;
-        put_particle(b, kind, particle);
+        append_particle(b, kind, particle);
         b->kind[kind].row = row_of(b, kind);
     } else { // its row already counts the others of its kind, not itself: the loop above added one
-        put_particle(b, kind, particle);
+        append_particle(b, kind, particle);
     }
 }
 
 static void one_self_event(clx_block *b, int64_t kind)
 {
     const clx_kind gone = b->kind[kind];
-    const int64_t i = take_particle(b, kind);
+    const int64_t i = draw_particle(b, kind);
     drop_if_empty(b, kind);
     unload(b, &gone);
     int64_t live[2];
@@ -295,8 +295,8 @@ static bool one_event(clx_block *b, double total)
         return false;
     }
     const clx_kind gone[2] = {b->kind[first], b->kind[second]};
-    const int64_t i = take_particle(b, first);
-    const int64_t j = take_particle(b, second);
+    const int64_t i = draw_particle(b, first);
+    const int64_t j = draw_particle(b, second);
     drop_if_empty(b, first > second ? first : second); // the higher number first: the lower stays
     if (first != second) {
         drop_if_empty(b, first > second ? second : first);
@@ -333,7 +333,7 @@ static void one_change(clx_block *b, double total)
         n_live = clx_box_source(b->box) > 0.0 ? clx_box_enter(b->box, b->rng, live) : 0;
     } else {
         const clx_kind gone = b->kind[kind];
-        const int64_t i = take_particle(b, kind);
+        const int64_t i = draw_particle(b, kind);
         drop_if_empty(b, kind);
         unload(b, &gone);
         n_live = clx_box_change(b->box, i, b->rng, live);

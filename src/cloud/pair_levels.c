@@ -307,7 +307,7 @@ typedef struct {
     int shift;        ///< bits of codes that are left out
 } code_context;
 
-static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
+static void compute_codes(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const code_context *c = context;
     const clx_sample *s = c->w->sample;
@@ -419,7 +419,7 @@ static clast_status order_points(level_walk *w, int m)
         status = clx_alloc(&c.weight, s->n, sizeof *c.weight);
     }
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
-    clx_parallel_for(s->n, POINTS_A_BLOCK, take_codes, &c);
+    clx_parallel_for(s->n, POINTS_A_BLOCK, compute_codes, &c);
     const int64_t n = leave_out_ghosts(&c, s->n);
     CLX_TRY(clx_ranked_sort_items(w->comm, &c.code, &c.weight, n, limit >> c.shift, &w->point));
     CLX_TRY(add_weights(w));

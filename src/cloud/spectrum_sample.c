@@ -82,7 +82,7 @@ static clast_status draw_sizes(sampling *s, int32_t run)
                   "size_min, source_size: the particles of the start are more than 2^53 units of "
                   "%g monomers; take fewer --particles or a larger --size-min or --source-size",
                   box->unit);
-        clx_box_put(box, i, (int64_t)units);
+        clx_box_set(box, i, (int64_t)units);
         sum += units;
     }
     box->gel_size = fmin(s->grid->x[s->grid->n - 1] / box->unit,

@@ -67,7 +67,7 @@ static uint64_t code_at(const growth *g, int64_t i)
     return g->ranked.key != NULL ? g->ranked.key[i] : g->point[i].key;
 }
 
-static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
+static void compute_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const growth *g = context;
     double held[3];
@@ -497,7 +497,7 @@ typedef struct {
     uint64_t *item; ///< bits of their variable, or NULL
 } code_context;
 
-static void take_codes(int64_t begin, int64_t end, int32_t worker, void *context)
+static void compute_codes(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const code_context *c = context;
     double held[3];
@@ -522,7 +522,7 @@ static clast_status order_untested(growth *g, const clx_ranked *leader)
         return CLAST_OK;
     }
     CLX_TRY(clast_comm_agree(comm, clx_alloc(&c.code, n, sizeof *c.code), NULL));
-    clx_parallel_for(n, POINTS_A_BLOCK, take_codes, &c);
+    clx_parallel_for(n, POINTS_A_BLOCK, compute_codes, &c);
     CLX_TRY(clx_ranked_follow(comm, &c.code, n, leader, &g->untested));
 done:
     clx_free(c.code);
@@ -536,7 +536,7 @@ static clast_status order_points(growth *g)
     uint64_t whole[2] = {0, UINT64_C(1) << bits_below(g, 0)};
     const clx_ranked all = {.first = whole};
     CLX_TRY(clx_alloc(&g->point, g->part->n, sizeof *g->point));
-    clx_parallel_for(g->part->n, POINTS_A_BLOCK, take_keys, g);
+    clx_parallel_for(g->part->n, POINTS_A_BLOCK, compute_keys, g);
     CLX_TRY(clx_sort_keyed(g->point, g->part->n));
     CLX_TRY(order_untested(g, &all));
 done:
@@ -569,7 +569,7 @@ static clast_status order_codes(growth *g)
         status = clx_alloc(&c.item, p->n, sizeof *c.item);
     }
     CLX_TRY(clast_comm_agree(p->comm, status, NULL));
-    clx_parallel_for(p->n, POINTS_A_BLOCK, take_codes, &c);
+    clx_parallel_for(p->n, POINTS_A_BLOCK, compute_codes, &c);
     CLX_TRY(clx_ranked_sort_items(p->comm, &c.code, &c.item, p->n, limit, &g->ranked));
     CLX_TRY(order_untested(g, &g->ranked));
 done:

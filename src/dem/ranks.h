@@ -131,7 +131,7 @@ clast_status clx_ranks_migrate(clast_dem *whole, const clast_dem *from);
 clast_status clx_ranks_append(clast_dem *whole, int32_t from);
 
 /// Pairs that came, as a simulation's list, by numbers of the whole.
-clast_status clx_ranks_take_pairs(clast_dem *dem, const clx_arrivals *arrivals);
+clast_status clx_ranks_receive_pairs(clast_dem *dem, const clx_arrivals *arrivals);
 
 /// Neighbour lists brought up to date, and ghosts with them.
 clast_status clx_ranks_refresh(clast_dem *whole);

@@ -36,7 +36,7 @@ done:
     return status;
 }
 
-static void take_grains(clast_dem *whole, const clx_arrivals *a)
+static void receive_grains(clast_dem *whole, const clx_arrivals *a)
 {
     clx_neighbour_list *l = &whole->list;
     l->n_known = 0;
@@ -101,7 +101,7 @@ clast_status clx_dem_gather_grains(clast_dem *dem)
     CLX_TRY(clast_comm_agree(r->comm, write_own(dem, false), NULL));
     CLX_TRY(clx_comm_share(r->comm, r->wire.bytes, r->wire.n, &all));
     CLX_TRY(clast_comm_agree(r->comm, clx_wire_read(dem, all.bytes, all.n, &a), NULL));
-    take_grains(dem, &a);
+    receive_grains(dem, &a);
     r->is_current = true;
 done:
     clx_arrivals_free(&a);
@@ -124,7 +124,7 @@ clast_status clx_dem_gather_all(clast_dem *dem)
     CLX_TRY(clx_comm_gather(r->comm, r->wire.bytes, r->wire.n, &all));
     status = clx_wire_read(dem, all.bytes, all.n, &a);
     if (status == CLAST_OK) {
-        status = clx_ranks_take_pairs(dem, &a);
+        status = clx_ranks_receive_pairs(dem, &a);
     }
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
     add_counts(dem);

@@ -160,7 +160,7 @@ static void add_grain(const clast_dem *whole, int32_t number)
 }
 
 /// The rank's grains and ghosts are those that came.
-static clast_status take_grains(clast_dem *whole, const clx_arrivals *a)
+static clast_status receive_grains(clast_dem *whole, const clx_arrivals *a)
 {
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
@@ -278,7 +278,7 @@ static void localize_pairs(const clast_dem *whole)
 }
 
 /// Pairs that came, into an empty list, by numbers of the whole.
-clast_status clx_ranks_take_pairs(clast_dem *dem, const clx_arrivals *a)
+clast_status clx_ranks_receive_pairs(clast_dem *dem, const clx_arrivals *a)
 {
     clast_status status = CLAST_OK;
     clx_neighbour_list *l = &dem->list;
@@ -405,10 +405,10 @@ clast_status clx_ranks_migrate(clast_dem *whole, const clast_dem *from)
     status = swap_wires(whole, write_all_migrants(whole, from), &in, &a);
     if (status == CLAST_OK) {
         memcpy(r->owner, r->next, (size_t)whole->n_grain * sizeof *r->owner);
-        status = take_grains(whole, &a);
+        status = receive_grains(whole, &a);
     }
     if (status == CLAST_OK) {
-        status = clx_ranks_take_pairs(r->local, &a);
+        status = clx_ranks_receive_pairs(r->local, &a);
     }
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
     localize_pairs(whole);
@@ -479,7 +479,7 @@ clast_status clx_ranks_refresh(clast_dem *whole)
     status = write_candidates(whole, (const box *)(const void *)boxes.bytes);
     status = swap_wires(whole, status, &in, &a);
     if (status == CLAST_OK) {
-        status = take_grains(whole, &a);
+        status = receive_grains(whole, &a);
     }
     if (status == CLAST_OK) {
         localize_pairs(whole);

@@ -20,7 +20,7 @@ static void number_items(const clast_dem *dem, const removal *r)
 }
 
 /// Pairs of the others, in their order: the list stays sorted.
-static void take_pairs(clast_dem *dem, const removal *r)
+static void remove_pairs(clast_dem *dem, const removal *r)
 {
     clx_neighbour_list *l = &dem->list;
     int64_t n = 0;
@@ -54,7 +54,7 @@ static void take_pairs(clast_dem *dem, const removal *r)
     l->n_pair = n;
 }
 
-static void take_items(clast_dem *dem, const removal *r)
+static void remove_items(clast_dem *dem, const removal *r)
 {
     clx_neighbour_list *l = &dem->list;
     int32_t n_known = 0;
@@ -84,7 +84,7 @@ static void take_items(clast_dem *dem, const removal *r)
     dem->n_item = n;
 }
 
-static void take_grains(clast_dem *dem, const removal *r)
+static void remove_grains(clast_dem *dem, const removal *r)
 {
     int32_t n = 0;
     int32_t n_started = 0;
@@ -129,9 +129,9 @@ clast_status clast_dem_remove_grains(clast_dem *dem, const uint8_t *goes)
     }
     clx_inner_unpack(dem);
     number_items(dem, &r);
-    take_pairs(dem, &r);
-    take_items(dem, &r);
-    take_grains(dem, &r);
+    remove_pairs(dem, &r);
+    remove_items(dem, &r);
+    remove_grains(dem, &r);
     dem->inner.is_due = true;
     if (dem->ranks != NULL) {
         clx_ranks_restart(dem->ranks);

@@ -35,7 +35,7 @@ static double extent_along(const clx_shadow *s, int32_t i, const double d[2])
 }
 
 /// Puts the calipers around the outline, the lowest side along +x.
-static void put_on(calipers *c)
+static void start_calipers(calipers *c)
 {
     const double(*p)[2] = (const double(*)[2])c->outline->point;
     int32_t low = 0;
@@ -247,7 +247,7 @@ bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double lim
     if (shadow->n <= FEW) {
         try_all(&c, arcs);
     } else {
-        put_on(&c);
+        start_calipers(&c);
         turn_around(&c);
     }
     if (!(c.best < (double)INFINITY) || c.best > (1.0 + 1e-9) * limit * c.best_length2) {

@@ -40,7 +40,7 @@ done:
 }
 
 /// The surface of two such tables, which come from a file.
-static clast_status take_surface(const clast_table table[2], clast_mesh *mesh)
+static clast_status read_surface(const clast_table table[2], clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
@@ -80,7 +80,7 @@ clast_status clast_bed_read(const char *path, clast_bed *bed, clast_mesh *surfac
         const double floor = made.floor;
         CLX_TRY(clast_state_read_table(path, "container_vertices", &table[1]));
         CLX_TRY(clast_state_read_table(path, "container_triangles", &table[2]));
-        CLX_TRY(take_surface(&table[1], surface));
+        CLX_TRY(read_surface(&table[1], surface));
         made = clast_bed_of_surface(surface);
         made.floor = floor;
     }

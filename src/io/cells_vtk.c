@@ -114,8 +114,8 @@ done:
 /// VTK's order of corners: bits of (x, y, z).
 static const int corner_bits[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
-static clast_status put_corners(clx_file *file, clx_vtk_array *array, const boxes *b,
-                                const clast_domain *domain)
+static clast_status write_corners(clx_file *file, clx_vtk_array *array, const boxes *b,
+                                  const clast_domain *domain)
 {
     clast_status status = CLAST_OK;
     const int n_corner = 1 << domain->dimension;
@@ -137,8 +137,8 @@ done:
     return status;
 }
 
-static clast_status put_cells(clx_file *file, clx_vtk_array *array, int64_t n, int64_t n_corner,
-                              uint8_t type)
+static clast_status write_cells(clx_file *file, clx_vtk_array *array, int64_t n, int64_t n_corner,
+                                uint8_t type)
 {
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "<Cells>\n");
@@ -161,7 +161,7 @@ done:
 }
 
 /// What the numbers depend on.
-static void put_fields(clx_file *file, const clast_decomposition *r, const clast_domain *domain)
+static void write_fields(clx_file *file, const clast_decomposition *r, const clast_domain *domain)
 {
     char text[CLAST_DOMAIN_TEXT];
     clast_domain_format(domain, text);
@@ -178,8 +178,8 @@ static void put_fields(clx_file *file, const clast_decomposition *r, const clast
     (void)clx_file_print(file, "\n</FieldData>\n");
 }
 
-static clast_status put_cell_data(clx_file *file, clx_vtk_array *array, const boxes *b,
-                                  const clast_decomposition *r)
+static clast_status write_cell_data(clx_file *file, clx_vtk_array *array, const boxes *b,
+                                    const clast_decomposition *r)
 {
     const clast_cells *cells = &r->cells;
     const char *const name[7] = {
@@ -225,13 +225,13 @@ clast_status clast_cells_write_vtu(const clast_decomposition *result, const clas
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
     clx_vtk_head(&file, "UnstructuredGrid");
-    put_fields(&file, result, domain);
+    write_fields(&file, result, domain);
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
                          b.n * n_corner, b.n);
-    CLX_TRY(put_corners(&file, &array, &b, domain));
-    CLX_TRY(put_cells(&file, &array, b.n, n_corner, type[domain->dimension]));
-    CLX_TRY(put_cell_data(&file, &array, &b, result));
+    CLX_TRY(write_corners(&file, &array, &b, domain));
+    CLX_TRY(write_cells(&file, &array, b.n, n_corner, type[domain->dimension]));
+    CLX_TRY(write_cell_data(&file, &array, &b, result));
     (void)clx_file_print(&file, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:
@@ -241,7 +241,7 @@ done:
     return status;
 }
 
-static clast_status put_positions(clx_file *file, clx_vtk_array *array, const clast_cloud *cloud)
+static clast_status write_positions(clx_file *file, clx_vtk_array *array, const clast_cloud *cloud)
 {
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "<Points>\n");
@@ -266,8 +266,8 @@ done:
 }
 
 /// Number of the cell and, where cells have them, its label and its pass for each point.
-static clast_status put_marks(clx_file *file, clx_vtk_array *array, int64_t n,
-                              const clast_cells *cells)
+static clast_status write_marks(clx_file *file, clx_vtk_array *array, int64_t n,
+                                const clast_cells *cells)
 {
     static const char *const name[3] = {"cell", "label", "pass"};
     clast_status status = CLAST_OK;
@@ -286,7 +286,7 @@ done:
     return status;
 }
 
-static clast_status put_properties(clx_file *file, clx_vtk_array *array, const clast_cloud *cloud)
+static clast_status write_properties(clx_file *file, clx_vtk_array *array, const clast_cloud *cloud)
 {
     const struct {
         const char *name;
@@ -325,15 +325,15 @@ clast_status clast_decomposition_write_points(const clast_decomposition *result,
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
     clx_vtk_head(&file, "PolyData");
-    put_fields(&file, result, domain);
+    write_fields(&file, result, domain);
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfVerts=\"%" PRId64
                          "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
                          cloud->n, cloud->n);
-    CLX_TRY(put_positions(&file, &array, cloud));
+    CLX_TRY(write_positions(&file, &array, cloud));
     (void)clx_file_print(&file, "<PointData>\n");
-    CLX_TRY(put_marks(&file, &array, cloud->n, &result->cells));
-    CLX_TRY(put_properties(&file, &array, cloud));
+    CLX_TRY(write_marks(&file, &array, cloud->n, &result->cells));
+    CLX_TRY(write_properties(&file, &array, cloud));
     (void)clx_file_print(&file, "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:

@@ -63,7 +63,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static clast_status take_rows(curve_reader *r, const clast_table *table)
+static clast_status read_rows(curve_reader *r, const clast_table *table)
 {
     clast_status status = CLAST_OK;
     clx_curve_columns columns = {0};
@@ -246,7 +246,7 @@ clast_status clast_curve_parse(const char *name, const void *bytes, size_t n, cl
     clast_table table = {0};
     curve_reader r = {.name = name};
     CLX_TRY(clast_table_parse_csv(name, bytes, n, NULL, &table, NULL));
-    CLX_TRY(take_rows(&r, &table));
+    CLX_TRY(read_rows(&r, &table));
     CLX_TRY(drop_pan(&r));
     CLX_TRY(make_curve(&r, curve));
 done:

@@ -255,7 +255,7 @@ done:
     return status;
 }
 
-static void put_escaped(clx_file *file, const char *text)
+static void write_escaped(clx_file *file, const char *text)
 {
     for (; *text != '\0'; ++text) {
         switch (*text) {
@@ -292,7 +292,7 @@ clast_status clast_pvd_write(const char *path, int64_t n, const double *time,
         char text[CLX_NUMBER_SIZE];
         (void)clx_number_format(time[i], text);
         (void)clx_file_print(&file, "<DataSet timestep=\"%s\" part=\"0\" file=\"", text);
-        put_escaped(&file, name[i]);
+        write_escaped(&file, name[i]);
         (void)clx_file_print(&file, "\"/>\n");
     }
     (void)clx_file_print(&file, "</Collection>\n</VTKFile>\n");

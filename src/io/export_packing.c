@@ -47,7 +47,7 @@ static double radius_of(const clast_assembly *a, int32_t i)
 }
 
 /// "low high xlo xhi" of each axis, and "xy xz yz" of a box that is tilted.
-static void put_box(clx_file *file, const clast_packing_frame *frame)
+static void write_box(clx_file *file, const clast_packing_frame *frame)
 {
     static const char axis[3] = {'x', 'y', 'z'};
     const double *tilt = frame->tilt;
@@ -67,7 +67,7 @@ static void put_box(clx_file *file, const clast_packing_frame *frame)
 }
 
 /// First line, counts and box. LAMMPS has the boundary from its input, so the first line tells it.
-static void put_data_head(clx_export *e, int32_t n_type, bool is_sphere)
+static void write_data_head(clx_export *e, int32_t n_type, bool is_sphere)
 {
     const clast_assembly *a = e->assembly;
     clx_file *file = &e->file;
@@ -85,7 +85,7 @@ static void put_data_head(clx_export *e, int32_t n_type, bool is_sphere)
         (void)clx_file_print(file, "%d ellipsoids\n", a->n_grain);
     }
     (void)clx_file_print(file, "\n");
-    put_box(file, &frame);
+    write_box(file, &frame);
 }
 
 /// LAMMPS: the third column of an atom is a sphere's diameter, or 1 for one that is an ellipsoid.
@@ -102,7 +102,7 @@ clast_status clx_export_data(clx_export *e)
     for (int32_t i = 0; i < a->n_grain; ++i) {
         n_type = type[a->shape_id[i]] > n_type ? type[a->shape_id[i]] : n_type;
     }
-    put_data_head(e, n_type, is_sphere);
+    write_data_head(e, n_type, is_sphere);
     (void)clx_file_print(file, "\nAtoms # %s\n\n", is_sphere ? "sphere" : "ellipsoid");
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double ratio = clx_ellipsoid_ratio(&a->shape[a->shape_id[i]]);
@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-static clast_status put_sphere(clx_file *file, const double x[3], double radius, const char *end)
+static clast_status write_sphere(clx_file *file, const double x[3], double radius, const char *end)
 {
     const double value[4] = {x[0], x[1], x[2], radius};
     for (int k = 0; k < 4; ++k) {
@@ -140,7 +140,7 @@ static clast_status put_sphere(clx_file *file, const double x[3], double radius,
 }
 
 /// A clump's spheres, each with the number of its grain.
-static clast_status put_clump(clx_file *file, const clast_assembly *a, int32_t i)
+static clast_status write_clump(clx_file *file, const clast_assembly *a, int32_t i)
 {
     clast_status status = CLAST_OK;
     const clast_spheres *s = &a->shape[a->shape_id[i]].spheres;
@@ -150,7 +150,7 @@ static clast_status put_clump(clx_file *file, const clast_assembly *a, int32_t i
         double x[3];
         q_rotate(x, a->orientation[i], s->centre[k]);
         v3_axpy(x, a->position[i], a->scale[i], x);
-        CLX_TRY(put_sphere(file, x, a->scale[i] * s->radius[k], end));
+        CLX_TRY(write_sphere(file, x, a->scale[i] * s->radius[k], end));
     }
 done:
     return status;
@@ -164,14 +164,15 @@ clast_status clx_export_text(clx_export *e)
     (void)clx_file_print(&e->file, "#format x_y_z_r%s\n", is_sphere ? "" : "_clumpId");
     for (int32_t i = 0; i < a->n_grain; ++i) {
         if (is_kind(a, i, CLAST_SHAPE_SPHERE)) {
-            CLX_TRY(put_sphere(&e->file, a->position[i], radius_of(a, i), is_sphere ? "" : "\t-1"));
+            CLX_TRY(
+                write_sphere(&e->file, a->position[i], radius_of(a, i), is_sphere ? "" : "\t-1"));
             continue;
         }
         CLX_CHECK(is_kind(a, i, CLAST_SHAPE_CLUMP), CLAST_E_USAGE,
                   "%s: YADE's text holds spheres and clumps, and grain %d is a %s; write .csv, "
                   ".dump, .data or .conf",
                   e->file.path, i, a->shape[a->shape_id[i]].name);
-        CLX_TRY(put_clump(&e->file, a, i));
+        CLX_TRY(write_clump(&e->file, a, i));
     }
 done:
     return status;

@@ -117,7 +117,7 @@ static clast_status check_shapes(const clast_assembly *a, const char *path)
     return check_names(a, path);
 }
 
-static void put_row(clx_file *file, const char *key, const double *x, int n)
+static void write_row(clx_file *file, const char *key, const double *x, int n)
 {
     (void)clx_file_print(file, "%s", key);
     clx_export_numbers(file, x, n);
@@ -132,7 +132,7 @@ static int by_corner(const void *a, const void *b)
 }
 
 /// Each edge once: that of the triangle in which it rises.
-static clast_status put_edges(clx_file *file, const clast_mesh *mesh)
+static clast_status write_edges(clx_file *file, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     int32_t(*edge)[2] = NULL;
@@ -159,7 +159,7 @@ done:
 }
 
 /// Half sides and middle of the box along the axes; a sphere's about its centre.
-static void put_box(clx_file *file, const clast_mesh *mesh, double radius)
+static void write_box(clx_file *file, const clast_mesh *mesh, double radius)
 {
     static const double axis[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     static const char *const key[3] = {"obb.e1", "obb.e2", "obb.e3"};
@@ -175,35 +175,35 @@ static void put_box(clx_file *file, const clast_mesh *mesh, double radius)
         extent[k] = 0.5 * (high - low);
         middle[k] = 0.5 * (high + low);
     }
-    put_row(file, "obb.extent", extent, 3);
+    write_row(file, "obb.extent", extent, 3);
     for (int k = 0; k < 3; ++k) {
-        put_row(file, key[k], axis[k], 3);
+        write_row(file, key[k], axis[k], 3);
     }
-    put_row(file, "obb.center", middle, 3);
+    write_row(file, "obb.center", middle, 3);
 }
 
-static void put_mass(clx_file *file, double volume, double inertia[3][3])
+static void write_mass(clx_file *file, double volume, double inertia[3][3])
 {
     const double moment[3] = {inertia[0][0] / volume, inertia[1][1] / volume,
                               inertia[2][2] / volume};
-    put_row(file, "volume", &volume, 1);
-    put_row(file, "I/m", moment, 3);
+    write_row(file, "volume", &volume, 1);
+    write_row(file, "I/m", moment, 3);
 }
 
-static clast_status put_sphere(clx_file *file, const clast_shape *shape)
+static clast_status write_sphere(clx_file *file, const clast_shape *shape)
 {
     static const clast_mesh none = {0};
     double inertia[3][3];
     memcpy(inertia, shape->inertia, sizeof inertia);
-    put_row(file, "radius", shape->semi_axes, 1);
+    write_row(file, "radius", shape->semi_axes, 1);
     (void)clx_file_print(file, "preCompDone y\nnv 1\n0 0 0\nne 0\nnf 0\n");
-    put_box(file, &none, shape->semi_axes[0]);
-    put_mass(file, shape->volume, inertia);
+    write_box(file, &none, shape->semi_axes[0]);
+    write_mass(file, shape->volume, inertia);
     return clx_file_print(file, ">\n");
 }
 
-static clast_status put_polyhedron(clx_file *file, const clast_shape *shape,
-                                   const double rotation[4])
+static clast_status write_polyhedron(clx_file *file, const clast_shape *shape,
+                                     const double rotation[4])
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
@@ -224,28 +224,28 @@ static clast_status put_polyhedron(clx_file *file, const clast_shape *shape,
         }
         CLX_TRY(clx_file_print(file, "%s %s %s\n", text[0], text[1], text[2]));
     }
-    CLX_TRY(put_edges(file, &mesh));
+    CLX_TRY(write_edges(file, &mesh));
     (void)clx_file_print(file, "nf %d\n", mesh.n_tri);
     for (int32_t t = 0; t < mesh.n_tri; ++t) {
         CLX_TRY(
             clx_file_print(file, "3 %d %d %d\n", mesh.tri[t][0], mesh.tri[t][1], mesh.tri[t][2]));
     }
-    put_box(file, &mesh, 0.0);
-    put_mass(file, mass.volume, mass.inertia);
+    write_box(file, &mesh, 0.0);
+    write_mass(file, mass.volume, mass.inertia);
     CLX_TRY(clx_file_print(file, ">\n"));
 done:
     clast_mesh_free(&mesh);
     return status;
 }
 
-static clast_status put_library(clx_file *file, const clast_assembly *a, double (*rotation)[4])
+static clast_status write_library(clx_file *file, const clast_assembly *a, double (*rotation)[4])
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < a->n_shape; ++i) {
         const clast_shape *shape = &a->shape[i];
         (void)clx_file_print(file, "<\nname %s\n", shape->name);
-        CLX_TRY(shape->kind == CLAST_SHAPE_SPHERE ? put_sphere(file, shape)
-                                                  : put_polyhedron(file, shape, rotation[i]));
+        CLX_TRY(shape->kind == CLAST_SHAPE_SPHERE ? write_sphere(file, shape)
+                                                  : write_polyhedron(file, shape, rotation[i]));
     }
 done:
     return status;
@@ -274,8 +274,8 @@ done:
 }
 
 /// name group cluster homothety position velocity acceleration Q vrot arot, at rest.
-static clast_status put_particles(clx_file *file, const clast_assembly *a, const int32_t *group,
-                                  double (*rotation)[4])
+static clast_status write_particles(clx_file *file, const clast_assembly *a, const int32_t *group,
+                                    double (*rotation)[4])
 {
     static const double rest[6] = {0.0};
     clast_status status = CLAST_OK;
@@ -300,8 +300,8 @@ done:
     return status;
 }
 
-static clast_status put_configuration(clx_file *file, const clast_assembly *a, const char *library,
-                                      double (*rotation)[4])
+static clast_status write_configuration(clx_file *file, const clast_assembly *a,
+                                        const char *library, double (*rotation)[4])
 {
     clast_status status = CLAST_OK;
     int32_t *group = NULL;
@@ -318,7 +318,7 @@ static clast_status put_configuration(clx_file *file, const clast_assembly *a, c
         clx_export_numbers(file, &density[g], 1);
         (void)clx_file_print(file, "\n");
     }
-    CLX_TRY(put_particles(file, a, group, rotation));
+    CLX_TRY(write_particles(file, a, group, rotation));
 done:
     CLX_FREE(group, density);
     return status;
@@ -343,8 +343,8 @@ clast_status clx_export_rockable(const clast_assembly *a, const char *path)
     }
     CLX_TRY(clx_file_begin(library, &shapes));
     CLX_TRY(clx_file_begin(path, &grains));
-    CLX_TRY(put_library(&shapes, a, rotation));
-    CLX_TRY(put_configuration(&grains, a, library, rotation));
+    CLX_TRY(write_library(&shapes, a, rotation));
+    CLX_TRY(write_configuration(&grains, a, library, rotation));
     CLX_TRY(clx_file_commit(&shapes)); // both are whole before either takes an old one's place
     CLX_TRY(clx_file_commit(&grains));
 done:

@@ -113,7 +113,7 @@ static void colour_of(const clx_export *e, int32_t i, uint8_t out[3])
     }
 }
 
-static clast_status put_ply_faces(clx_export *e)
+static clast_status write_ply_faces(clx_export *e)
 {
     enum { FACE = 1 + 12 + 4 + 3 };
     clast_status status = CLAST_OK;
@@ -159,7 +159,7 @@ clast_status clx_export_ply(clx_export *e)
             CLX_TRY(clx_file_write(&e->file, bytes, sizeof bytes));
         }
     }
-    CLX_TRY(put_ply_faces(e));
+    CLX_TRY(write_ply_faces(e));
 done:
     return status;
 }

@@ -274,7 +274,7 @@ void clx_export_ellipsoid(const clast_assembly *a, int32_t i, double diameter[3]
 }
 
 /// BOX BOUNDS hold what a tilt adds to them.                      [LAMMPS manual, Howto_triclinic]
-static void put_bounds(clx_file *file, const clast_packing_frame *f)
+static void write_bounds(clx_file *file, const clast_packing_frame *f)
 {
     const double *t = f->tilt;
     const bool is_tilted = t[0] != 0.0 || t[1] != 0.0 || t[2] != 0.0;
@@ -295,7 +295,7 @@ static void put_bounds(clx_file *file, const clast_packing_frame *f)
     }
 }
 
-static void put_dump_head(clx_export *e)
+static void write_dump_head(clx_export *e)
 {
     clx_file *file = &e->file;
     clast_packing_frame frame;
@@ -305,7 +305,7 @@ static void put_dump_head(clx_export *e)
     }
     (void)clx_file_print(file, "ITEM: TIMESTEP\n%" PRId64 "\nITEM: NUMBER OF ATOMS\n%d\n",
                          frame.step > 0 ? frame.step : 0, e->assembly->n_grain);
-    put_bounds(file, &frame);
+    write_bounds(file, &frame);
     (void)clx_file_print(file,
                          "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "
                          "shapez radius%s\n",
@@ -322,7 +322,7 @@ clast_status clx_export_dump(clx_export *e)
     clx_file *file = &e->file;
     int32_t *type = NULL;
     const int32_t offset = clx_export_id_offset(a);
-    put_dump_head(e);
+    write_dump_head(e);
     CLX_TRY(clx_export_types(a, &type));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const clast_shape *shape = &a->shape[a->shape_id[i]];

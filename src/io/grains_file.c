@@ -247,7 +247,7 @@ done:
 }
 
 /// Measures a surface (or the hull of points) and keeps it.
-static clast_status take_mesh(clx_grains_task *task, clast_grains_kind kind, const char *suffix,
+static clast_status read_mesh(clx_grains_task *task, clast_grains_kind kind, const char *suffix,
                               const clast_mesh *mesh, int64_t n_voxel)
 {
     clast_status status = CLAST_OK;
@@ -266,7 +266,7 @@ done:
 }
 
 /// How much of the form lies in the series' last degrees, and beyond those used.
-static void take_power(const clast_harmonics *series, int32_t degree, clast_grain_record *record)
+static void read_power(const clast_harmonics *series, int32_t degree, clast_grain_record *record)
 {
     const int32_t used = degree < 0 || degree > series->degree ? series->degree : degree;
     const double form = clast_harmonics_power(series, 1, series->degree);
@@ -277,7 +277,7 @@ static void take_power(const clast_harmonics *series, int32_t degree, clast_grai
         form > 0.0 ? clast_harmonics_power(series, used + 1, series->degree) / form : 0.0;
 }
 
-static clast_status take_series(clx_grains_task *task)
+static clast_status read_series(clx_grains_task *task)
 {
     clast_status status = CLAST_OK;
     const clast_grains_options *o = task->options;
@@ -290,8 +290,8 @@ static clast_status take_series(clx_grains_task *task)
         CLX_TRY(clast_harmonics_mesh(&series, o->degree, o->level, &mesh));
     }
     if (o->hull) {
-        CLX_TRY(take_mesh(task, CLAST_GRAINS_SERIES, "", &mesh, 0));
-        take_power(&series, o->degree, &task->grains.record[task->grains.n - 1]);
+        CLX_TRY(read_mesh(task, CLAST_GRAINS_SERIES, "", &mesh, 0));
+        read_power(&series, o->degree, &task->grains.record[task->grains.n - 1]);
         goto done;
     }
     CLX_TRY(clast_harmonics_measure(&series, o->degree, o->level, &grain));
@@ -301,14 +301,14 @@ static clast_status take_series(clx_grains_task *task)
     CLX_TRY(clx_grains_add(task, "", &record));
     record->kind = CLAST_GRAINS_SERIES;
     record->grain = grain;
-    take_power(&series, o->degree, record);
+    read_power(&series, o->degree, record);
 done:
     clast_mesh_free(&mesh);
     clast_harmonics_free(&series);
     return status;
 }
 
-static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels,
+static clast_status read_label(clx_grains_task *task, const clast_voxels *voxels,
                                const clast_voxel_label *label, clast_grains_kind kind,
                                const double offset[3], bool *is_parted)
 {
@@ -321,7 +321,7 @@ static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels
     CLX_TRY(task->options->hull ? clast_voxels_points(voxels, label, &mesh)
                                 : clast_voxels_surface(voxels, label, &mesh));
     clast_mesh_transform(&mesh, 1.0, (double[4]){1.0, 0.0, 0.0, 0.0}, offset);
-    CLX_TRY(take_mesh(task, kind, suffix, &mesh, label->n_voxel));
+    CLX_TRY(read_mesh(task, kind, suffix, &mesh, label->n_voxel));
     task->grains.record[task->grains.n - 1].is_smoothed =
         !task->options->hull && voxels->grey == NULL;
     CLX_TRY(clx_grains_find_parted(&mesh, is_parted));
@@ -377,7 +377,7 @@ static clast_status warn_of(clx_grains_task *task, const label_list *list, int32
     return warn(task, text);
 }
 
-static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxels,
+static clast_status read_voxels(clx_grains_task *task, const clast_voxels *voxels,
                                 clast_grains_kind kind, const double offset[3])
 {
     clast_status status = CLAST_OK;
@@ -394,7 +394,7 @@ static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxel
             ++n_small;
             continue;
         }
-        const clast_status one = take_label(task, voxels, &labels[i], kind, offset, &is_parted);
+        const clast_status one = read_label(task, voxels, &labels[i], kind, offset, &is_parted);
         if (is_parted) {
             add_label(&parted, labels[i].label);
         }
@@ -464,7 +464,7 @@ static bool is_voxel_text(const clx_grains_task *task)
            !clast_volume_is_known(task->bytes, (size_t)task->n_byte);
 }
 
-static clast_status take_voxel_file(clx_grains_task *task)
+static clast_status read_voxel_file(clx_grains_task *task)
 {
     clast_status status = CLAST_OK;
     clast_voxels voxels = {0};
@@ -476,7 +476,7 @@ static clast_status take_voxel_file(clx_grains_task *task)
     }
     const int64_t first = task->grains.n;
     keep_unit(task, unit_m);
-    CLX_TRY(take_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0}));
+    CLX_TRY(read_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0}));
     for (int64_t i = first; i < task->grains.n; ++i) {
         task->grains.record[i].unit_m = unit_m;
     }
@@ -486,16 +486,16 @@ done:
 }
 
 /// Points: the hull, or with a spacing the surface of the cubes about them.
-static clast_status take_points(clx_grains_task *task, const clast_mesh *points)
+static clast_status read_points(clx_grains_task *task, const clast_mesh *points)
 {
     clast_status status = CLAST_OK;
     clast_voxels voxels = {0};
     double low[3];
     if (task->options->spacing > 0.0 && !task->options->hull) {
         CLX_TRY(clast_voxels_of_points(points, task->options->spacing, &voxels, low));
-        CLX_TRY(take_voxels(task, &voxels, CLAST_GRAINS_POINTS, low));
+        CLX_TRY(read_voxels(task, &voxels, CLAST_GRAINS_POINTS, low));
     } else {
-        CLX_TRY(take_mesh(task, CLAST_GRAINS_POINTS, "", points, 0));
+        CLX_TRY(read_mesh(task, CLAST_GRAINS_POINTS, "", points, 0));
     }
 done:
     clast_voxels_free(&voxels);
@@ -539,7 +539,7 @@ done:
 }
 
 /// One grain of spheres that may overlap.
-static clast_status take_clump(clx_grains_task *task, const clast_table *table)
+static clast_status read_clump(clx_grains_task *task, const clast_table *table)
 {
     static const clast_packing_options guess = {0};
     clast_status status = CLAST_OK;
@@ -576,7 +576,7 @@ done:
     return status;
 }
 
-static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind)
+static clast_status read_delimited(clx_grains_task *task, clast_grains_kind kind)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
@@ -586,13 +586,13 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
         clx_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table, &has_faces));
     kind = kind == CLAST_GRAINS_AUTO ? clx_grains_kind_of_columns(task, &table) : kind;
     if (kind == CLAST_GRAINS_CLUMP) {
-        CLX_TRY(take_clump(task, &table));
+        CLX_TRY(read_clump(task, &table));
     } else if (kind == CLAST_GRAINS_POINTS) {
         CLX_TRY(has_faces ? refuse_faces(task) : CLAST_OK);
         double unit_m = 0.0;
         CLX_TRY(points_of_table(&table, &points, &unit_m));
         keep_unit(task, unit_m);
-        CLX_TRY(take_points(task, &points));
+        CLX_TRY(read_points(task, &points));
         for (int64_t i = 0; i < task->grains.n; ++i) {
             task->grains.record[i].unit_m = unit_m;
         }
@@ -605,7 +605,7 @@ done:
     return status;
 }
 
-static clast_status take_surface(clx_grains_task *task, clast_mesh_format format)
+static clast_status read_surface(clx_grains_task *task, clast_mesh_format format)
 {
     clast_mesh mesh = {0};
     clast_mesh_read_report report = {0};
@@ -614,9 +614,9 @@ static clast_status take_surface(clx_grains_task *task, clast_mesh_format format
         clast_mesh_parse(task->bytes, (size_t)task->n_byte, format, &mesh, &report);
     (void)snprintf(task->unit, sizeof task->unit, "%s", report.unit);
     if (status == CLAST_OK && mesh.n_tri == 0 && mesh.n_vert > 0) {
-        status = take_points(task, &mesh);
+        status = read_points(task, &mesh);
     } else if (status == CLAST_OK) {
-        status = take_mesh(task, CLAST_GRAINS_SURFACE, "", &mesh, 0);
+        status = read_mesh(task, CLAST_GRAINS_SURFACE, "", &mesh, 0);
     }
     for (int64_t i = first; i < task->grains.n && task->unit[0] != '\0'; ++i) {
         (void)clast_unit_factor(task->unit, "m", &task->grains.record[i].unit_m);
@@ -625,7 +625,7 @@ static clast_status take_surface(clx_grains_task *task, clast_mesh_format format
     return status;
 }
 
-static clast_status take_file(clx_grains_task *task)
+static clast_status read_file(clx_grains_task *task)
 {
     clast_status status = CLAST_OK;
     clast_grains_kind kind = task->options->kind;
@@ -633,16 +633,16 @@ static clast_status take_file(clx_grains_task *task)
     kind = kind == CLAST_GRAINS_AUTO ? clx_grains_kind_of(task) : kind;
     switch (kind) {
     case CLAST_GRAINS_SURFACE:
-        CLX_TRY(take_surface(task, clast_mesh_format_of_path(task->path)));
+        CLX_TRY(read_surface(task, clast_mesh_format_of_path(task->path)));
         break;
     case CLAST_GRAINS_SERIES:
-        CLX_TRY(take_series(task));
+        CLX_TRY(read_series(task));
         break;
     case CLAST_GRAINS_VOXELS:
-        CLX_TRY(take_voxel_file(task));
+        CLX_TRY(read_voxel_file(task));
         break;
     default:
-        CLX_TRY(take_delimited(task, kind));
+        CLX_TRY(read_delimited(task, kind));
     }
 done:
     clx_free(task->bytes);
@@ -665,7 +665,7 @@ static clast_status read_files(int64_t begin, int64_t end, int32_t worker, void 
         CLX_CHECK(worker != 0 || !clx_monitor_stops(r->monitor), CLAST_E_STOPPED,
                   "stopped after %lld of %lld files; nothing is kept",
                   (long long)atomic_load(&r->n_done), (long long)r->n);
-        status = take_file(&r->task[i]);
+        status = read_file(&r->task[i]);
         status = status != CLAST_OK ? note_fault(&r->task[i], status) : status;
         if (status != CLAST_OK) {
             char why[256];

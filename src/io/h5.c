@@ -294,7 +294,7 @@ static void mend_superblock(char *image)
 }
 
 /// The finished file as bytes, as H5Fclose would leave it.
-static clast_status take_image(clx_h5 *h5, char **image, int64_t *n)
+static clast_status read_image(clx_h5 *h5, char **image, int64_t *n)
 {
     clast_status status = CLAST_OK;
     const clx_h5_session session = clx_h5_enter();
@@ -323,8 +323,8 @@ clast_status clx_h5_commit(clx_h5 *h5, const char *path)
     char *image = NULL;
     int64_t n = 0;
     CLAST_ASSERT(h5->is_writing);
-    CLX_TRY(take_image(h5, &image, &n));
-    CLX_TRY(clx_h5_put(path, image, n));
+    CLX_TRY(read_image(h5, &image, &n));
+    CLX_TRY(clx_h5_write_image(path, image, n));
 done:
     clx_free(image);
     return status;

@@ -269,7 +269,7 @@ clast_status clx_h5_commit(clx_h5 *h5, const char *path)
     char *image = NULL;
     int64_t n = 0;
     CLX_TRY(clx_h5_plain_image(h5, &image, &n));
-    CLX_TRY(clx_h5_put(path, image, n));
+    CLX_TRY(clx_h5_write_image(path, image, n));
 done:
     clx_free(image);
     return status;
@@ -304,7 +304,7 @@ bool clx_h5_has_attribute(clx_h5 *h5, const char *object, const char *name)
 }
 
 /// The array of this name, type and rank.
-static clast_status take_array(const clx_h5 *h5, const char *name, clx_h5_type type, int32_t rank,
+static clast_status read_array(const clx_h5 *h5, const char *name, clx_h5_type type, int32_t rank,
                                const clx_h5_node **array)
 {
     CLAST_ASSERT(rank >= 0 && rank <= CLX_H5_RANK_LIMIT);
@@ -326,7 +326,7 @@ clast_status clx_h5_shape(clx_h5 *h5, const char *name, clx_h5_type type, int32_
 {
     clast_status status = CLAST_OK;
     const clx_h5_node *array = &nothing;
-    CLX_TRY(take_array(h5, name, type, rank, &array));
+    CLX_TRY(read_array(h5, name, type, rank, &array));
     memcpy(shape, array->shape, (size_t)rank * sizeof *shape);
 done:
     return status;
@@ -337,7 +337,7 @@ clast_status clx_h5_read(clx_h5 *h5, const char *name, clx_h5_type type, int32_t
 {
     clast_status status = CLAST_OK;
     const clx_h5_node *array = &nothing;
-    CLX_TRY(take_array(h5, name, type, rank, &array));
+    CLX_TRY(read_array(h5, name, type, rank, &array));
     for (int32_t d = 0; d < rank; ++d) {
         CLX_CHECK(array->shape[d] == shape[d], CLAST_E_FORMAT,
                   "%s: size %d of array %s is %" PRId64 ", expected %" PRId64, h5->label, d, name,
@@ -356,7 +356,7 @@ clast_status clx_h5_read_new(clx_h5 *h5, const char *name, clx_h5_type type, int
     clast_status status = CLAST_OK;
     const clx_h5_node *array = &nothing;
     void *block = NULL;
-    CLX_TRY(take_array(h5, name, type, width == 1 ? 1 : 2, &array));
+    CLX_TRY(read_array(h5, name, type, width == 1 ? 1 : 2, &array));
     CLX_CHECK(width == 1 || array->shape[1] == width, CLAST_E_FORMAT,
               "%s: array %s has %" PRId64 " numbers an item, expected %d", h5->label, name,
               array->shape[1], width);
@@ -397,7 +397,7 @@ done:
 }
 
 /// Number of a folder.
-static clast_status take_folder(const clx_h5 *h5, const char *folder, int64_t *number)
+static clast_status read_folder(const clx_h5 *h5, const char *folder, int64_t *number)
 {
     clast_status status = CLAST_OK;
     *number = find(h5, folder);
@@ -411,7 +411,7 @@ clast_status clx_h5_count(clx_h5 *h5, const char *folder, int64_t *n)
 {
     clast_status status = CLAST_OK;
     int64_t at = 0;
-    CLX_TRY(take_folder(h5, folder, &at));
+    CLX_TRY(read_folder(h5, folder, &at));
     *n = 0;
     for (int64_t i = h5->node[at].first; i > 0; i = h5->node[i].next) {
         ++*n;
@@ -451,7 +451,7 @@ clast_status clx_h5_member(clx_h5 *h5, const char *folder, int64_t index,
     CLAST_ASSERT(index >= 0);
     clast_status status = CLAST_OK;
     int64_t at = 0;
-    CLX_TRY(take_folder(h5, folder, &at));
+    CLX_TRY(read_folder(h5, folder, &at));
     CLX_TRY(list_members(h5, at));
     CLX_CHECK(index < h5->n_member, CLAST_E_FORMAT, "%s: %s has no member %" PRId64, h5->label,
               folder, index);

@@ -37,7 +37,7 @@ static clast_status append_raw(buffer *b, const void *bytes, int64_t n)
 }
 
 /// A whole number of `width` bytes, the least first.
-static clast_status put_word(buffer *b, int width, uint64_t word)
+static clast_status write_word(buffer *b, int width, uint64_t word)
 {
     char bytes[8];
     for (int k = 0; k < width; ++k) {
@@ -47,7 +47,7 @@ static clast_status put_word(buffer *b, int width, uint64_t word)
 }
 
 /// Type of a number: class and version, bits, bytes, then where its parts lie.
-static clast_status put_type(buffer *b, clx_h5_type type)
+static clast_status write_type(buffer *b, clx_h5_type type)
 {
     static const char f64[] = "\x11\x20\x3f\0\x08\0\0\0\0\0\x40\0\x34\x0b\0\x34\xff\x03\0";
     clast_status status = CLAST_OK;
@@ -55,28 +55,28 @@ static clast_status put_type(buffer *b, clx_h5_type type)
     if (type == CLX_H5_F64) {
         return append_raw(b, f64, 20); // with the 0 at the text's end
     }
-    CLX_TRY(put_word(b, 1, 0x10));
-    CLX_TRY(put_word(b, 3, type == CLX_H5_I32 || type == CLX_H5_I64 ? 8 : 0));
-    CLX_TRY(put_word(b, 4, width));
-    CLX_TRY(put_word(b, 2, 0));
-    CLX_TRY(put_word(b, 2, 8 * width));
+    CLX_TRY(write_word(b, 1, 0x10));
+    CLX_TRY(write_word(b, 3, type == CLX_H5_I32 || type == CLX_H5_I64 ? 8 : 0));
+    CLX_TRY(write_word(b, 4, width));
+    CLX_TRY(write_word(b, 2, 0));
+    CLX_TRY(write_word(b, 2, 8 * width));
 done:
     return status;
 }
 
-static clast_status put_text_type(buffer *b, int64_t size)
+static clast_status write_text_type(buffer *b, int64_t size)
 {
     const clast_status status = append_raw(b, "\x13\x10\0\0", 4); // ends in a 0, UTF-8
-    return status != CLAST_OK ? status : put_word(b, 4, (uint64_t)size);
+    return status != CLAST_OK ? status : write_word(b, 4, (uint64_t)size);
 }
 
-static clast_status put_space(buffer *b, int32_t rank, const int64_t *shape)
+static clast_status write_space(buffer *b, int32_t rank, const int64_t *shape)
 {
     clast_status status = CLAST_OK;
     const char head[4] = {2, (char)rank, 0, rank > 0 ? 1 : 0};
     CLX_TRY(append_raw(b, head, 4));
     for (int32_t d = 0; d < rank; ++d) {
-        CLX_TRY(put_word(b, 8, (uint64_t)shape[d]));
+        CLX_TRY(write_word(b, 8, (uint64_t)shape[d]));
     }
 done:
     return status;
@@ -86,8 +86,8 @@ done:
 static clast_status begin_message(buffer *b, int type, int64_t *begun)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(put_word(b, 1, (uint64_t)type));
-    CLX_TRY(put_word(b, 3, 0));
+    CLX_TRY(write_word(b, 1, (uint64_t)type));
+    CLX_TRY(write_word(b, 3, 0));
     *begun = b->n;
 done:
     return status;
@@ -101,21 +101,21 @@ static void end_message(buffer *b, int64_t begun)
     b->bytes[begun - 2] = (char)(n >> 8);
 }
 
-static clast_status put_attribute(buffer *b, const clx_h5_attribute *a)
+static clast_status write_attribute(buffer *b, const clx_h5_attribute *a)
 {
     clast_status status = CLAST_OK;
     const int64_t name = (int64_t)strlen(a->name) + 1;
     const int64_t type = a->is_text ? 8 : a->type == CLX_H5_F64 ? 20 : 12;
     int64_t begun = 0;
     CLX_TRY(begin_message(b, ATTRIBUTE, &begun));
-    CLX_TRY(put_word(b, 2, 3));
-    CLX_TRY(put_word(b, 2, (uint64_t)name));
-    CLX_TRY(put_word(b, 2, (uint64_t)type));
-    CLX_TRY(put_word(b, 2, 4));
-    CLX_TRY(put_word(b, 1, 1));
+    CLX_TRY(write_word(b, 2, 3));
+    CLX_TRY(write_word(b, 2, (uint64_t)name));
+    CLX_TRY(write_word(b, 2, (uint64_t)type));
+    CLX_TRY(write_word(b, 2, 4));
+    CLX_TRY(write_word(b, 1, 1));
     CLX_TRY(append_raw(b, a->name, name));
-    CLX_TRY(a->is_text ? put_text_type(b, a->size) : put_type(b, a->type));
-    CLX_TRY(put_space(b, 0, NULL));
+    CLX_TRY(a->is_text ? write_text_type(b, a->size) : write_type(b, a->type));
+    CLX_TRY(write_space(b, 0, NULL));
     CLX_TRY(append_raw(b, a->value, a->size));
     end_message(b, begun);
 done:
@@ -123,75 +123,75 @@ done:
 }
 
 /// Space, type, fill value (made early, never filled) and place of an array.
-static clast_status put_array(buffer *b, const clx_h5_node *node, int64_t data)
+static clast_status write_array(buffer *b, const clx_h5_node *node, int64_t data)
 {
     clast_status status = CLAST_OK;
     int64_t begun = 0;
     CLX_TRY(begin_message(b, DATASPACE, &begun));
-    CLX_TRY(put_space(b, node->rank, node->shape));
+    CLX_TRY(write_space(b, node->rank, node->shape));
     end_message(b, begun);
     CLX_TRY(begin_message(b, DATATYPE, &begun));
-    CLX_TRY(put_type(b, node->type));
+    CLX_TRY(write_type(b, node->type));
     end_message(b, begun);
     CLX_TRY(begin_message(b, FILL, &begun));
     CLX_TRY(append_raw(b, "\x03\x05", 2));
     end_message(b, begun);
     CLX_TRY(begin_message(b, LAYOUT, &begun));
     CLX_TRY(append_raw(b, "\x03\x01", 2));
-    CLX_TRY(put_word(b, 8, node->size > 0 ? (uint64_t)data : UNDEFINED));
-    CLX_TRY(put_word(b, 8, (uint64_t)node->size));
+    CLX_TRY(write_word(b, 8, node->size > 0 ? (uint64_t)data : UNDEFINED));
+    CLX_TRY(write_word(b, 8, (uint64_t)node->size));
     end_message(b, begun);
 done:
     return status;
 }
 
 /// A hard link to a member of a folder.
-static clast_status put_link(buffer *b, const clx_h5_node *member)
+static clast_status write_link(buffer *b, const clx_h5_node *member)
 {
     clast_status status = CLAST_OK;
     const char *name = strrchr(member->name, '/') + 1;
     int64_t begun = 0;
     CLX_TRY(begin_message(b, LINK, &begun));
     CLX_TRY(append_raw(b, "\x01\x11\x01", 3)); // UTF-8, a length of two bytes
-    CLX_TRY(put_word(b, 2, strlen(name)));
+    CLX_TRY(write_word(b, 2, strlen(name)));
     CLX_TRY(append_raw(b, name, (int64_t)strlen(name)));
-    CLX_TRY(put_word(b, 8, (uint64_t)member->address));
+    CLX_TRY(write_word(b, 8, (uint64_t)member->address));
     end_message(b, begun);
 done:
     return status;
 }
 
 /// Where links or attributes lie: in the header itself, in no heap.
-static clast_status put_info(buffer *b, int kind)
+static clast_status write_info(buffer *b, int kind)
 {
     clast_status status = CLAST_OK;
     int64_t begun = 0;
     CLX_TRY(begin_message(b, kind, &begun));
-    CLX_TRY(put_word(b, 2, 0));
-    CLX_TRY(put_word(b, 8, UNDEFINED));
-    CLX_TRY(put_word(b, 8, UNDEFINED));
+    CLX_TRY(write_word(b, 2, 0));
+    CLX_TRY(write_word(b, 8, UNDEFINED));
+    CLX_TRY(write_word(b, 8, UNDEFINED));
     end_message(b, begun);
 done:
     return status;
 }
 
-static clast_status put_folder(buffer *b, const clx_h5 *h5, int64_t number)
+static clast_status write_folder(buffer *b, const clx_h5 *h5, int64_t number)
 {
     clast_status status = CLAST_OK;
     int64_t begun = 0;
-    CLX_TRY(put_info(b, LINK_INFO));
+    CLX_TRY(write_info(b, LINK_INFO));
     CLX_TRY(begin_message(b, GROUP_INFO, &begun));
-    CLX_TRY(put_word(b, 2, 0));
+    CLX_TRY(write_word(b, 2, 0));
     end_message(b, begun);
     for (int64_t i = h5->node[number].first; i > 0; i = h5->node[i].next) {
-        CLX_TRY(put_link(b, &h5->node[i]));
+        CLX_TRY(write_link(b, &h5->node[i]));
     }
 done:
     return status;
 }
 
 /// Header of an array or folder, after what the array holds.
-static clast_status put_node(buffer *b, clx_h5 *h5, int64_t number)
+static clast_status write_node(buffer *b, clx_h5 *h5, int64_t number)
 {
     clast_status status = CLAST_OK;
     clx_h5_node *node = &h5->node[number];
@@ -200,33 +200,33 @@ static clast_status put_node(buffer *b, clx_h5 *h5, int64_t number)
     node->address = b->n;
     CLX_TRY(append_raw(b, "OHDR\x02\x02\0\0\0\0", 10));
     const int64_t begun = b->n;
-    CLX_TRY(node->is_folder ? put_folder(b, h5, number) : put_array(b, node, data));
+    CLX_TRY(node->is_folder ? write_folder(b, h5, number) : write_array(b, node, data));
     if (node->n_attribute > 0) {
-        CLX_TRY(put_info(b, ATTRIBUTE_INFO));
+        CLX_TRY(write_info(b, ATTRIBUTE_INFO));
     }
     for (int64_t k = 0; k < node->n_attribute; ++k) {
-        CLX_TRY(put_attribute(b, &node->attribute[k]));
+        CLX_TRY(write_attribute(b, &node->attribute[k]));
     }
     for (int k = 0; k < 4; ++k) {
         b->bytes[begun - 4 + k] = (char)((b->n - begun) >> 8 * k & 0xff);
     }
-    CLX_TRY(put_word(b, 4, clx_h5_sum(b->bytes + node->address, b->n - node->address)));
+    CLX_TRY(write_word(b, 4, clx_h5_sum(b->bytes + node->address, b->n - node->address)));
 done:
     return status;
 }
 
 /// The first bytes of the file, which say where "/" is.
-static clast_status put_superblock(buffer *b, const clx_h5 *h5)
+static clast_status write_superblock(buffer *b, const clx_h5 *h5)
 {
     clast_status status = CLAST_OK;
     const int64_t end = b->n;
     b->n = 0;
     CLX_TRY(append_raw(b, "\x89HDF\r\n\x1a\n\x03\x08\x08\0", 12));
-    CLX_TRY(put_word(b, 8, 0));
-    CLX_TRY(put_word(b, 8, UNDEFINED));
-    CLX_TRY(put_word(b, 8, (uint64_t)end));
-    CLX_TRY(put_word(b, 8, (uint64_t)h5->node[0].address));
-    CLX_TRY(put_word(b, 4, clx_h5_sum(b->bytes, SUPERBLOCK - 4)));
+    CLX_TRY(write_word(b, 8, 0));
+    CLX_TRY(write_word(b, 8, UNDEFINED));
+    CLX_TRY(write_word(b, 8, (uint64_t)end));
+    CLX_TRY(write_word(b, 8, (uint64_t)h5->node[0].address));
+    CLX_TRY(write_word(b, 4, clx_h5_sum(b->bytes, SUPERBLOCK - 4)));
 done:
     b->n = end;
     return status;
@@ -239,9 +239,9 @@ clast_status clx_h5_plain_image(clx_h5 *h5, char **image, int64_t *n)
     buffer b = {0};
     CLX_TRY(append_raw(&b, room, SUPERBLOCK));
     for (int64_t i = h5->n - 1; i >= 0; --i) {
-        CLX_TRY(put_node(&b, h5, i));
+        CLX_TRY(write_node(&b, h5, i));
     }
-    CLX_TRY(put_superblock(&b, h5));
+    CLX_TRY(write_superblock(&b, h5));
     *image = b.bytes;
     *n = b.n;
     b.bytes = NULL;

@@ -46,7 +46,7 @@ static const char *next_bytes(stretch *s, int64_t n)
     return at;
 }
 
-static uint64_t take_word(stretch *s, int width)
+static uint64_t read_word(stretch *s, int width)
 {
     const char *at = next_bytes(s, width);
     uint64_t word = 0;
@@ -78,11 +78,11 @@ static bool is_told_once(const file *f, int64_t n)
 }
 
 /// Type of a number or text; *size are the bytes of one.
-static bool take_type(stretch *s, bool *is_text, clx_h5_type *type, int64_t *size)
+static bool read_type(stretch *s, bool *is_text, clx_h5_type *type, int64_t *size)
 {
-    const uint64_t head = take_word(s, 1);
-    const uint64_t bits = take_word(s, 3);
-    *size = (int64_t)take_word(s, 4);
+    const uint64_t head = read_word(s, 1);
+    const uint64_t bits = read_word(s, 3);
+    *size = (int64_t)read_word(s, 4);
     *is_text = head == 0x13;
     if (*is_text) {
         return s->left >= 0 && *size > 0;
@@ -100,19 +100,19 @@ static bool take_type(stretch *s, bool *is_text, clx_h5_type *type, int64_t *siz
            (bits == 8) == (*type == CLX_H5_I32 || *type == CLX_H5_I64);
 }
 
-static bool take_space(stretch *s, clx_h5_node *node)
+static bool read_space(stretch *s, clx_h5_node *node)
 {
-    const uint64_t version = take_word(s, 1);
-    const uint64_t rank = take_word(s, 1);
-    const uint64_t flags = take_word(s, 1);
-    const uint64_t kind = take_word(s, 1);
+    const uint64_t version = read_word(s, 1);
+    const uint64_t rank = read_word(s, 1);
+    const uint64_t flags = read_word(s, 1);
+    const uint64_t kind = read_word(s, 1);
     if (s->left < 0 || version != 2 || rank > CLX_H5_RANK_LIMIT || flags != 0 ||
         kind != (rank > 0 ? 1 : 0)) {
         return false;
     }
     node->rank = (int32_t)rank;
     for (uint64_t d = 0; d < rank; ++d) {
-        node->shape[d] = (int64_t)take_word(s, 8);
+        node->shape[d] = (int64_t)read_word(s, 8);
     }
     return s->left >= 0;
 }
@@ -135,10 +135,10 @@ static bool fits(const file *f, const clx_h5_node *node, uint64_t at, uint64_t s
 static clast_status read_layout(const file *f, stretch s, clx_h5_node *node)
 {
     clast_status status = CLAST_OK;
-    const uint64_t version = take_word(&s, 1);
-    const uint64_t kind = take_word(&s, 1);
-    const uint64_t at = take_word(&s, 8);
-    const uint64_t size = take_word(&s, 8);
+    const uint64_t version = read_word(&s, 1);
+    const uint64_t kind = read_word(&s, 1);
+    const uint64_t at = read_word(&s, 8);
+    const uint64_t size = read_word(&s, 8);
     if (version != 3 || kind != 1) {
         return foreign(f);
     }
@@ -160,9 +160,9 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
     bool is_text = false;
     clx_h5_type type = CLX_H5_F64;
     int64_t size = 0;
-    const uint64_t version = take_word(&s, 2);
-    const int64_t n_name = (int64_t)take_word(&s, 2);
-    (void)take_word(&s, 5);
+    const uint64_t version = read_word(&s, 2);
+    const int64_t n_name = (int64_t)read_word(&s, 2);
+    (void)read_word(&s, 5);
     const char *name = next_bytes(&s, n_name);
     if (version != 3) {
         return foreign(f);
@@ -171,7 +171,7 @@ static clast_status read_attribute(const file *f, stretch s, int64_t number)
         return damaged(f);
     }
     if (name == NULL || n_name < 2 || memchr(name, '\0', (size_t)n_name) != name + n_name - 1 ||
-        !take_type(&s, &is_text, &type, &size) || !take_space(&s, &space) || space.rank != 0 ||
+        !read_type(&s, &is_text, &type, &size) || !read_space(&s, &space) || space.rank != 0 ||
         clx_h5_has_attribute(f->h5, f->h5->node[number].name, name)) {
         return damaged(f);
     }
@@ -195,10 +195,10 @@ static clast_status read_link(const file *f, stretch s, int64_t folder, int dept
     char path[CLX_H5_NAME_LIMIT];
     const char *above = f->h5->node[folder].name;
     int64_t number = 0;
-    const uint64_t head = take_word(&s, 3);
-    const int64_t n = (int64_t)take_word(&s, 2);
+    const uint64_t head = read_word(&s, 3);
+    const int64_t n = (int64_t)read_word(&s, 2);
     const char *name = next_bytes(&s, n);
-    const uint64_t address = take_word(&s, 8);
+    const uint64_t address = read_word(&s, 8);
     if (head != 0x011101) {
         return foreign(f);
     }
@@ -226,9 +226,9 @@ static clast_status read_message(const file *f, uint64_t kind, stretch s, int64_
     }
     switch (kind) {
     case DATASPACE:
-        return take_space(&s, node) ? CLAST_OK : foreign(f);
+        return read_space(&s, node) ? CLAST_OK : foreign(f);
     case DATATYPE:
-        return take_type(&s, &is_text, &node->type, &size) && !is_text ? CLAST_OK : foreign(f);
+        return read_type(&s, &is_text, &node->type, &size) && !is_text ? CLAST_OK : foreign(f);
     case LAYOUT:
         node->is_folder = false;
         return read_layout(f, s, node);
@@ -246,9 +246,9 @@ static clast_status read_messages(const file *f, stretch all, int64_t number, in
 {
     clast_status status = CLAST_OK;
     while (all.left > 0) {
-        const uint64_t kind = take_word(&all, 1);
-        const int64_t size = (int64_t)take_word(&all, 2);
-        (void)take_word(&all, 1);
+        const uint64_t kind = read_word(&all, 1);
+        const int64_t size = (int64_t)read_word(&all, 2);
+        (void)read_word(&all, 1);
         const char *at = next_bytes(&all, size);
         if (at == NULL) {
             return damaged(f);
@@ -272,9 +272,9 @@ static clast_status read_node(const file *f, int64_t number, uint64_t address, i
     }
     stretch s = {f->bytes + address, f->n - (int64_t)address};
     const char *head = next_bytes(&s, HEAD - 4);
-    const int64_t size = (int64_t)take_word(&s, 4);
+    const int64_t size = (int64_t)read_word(&s, 4);
     const char *messages = next_bytes(&s, size);
-    const uint64_t sum = take_word(&s, 4);
+    const uint64_t sum = read_word(&s, 4);
     if (head == NULL || memcmp(head, "OHDR\x02", 5) != 0) {
         return damaged(f);
     }
@@ -300,11 +300,11 @@ clast_status clx_h5_plain_parse(const char *image, int64_t n, clx_h5 *h5)
     const file f = {image, n, &unread, h5};
     stretch s = {image, n};
     const char *head = next_bytes(&s, 12);
-    const uint64_t base = take_word(&s, 8);
-    (void)take_word(&s, 8);
-    const uint64_t end = take_word(&s, 8);
-    const uint64_t root = take_word(&s, 8);
-    const uint64_t sum = take_word(&s, 4);
+    const uint64_t base = read_word(&s, 8);
+    (void)read_word(&s, 8);
+    const uint64_t end = read_word(&s, 8);
+    const uint64_t root = read_word(&s, 8);
+    const uint64_t sum = read_word(&s, 4);
     if (s.left < 0 || memcmp(head, "\x89HDF\r\n\x1a\n\x03\x08\x08", 11) != 0 || base != 0 ||
         end != (uint64_t)n || sum != clx_h5_sum(image, 44)) {
         return damaged(&f);

@@ -8,7 +8,7 @@
 enum { CLX_H5_TRAILER_SIZE = 1 + 12 + 8 + 4 + 16 + 1 };
 
 /// Writes a file's image and the last line, atomically.
-clast_status clx_h5_put(const char *path, const char *image, int64_t n);
+clast_status clx_h5_write_image(const char *path, const char *image, int64_t n);
 
 /// CLAST_E_USAGE for what is no name of an array or folder in the file `label`.
 clast_status clx_h5_check_name(const char *label, const char *name);

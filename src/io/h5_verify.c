@@ -77,7 +77,7 @@ static uint32_t crc_after(uint32_t crc, const char *bytes, int64_t n)
     return (uint32_t)sum;
 }
 
-clast_status clx_h5_put(const char *path, const char *image, int64_t n)
+clast_status clx_h5_write_image(const char *path, const char *image, int64_t n)
 {
     clast_status status = CLAST_OK;
     clx_file file = {0};

@@ -162,7 +162,7 @@ static clast_status read_shape(const clast_pack_config *config, const char *text
     return read_surface(config, text, name, shape, note);
 }
 
-static clast_status take_shape(const clast_pack_config *config, int32_t i, clast_shape *shape,
+static clast_status load_shape(const clast_pack_config *config, int32_t i, clast_shape *shape,
                                clast_pack_hull *note)
 {
     clast_status status = CLAST_OK;
@@ -246,7 +246,7 @@ static clast_status load_shapes(const clast_pack_config *config, clast_pack_sour
     CLX_TRY(clx_alloc(&made->shape, config->shapes.n, sizeof *made->shape));
     CLX_TRY(clx_alloc(&made->hull, config->shapes.n, sizeof *made->hull));
     for (int32_t i = 0; i < config->shapes.n; ++i) {
-        status = take_shape(config, i, &made->shape[i], &made->hull[made->n_hull]);
+        status = load_shape(config, i, &made->shape[i], &made->hull[made->n_hull]);
         if (status != CLAST_OK) {
             clx_fail_prefix("shapes");
             goto done;

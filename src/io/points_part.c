@@ -47,7 +47,7 @@ done:
 }
 
 /// Appends a table's rows; `capacity` holds for all that comes.
-static clast_status take_rows(sink *s, const clast_table *table, const clast_cloud_columns *columns)
+static clast_status read_rows(sink *s, const clast_table *table, const clast_cloud_columns *columns)
 {
     clast_status status = CLAST_OK;
     clast_cloud piece = {0};
@@ -288,7 +288,7 @@ done:
 }
 
 /// Whole lines of the text, below the line of names, into the cloud.
-static clast_status take_lines(const text *t, const char *bytes, int64_t n, int64_t first_line,
+static clast_status read_lines(const text *t, const char *bytes, int64_t n, int64_t first_line,
                                const clast_cloud_columns *columns, sink *s)
 {
     clast_status status = CLAST_OK;
@@ -301,7 +301,7 @@ static clast_status take_lines(const text *t, const char *bytes, int64_t n, int6
                           clx_csv_count_lines(bytes + t->n_head, quote - bytes - t->n_head, 0)));
     CLX_TRY(clx_csv_parse_part(t->path, bytes, (size_t)n, &t->options, first_line - 1, &piece));
     CLX_TRY(check_columns(t, &piece, bytes + t->n_head, n - t->n_head, first_line, columns));
-    CLX_TRY(take_rows(s, &piece, columns));
+    CLX_TRY(read_rows(s, &piece, columns));
 done:
     clast_table_free(&piece);
     return status;
@@ -340,13 +340,13 @@ static clast_status read_stretch(const text *t, const int64_t stretch[2], int64_
         CLX_CHECK(whole > 0 && kept + n - whole <= PIECE, CLAST_E_LIMIT,
                   "%s:%lld: a line of more than %lld bytes", t->path, (long long)line,
                   (long long)PIECE);
-        CLX_TRY(take_lines(t, bytes, t->n_head + whole, line, columns, s));
+        CLX_TRY(read_lines(t, bytes, t->n_head + whole, line, columns, s));
         line += clx_csv_count_lines(rows, whole, 0);
         kept = kept + n - whole;
         memmove(rows, rows + whole, (size_t)kept);
     }
     if (stretch[0] >= stretch[1]) { // no row: the columns all the same
-        CLX_TRY(take_lines(t, bytes, t->n_head, line, columns, s));
+        CLX_TRY(read_lines(t, bytes, t->n_head, line, columns, s));
     }
 done:
     return status;
@@ -402,7 +402,7 @@ static clast_status read_h5(const clast_comm *comm, const char *path, const char
     for (int64_t at = first; at < end || at == first; at += ROWS) {
         const clx_rows rows = {at, end - at < ROWS ? end - at : ROWS};
         CLX_TRY(clx_points_h5(path, dataset, &rows, &piece));
-        CLX_TRY(take_rows(s, &piece, columns));
+        CLX_TRY(read_rows(s, &piece, columns));
         clast_table_free(&piece);
     }
 done:

@@ -356,7 +356,7 @@ static void note_columns(const reader *r, clx_sizes_columns *c)
 }
 
 /// Of a list without names: sizes, and counts behind them.
-static clast_status take_columns(reader *r)
+static clast_status read_columns(reader *r)
 {
     clast_status status = CLAST_OK;
     if (r->column[0] != '\0') {
@@ -479,7 +479,7 @@ static clast_status parse(reader *r, clx_sizes_columns *columns, clast_sizes *si
     clast_sizes made = {0};
     CLX_TRY(read_asked(r->asked_unit, &r->asked));
     CLX_TRY(clx_csv_parse_list(r->name, r->text, r->n, &r->table, &r->report));
-    CLX_TRY(r->report.has_header ? read_header(r) : take_columns(r));
+    CLX_TRY(r->report.has_header ? read_header(r) : read_columns(r));
     CLX_CHECK(r->unit[0].metre > 0.0, CLAST_E_CONFIG,
               "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
               "(mm), phi)%s",

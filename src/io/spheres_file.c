@@ -74,7 +74,7 @@ done:
 }
 
 /// Puts a set into a state that was read: in place of the one of that name, or as one more.
-static clast_status put_set(clast_state *state, const char *name, const clast_spheres *spheres)
+static clast_status write_set(clast_state *state, const char *name, const clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     clast_spheres copy = {0};
@@ -107,7 +107,7 @@ static clast_status write_state(const char *path, const char *name, const clast_
     clast_state state = {0};
     clx_lock lock = {0};
     bool is_busy = false;
-    CLX_TRY(clx_lock_take(path, PATIENCE, &lock, &is_busy)); // from reading to writing
+    CLX_TRY(clx_lock_acquire(path, PATIENCE, &lock, &is_busy)); // from reading to writing
     if (access(path, F_OK) != 0) {
         status = clast_state_write_spheres(spheres, path, name, unit);
         goto done;
@@ -116,7 +116,7 @@ static clast_status write_state(const char *path, const char *name, const clast_
     CLX_CHECK(strcmp(state.unit, unit) == 0, CLAST_E_USAGE,
               "%s holds lengths in %s, so spheres in %s cannot join it; choose another file", path,
               state.unit, unit);
-    CLX_TRY(put_set(&state, name, spheres));
+    CLX_TRY(write_set(&state, name, spheres));
     CLX_TRY(clast_state_write(&state, path));
 done:
     clx_lock_release(&lock);

@@ -68,7 +68,7 @@ bool clx_points_are_named(const clast_table *table)
 }
 
 /// A column under the k-th name; the first of a kind counts, and a radius before a diameter.
-static void take_column(columns *c, int name, const clast_column *column)
+static void read_column(columns *c, int name, const clast_column *column)
 {
     const int at = name < RADIUS ? name : RADIUS;
     if (c->column[at] == NULL || (at == RADIUS && c->is_diameter && name < FIRST_DIAMETER)) {
@@ -78,14 +78,14 @@ static void take_column(columns *c, int name, const clast_column *column)
 }
 
 /// Columns in units that are read, or in others.
-static void take_named(const clast_table *table, bool are_read, columns *c)
+static void read_named(const clast_table *table, bool are_read, columns *c)
 {
     for (int name = 0; name < N_NAME; ++name) {
         for (int32_t i = 0; i < table->n_column; ++i) {
             const clast_column *column = &table->column[i];
             if (clx_column_is(column->name, names[name], "m") &&
                 is_read(column, name >= RADIUS) == are_read) {
-                take_column(c, name, column);
+                read_column(c, name, column);
             }
         }
     }
@@ -95,8 +95,8 @@ static void take_named(const clast_table *table, bool are_read, columns *c)
 static void find_names(const clast_table *table, columns *c)
 {
     columns other = {.is_diameter = false};
-    take_named(table, true, c);
-    take_named(table, false, &other);
+    read_named(table, true, c);
+    read_named(table, false, &other);
     if (c->column[RADIUS] == NULL) {
         c->is_diameter = other.is_diameter;
     }
@@ -188,7 +188,7 @@ done:
 }
 
 /// Columns in the order of a list such as "id,x,y,z,d".
-static clast_status take_list(const clast_table *table, const clx_spheres_wanted *wanted,
+static clast_status read_list(const clast_table *table, const clx_spheres_wanted *wanted,
                               columns *c)
 {
     clast_status status = CLAST_OK;
@@ -199,7 +199,7 @@ static clast_status take_list(const clast_table *table, const clx_spheres_wanted
         const size_t length = strcspn(at, ",");
         for (int name = 0; name < N_NAME; ++name) {
             if (strlen(names[name]) == length && strncasecmp(at, names[name], length) == 0) {
-                take_column(c, name, &table->column[n]);
+                read_column(c, name, &table->column[n]);
             }
         }
         if (place_of(at, length) == N_COLUMN) {
@@ -233,7 +233,7 @@ static bool are_ids(const double *value, int64_t n)
 }
 
 /// Columns without names: x y z r, id x y z or id x y z r; texts (elements) are passed over.
-static clast_status take_places(const clast_table *table, const clx_spheres_wanted *wanted,
+static clast_status read_places(const clast_table *table, const clx_spheres_wanted *wanted,
                                 columns *c)
 {
     clast_status status = CLAST_OK;
@@ -344,12 +344,12 @@ static clast_status find_columns(const clast_table *table, const clx_spheres_wan
 {
     clast_status status = CLAST_OK;
     if (clx_spheres_has_list(wanted)) {
-        CLX_TRY(take_list(table, wanted, c));
+        CLX_TRY(read_list(table, wanted, c));
     } else {
         find_names(table, c);
         if (c->column[0] == NULL && c->column[1] == NULL && c->column[2] == NULL) {
             *c = (columns){.is_diameter = false};
-            CLX_TRY(take_places(table, wanted, c));
+            CLX_TRY(read_places(table, wanted, c));
         }
     }
     CLX_TRY(check_columns(c, wanted));
@@ -411,13 +411,13 @@ done:
 clast_status clx_spheres_check_list(const clast_table *table, const clx_spheres_wanted *wanted)
 {
     columns c = {.is_diameter = false};
-    return clx_spheres_has_list(wanted) ? take_list(table, wanted, &c) : CLAST_OK;
+    return clx_spheres_has_list(wanted) ? read_list(table, wanted, &c) : CLAST_OK;
 }
 
 const double *clx_spheres_ids(const clast_table *table, const clx_spheres_wanted *wanted)
 {
     columns c = {.is_diameter = false};
-    const clast_status status = clx_spheres_has_list(wanted) ? take_list(table, wanted, &c)
+    const clast_status status = clx_spheres_has_list(wanted) ? read_list(table, wanted, &c)
                                                              : find_columns(table, wanted, &c);
     return status == CLAST_OK && c.id != NULL ? c.id->number : NULL;
 }

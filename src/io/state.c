@@ -66,7 +66,7 @@ done:
     return status;
 }
 
-static clast_status take_all_spheres(clx_h5 *h5, clast_state *state)
+static clast_status read_all_spheres(clx_h5 *h5, clast_state *state)
 {
     clast_status status = CLAST_OK;
     char name[CLX_H5_NAME_LIMIT];
@@ -79,7 +79,7 @@ static clast_status take_all_spheres(clx_h5 *h5, clast_state *state)
         clast_spheres taken = {0};
         CLX_TRY(clx_h5_member(h5, "/spheres", state->n_spheres, name));
         CLX_CHECK(clx_join(path, "/spheres", name), CLAST_E_FORMAT, "name %s is too long", name);
-        CLX_TRY(clx_state_take_spheres(h5, path, &taken));
+        CLX_TRY(clx_state_read_spheres(h5, path, &taken));
         status = clx_alloc_text(&s->name, name);
         if (status != CLAST_OK) {
             clast_spheres_free(&taken);
@@ -91,7 +91,7 @@ done:
     return status;
 }
 
-static clast_status take_all_tables(clx_h5 *h5, clast_state *state)
+static clast_status read_all_tables(clx_h5 *h5, clast_state *state)
 {
     clast_status status = CLAST_OK;
     char name[CLX_H5_NAME_LIMIT];
@@ -102,28 +102,28 @@ static clast_status take_all_tables(clx_h5 *h5, clast_state *state)
     for (; state->n_table < n; ++state->n_table) {
         CLX_TRY(clx_h5_member(h5, "/table", state->n_table, name));
         CLX_CHECK(clx_join(path, "/table", name), CLAST_E_FORMAT, "name %s is too long", name);
-        CLX_TRY(clx_state_take_table(h5, path, &state->table[state->n_table]));
+        CLX_TRY(clx_state_read_table(h5, path, &state->table[state->n_table]));
     }
 done:
     return status;
 }
 
-static clast_status take_all(clx_h5 *h5, clast_state *state)
+static clast_status read_all(clx_h5 *h5, clast_state *state)
 {
     clast_status status = CLAST_OK;
     clast_assembly taken = {0};
-    CLX_TRY(clx_state_take_head(h5, state->version, state->unit));
+    CLX_TRY(clx_state_read_head(h5, state->version, state->unit));
     if (clx_h5_has_attribute(h5, "/", "config")) {
         CLX_TRY(clx_h5_read_text(h5, "/", "config", &state->config));
     }
     if (clx_h5_has(h5, "/assembly")) {
-        CLX_TRY(clx_state_take_assembly(h5, "/assembly", &taken));
+        CLX_TRY(clx_state_read_assembly(h5, "/assembly", &taken));
         CLX_TRY(clx_alloc(&state->assembly, 1, sizeof *state->assembly));
         *state->assembly = taken;
         taken = (clast_assembly){0};
     }
-    CLX_TRY(take_all_spheres(h5, state));
-    CLX_TRY(take_all_tables(h5, state));
+    CLX_TRY(read_all_spheres(h5, state));
+    CLX_TRY(read_all_tables(h5, state));
 done:
     clast_assembly_free(&taken);
     return status;
@@ -136,7 +136,7 @@ clast_status clast_state_read(const char *path, clast_state *state)
     clx_h5 *h5 = NULL;
     clast_state made = {0};
     CLX_TRY(clx_h5_open(path, &h5));
-    status = take_all(h5, &made);
+    status = read_all(h5, &made);
     if (status != CLAST_OK) {
         name_file(path);
         goto done;
@@ -155,12 +155,12 @@ clast_status clast_state_read_assembly(const char *path, clast_assembly *assembl
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_open(path, &h5));
-    status = clx_state_take_head(h5, NULL, NULL);
+    status = clx_state_read_head(h5, NULL, NULL);
     if (status == CLAST_OK && !clx_h5_has(h5, "/assembly")) {
         status = clx_fail(CLAST_E_FORMAT, "it holds no assembly");
     }
     if (status == CLAST_OK) {
-        status = clx_state_take_assembly(h5, "/assembly", assembly);
+        status = clx_state_read_assembly(h5, "/assembly", assembly);
     }
     if (status != CLAST_OK) {
         name_file(path);
@@ -197,7 +197,7 @@ static clast_status find_part(clx_h5 *h5, const char *folder, const char *name,
     clast_status status = CLAST_OK;
     char only[CLX_H5_NAME_LIMIT];
     int32_t n = 0;
-    CLX_TRY(clx_state_take_head(h5, NULL, NULL));
+    CLX_TRY(clx_state_read_head(h5, NULL, NULL));
     if (name == NULL) {
         CLX_TRY(count_of(h5, folder, &n));
         if (n != 1) {
@@ -215,14 +215,14 @@ done:
 /// Takes one part of a kind out of an open state file.
 typedef clast_status (*part_taker)(clx_h5 *h5, const char *folder, void *out);
 
-static clast_status take_spheres(clx_h5 *h5, const char *folder, void *out)
+static clast_status read_spheres(clx_h5 *h5, const char *folder, void *out)
 {
-    return clx_state_take_spheres(h5, folder, out);
+    return clx_state_read_spheres(h5, folder, out);
 }
 
-static clast_status take_table(clx_h5 *h5, const char *folder, void *out)
+static clast_status read_table(clx_h5 *h5, const char *folder, void *out)
 {
-    return clx_state_take_table(h5, folder, out);
+    return clx_state_read_table(h5, folder, out);
 }
 
 /// Reads the named part of a kind, or the only one.
@@ -248,11 +248,11 @@ done:
 clast_status clast_state_read_spheres(const char *path, const char *name, clast_spheres *spheres)
 {
     CLX_ARGUMENTS(path, spheres);
-    return read_part(path, "/spheres", name, take_spheres, spheres);
+    return read_part(path, "/spheres", name, read_spheres, spheres);
 }
 
 clast_status clast_state_read_table(const char *path, const char *name, clast_table *table)
 {
     CLX_ARGUMENTS(path, name, table);
-    return read_part(path, "/table", name, take_table, table);
+    return read_part(path, "/table", name, read_table, table);
 }

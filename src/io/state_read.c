@@ -38,7 +38,7 @@ static bool has(clx_h5 *h5, const char *folder, const char *name)
 }
 
 /// A short text attribute into a fixed array.
-static clast_status take_word(clx_h5 *h5, const char *object, const char *name, char *word,
+static clast_status read_word(clx_h5 *h5, const char *object, const char *name, char *word,
                               size_t size)
 {
     clast_status status = CLAST_OK;
@@ -51,12 +51,12 @@ done:
     return status;
 }
 
-clast_status clx_state_take_head(clx_h5 *h5, char version[32], char unit[16])
+clast_status clx_state_read_head(clx_h5 *h5, char version[32], char unit[16])
 {
     clast_status status = CLAST_OK;
     char format[32];
     int32_t schema = 0;
-    CLX_TRY(take_word(h5, "/", "format", format, sizeof format));
+    CLX_TRY(read_word(h5, "/", "format", format, sizeof format));
     CLX_CHECK(strcmp(format, "clast state") == 0, CLAST_E_FORMAT, "format '%s' is not a state",
               format);
     CLX_TRY(clx_h5_read_number(h5, "/", "schema", CLX_H5_I32, &schema));
@@ -64,10 +64,10 @@ clast_status clx_state_take_head(clx_h5 *h5, char version[32], char unit[16])
               "schema %d; this is clast %s, which reads %d", schema, clast_version(),
               CLX_STATE_SCHEMA);
     if (version != NULL) {
-        CLX_TRY(take_word(h5, "/", "clast_version", version, 32));
+        CLX_TRY(read_word(h5, "/", "clast_version", version, 32));
     }
     if (unit != NULL) {
-        CLX_TRY(take_word(h5, "/", "unit", unit, 16));
+        CLX_TRY(read_word(h5, "/", "unit", unit, 16));
     }
 done:
     return status;
@@ -103,7 +103,7 @@ static bool all_within(const int32_t *x, int64_t n, int32_t limit)
     return true;
 }
 
-clast_status clx_state_take_spheres(clx_h5 *h5, const char *folder, clast_spheres *spheres)
+clast_status clx_state_read_spheres(clx_h5 *h5, const char *folder, clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     clast_spheres made = {0};
@@ -121,7 +121,7 @@ done:
     return status;
 }
 
-static clast_status take_mesh(clx_h5 *h5, const char *folder, clast_mesh *mesh)
+static clast_status read_mesh(clx_h5 *h5, const char *folder, clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
@@ -142,7 +142,7 @@ done:
     return status;
 }
 
-static clast_status take_kind(clx_h5 *h5, const char *folder, clast_shape_kind *kind)
+static clast_status read_kind(clx_h5 *h5, const char *folder, clast_shape_kind *kind)
 {
     static const struct {
         const char *word;
@@ -152,7 +152,7 @@ static clast_status take_kind(clx_h5 *h5, const char *folder, clast_shape_kind *
                  {"mesh", CLAST_SHAPE_MESH},
                  {"clump", CLAST_SHAPE_CLUMP}};
     char word[32];
-    const clast_status status = take_word(h5, folder, "kind", word, sizeof word);
+    const clast_status status = read_word(h5, folder, "kind", word, sizeof word);
     for (size_t i = 0; status == CLAST_OK && i < sizeof kinds / sizeof kinds[0]; ++i) {
         if (strcmp(word, kinds[i].word) == 0) {
             *kind = kinds[i].kind;
@@ -164,7 +164,7 @@ static clast_status take_kind(clx_h5 *h5, const char *folder, clast_shape_kind *
 }
 
 /// Array of fixed size into the struct.
-static clast_status take_fixed(clx_h5 *h5, const char *folder, const char *name, int32_t rank,
+static clast_status read_fixed(clx_h5 *h5, const char *folder, const char *name, int32_t rank,
                                double *into)
 {
     char path[CLX_H5_NAME_LIMIT];
@@ -173,15 +173,15 @@ static clast_status take_fixed(clx_h5 *h5, const char *folder, const char *name,
     return clx_h5_read(h5, path, CLX_H5_F64, rank, shape, into);
 }
 
-static clast_status take_numbers(clx_h5 *h5, const char *folder, clast_shape *s)
+static clast_status read_numbers(clx_h5 *h5, const char *folder, clast_shape *s)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_h5_read_number(h5, folder, "volume", CLX_H5_F64, &s->volume));
     CLX_TRY(clx_h5_read_number(h5, folder, "length", CLX_H5_F64, &s->length));
     CLX_TRY(clx_h5_read_number(h5, folder, "bounding_radius", CLX_H5_F64, &s->bounding_radius));
-    CLX_TRY(take_fixed(h5, folder, "semi_axes", 1, s->semi_axes));
-    CLX_TRY(take_fixed(h5, folder, "inertia", 2, s->inertia[0]));
-    CLX_TRY(take_fixed(h5, folder, "source_origin", 1, s->source_origin));
+    CLX_TRY(read_fixed(h5, folder, "semi_axes", 1, s->semi_axes));
+    CLX_TRY(read_fixed(h5, folder, "inertia", 2, s->inertia[0]));
+    CLX_TRY(read_fixed(h5, folder, "source_origin", 1, s->source_origin));
     const double size[3] = {s->volume, s->length, s->bounding_radius};
     CLX_CHECK(all_positive(size, 3) && all_positive(s->semi_axes, 3) &&
                   s->semi_axes[0] >= s->semi_axes[1] && s->semi_axes[1] >= s->semi_axes[2] &&
@@ -192,7 +192,7 @@ done:
 }
 
 /// Where the mass of a shape of several densities is.
-static clast_status take_material(clx_h5 *h5, const char *folder, clast_material *own)
+static clast_status read_material(clx_h5 *h5, const char *folder, clast_material *own)
 {
     clast_status status = CLAST_OK;
     if (!has(h5, folder, "mass_centre")) {
@@ -200,8 +200,8 @@ static clast_status take_material(clx_h5 *h5, const char *folder, clast_material
     }
     own->is_mixed = true;
     CLX_TRY(clx_h5_read_number(h5, folder, "mass_density", CLX_H5_F64, &own->density));
-    CLX_TRY(take_fixed(h5, folder, "mass_centre", 1, own->centre));
-    CLX_TRY(take_fixed(h5, folder, "mass_inertia", 2, own->inertia[0]));
+    CLX_TRY(read_fixed(h5, folder, "mass_centre", 1, own->centre));
+    CLX_TRY(read_fixed(h5, folder, "mass_inertia", 2, own->inertia[0]));
     CLX_CHECK(all_positive(&own->density, 1) && all_finite(own->centre, 3) &&
                   all_finite(own->inertia[0], 9),
               CLAST_E_FORMAT, "%s: a mass that no shape has", folder);
@@ -234,7 +234,7 @@ done:
 }
 
 /// Convex parts of a rigid grain, whose surfaces are read.
-static clast_status take_rigid(clx_h5 *h5, const char *folder, clast_shape *shape)
+static clast_status read_rigid(clx_h5 *h5, const char *folder, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     int32_t(*id)[5] = NULL;
@@ -262,22 +262,22 @@ done:
     return status;
 }
 
-static clast_status take_shape(clx_h5 *h5, const char *folder, clast_shape *shape)
+static clast_status read_shape(clx_h5 *h5, const char *folder, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     clast_shape made = {0};
-    CLX_TRY(take_kind(h5, folder, &made.kind));
+    CLX_TRY(read_kind(h5, folder, &made.kind));
     CLX_TRY(clx_h5_read_text(h5, folder, "name", &made.name));
-    CLX_TRY(take_numbers(h5, folder, &made));
-    CLX_TRY(take_material(h5, folder, &made.own));
+    CLX_TRY(read_numbers(h5, folder, &made));
+    CLX_TRY(read_material(h5, folder, &made.own));
     if (has(h5, folder, "vert")) {
-        CLX_TRY(take_mesh(h5, folder, &made.mesh));
+        CLX_TRY(read_mesh(h5, folder, &made.mesh));
     }
     if (has(h5, folder, "centre")) {
-        CLX_TRY(clx_state_take_spheres(h5, folder, &made.spheres));
+        CLX_TRY(clx_state_read_spheres(h5, folder, &made.spheres));
     }
     if (has(h5, folder, "part")) {
-        CLX_TRY(take_rigid(h5, folder, &made));
+        CLX_TRY(read_rigid(h5, folder, &made));
     }
     CLX_CHECK((made.kind != CLAST_SHAPE_MESH || made.mesh.n_tri >= 4) &&
                   (made.kind != CLAST_SHAPE_CLUMP || made.spheres.n > 0) && made.name[0] != '\0',
@@ -289,7 +289,7 @@ done:
     return status;
 }
 
-static clast_status take_shapes(clx_h5 *h5, const char *folder, clast_assembly *a)
+static clast_status read_shapes(clx_h5 *h5, const char *folder, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -307,7 +307,7 @@ static clast_status take_shapes(clx_h5 *h5, const char *folder, clast_assembly *
     for (; a->n_shape < n; ++a->n_shape) {
         (void)snprintf(name, sizeof name, "shape/%06d", a->n_shape);
         CLX_CHECK(clx_join(path, folder, name), CLAST_E_FORMAT, "name %s is too long", folder);
-        CLX_TRY(take_shape(h5, path, &a->shape[a->n_shape]));
+        CLX_TRY(read_shape(h5, path, &a->shape[a->n_shape]));
     }
 done:
     return status;
@@ -333,7 +333,7 @@ done:
     return status;
 }
 
-static clast_status take_grains(clx_h5 *h5, const char *folder, clast_assembly *a)
+static clast_status read_grains(clx_h5 *h5, const char *folder, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     int64_t n = -1;
@@ -350,7 +350,7 @@ done:
     return status;
 }
 
-static clast_status take_contacts(clx_h5 *h5, const char *folder, clast_assembly *a)
+static clast_status read_contacts(clx_h5 *h5, const char *folder, clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     int64_t n = -1;
@@ -368,14 +368,14 @@ done:
     return status;
 }
 
-clast_status clx_state_take_assembly(clx_h5 *h5, const char *folder, clast_assembly *assembly)
+clast_status clx_state_read_assembly(clx_h5 *h5, const char *folder, clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     clast_assembly made = {0};
-    CLX_TRY(take_word(h5, folder, "unit", made.unit, sizeof made.unit));
-    CLX_TRY(take_shapes(h5, folder, &made));
-    CLX_TRY(take_grains(h5, folder, &made));
-    CLX_TRY(take_contacts(h5, folder, &made));
+    CLX_TRY(read_word(h5, folder, "unit", made.unit, sizeof made.unit));
+    CLX_TRY(read_shapes(h5, folder, &made));
+    CLX_TRY(read_grains(h5, folder, &made));
+    CLX_TRY(read_contacts(h5, folder, &made));
     *assembly = made;
     made = (clast_assembly){0};
 done:
@@ -402,7 +402,7 @@ done:
     return status;
 }
 
-static clast_status take_texts(clx_h5 *h5, const char *folder, const char *name, clast_table *table)
+static clast_status read_texts(clx_h5 *h5, const char *folder, const char *name, clast_table *table)
 {
     clast_status status = CLAST_OK;
     char begin_name[32];
@@ -420,7 +420,7 @@ done:
     return status;
 }
 
-static clast_status take_column(clx_h5 *h5, const char *folder, int32_t c, clast_table *table)
+static clast_status read_column(clx_h5 *h5, const char *folder, int32_t c, clast_table *table)
 {
     CLAST_ASSERT(c >= 0);
     clast_status status = CLAST_OK;
@@ -439,7 +439,7 @@ static clast_status take_column(clx_h5 *h5, const char *folder, int32_t c, clast
     CLX_TRY(clx_h5_read_text(h5, path, "unit", &unit));
     if (has(h5, folder, begin)) {
         CLX_TRY(clast_table_add_text(table, title));
-        CLX_TRY(take_texts(h5, folder, name, table));
+        CLX_TRY(read_texts(h5, folder, name, table));
     } else {
         CLX_TRY(read_array((clx_place){h5, folder}, name, CLX_H5_F64, 1, &n_row, &from));
         CLX_TRY(clast_table_add_number(table, title, unit, &into));
@@ -453,7 +453,7 @@ done:
     return status;
 }
 
-clast_status clx_state_take_table(clx_h5 *h5, const char *folder, clast_table *table)
+clast_status clx_state_read_table(clx_h5 *h5, const char *folder, clast_table *table)
 {
     clast_status status = CLAST_OK;
     clast_table made = {0};
@@ -469,7 +469,7 @@ clast_status clx_state_take_table(clx_h5 *h5, const char *folder, clast_table *t
               CLAST_E_FORMAT, "%s says %d columns of %" PRId64 " rows", folder, n_column, n_row);
     CLX_TRY(clast_table_init(&made, name, n_row));
     for (int32_t c = 0; c < n_column; ++c) {
-        CLX_TRY(take_column(h5, folder, c, &made));
+        CLX_TRY(read_column(h5, folder, c, &made));
     }
     *table = made;
     made = (clast_table){0};

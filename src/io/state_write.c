@@ -23,12 +23,12 @@ static clast_status write_array(clx_place at, const char *name, clx_h5_type type
     return clx_h5_write(at.h5, path, type, width == 1 ? 1 : 2, shape, data);
 }
 
-static clast_status put_f64(clx_h5 *h5, const char *folder, const char *name, double value)
+static clast_status write_f64(clx_h5 *h5, const char *folder, const char *name, double value)
 {
     return clx_h5_write_number(h5, folder, name, CLX_H5_F64, &value);
 }
 
-clast_status clx_state_put_head(clx_h5 *h5, const char *unit)
+clast_status clx_state_write_head(clx_h5 *h5, const char *unit)
 {
     clast_status status = CLAST_OK;
     const int32_t schema = CLX_STATE_SCHEMA;
@@ -40,7 +40,7 @@ done:
     return status;
 }
 
-static clast_status put_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres)
+static clast_status write_spheres(clx_h5 *h5, const char *folder, const clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(
@@ -52,7 +52,7 @@ done:
 }
 
 /// Convex parts of a rigid grain: kind; vertices and triangles; semi-axes, position, orientation.
-static clast_status put_rigid(clx_h5 *h5, const char *folder, const clast_parts *parts)
+static clast_status write_rigid(clx_h5 *h5, const char *folder, const clast_parts *parts)
 {
     clast_status status = CLAST_OK;
     int32_t *id = NULL;
@@ -74,7 +74,7 @@ done:
     return status;
 }
 
-static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape *shape)
+static clast_status write_parts(clx_h5 *h5, const char *folder, const clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     if (shape->mesh.n_vert > 0) {
@@ -84,42 +84,42 @@ static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape 
                             shape->mesh.tri));
     }
     if (shape->spheres.n > 0) {
-        CLX_TRY(put_spheres(h5, folder, &shape->spheres));
+        CLX_TRY(write_spheres(h5, folder, &shape->spheres));
     }
     if (shape->parts.n > 0) {
-        CLX_TRY(put_rigid(h5, folder, &shape->parts));
+        CLX_TRY(write_rigid(h5, folder, &shape->parts));
     }
 done:
     return status;
 }
 
-static clast_status put_shape(clx_h5 *h5, const char *folder, const clast_shape *shape)
+static clast_status write_shape(clx_h5 *h5, const char *folder, const clast_shape *shape)
 {
     static const char *const kinds[] = {"sphere", "ellipsoid", "mesh", "clump"};
     clast_status status = CLAST_OK;
     CLX_TRY(clx_h5_write_folder(h5, folder));
     CLX_TRY(clx_h5_write_text(h5, folder, "name", shape->name));
     CLX_TRY(clx_h5_write_text(h5, folder, "kind", kinds[shape->kind]));
-    CLX_TRY(put_f64(h5, folder, "volume", shape->volume));
-    CLX_TRY(put_f64(h5, folder, "length", shape->length));
-    CLX_TRY(put_f64(h5, folder, "bounding_radius", shape->bounding_radius));
+    CLX_TRY(write_f64(h5, folder, "volume", shape->volume));
+    CLX_TRY(write_f64(h5, folder, "length", shape->length));
+    CLX_TRY(write_f64(h5, folder, "bounding_radius", shape->bounding_radius));
     CLX_TRY(write_array((clx_place){h5, folder}, "semi_axes", CLX_H5_F64, 3, 1, shape->semi_axes));
     CLX_TRY(write_array((clx_place){h5, folder}, "inertia", CLX_H5_F64, 3, 3, shape->inertia));
     CLX_TRY(write_array((clx_place){h5, folder}, "source_origin", CLX_H5_F64, 3, 1,
                         shape->source_origin));
     if (shape->own.is_mixed) {
         const clast_material *own = &shape->own;
-        CLX_TRY(put_f64(h5, folder, "mass_density", own->density));
+        CLX_TRY(write_f64(h5, folder, "mass_density", own->density));
         CLX_TRY(write_array((clx_place){h5, folder}, "mass_centre", CLX_H5_F64, 3, 1, own->centre));
         CLX_TRY(
             write_array((clx_place){h5, folder}, "mass_inertia", CLX_H5_F64, 3, 3, own->inertia));
     }
-    CLX_TRY(put_parts(h5, folder, shape));
+    CLX_TRY(write_parts(h5, folder, shape));
 done:
     return status;
 }
 
-static clast_status put_grains(clx_h5 *h5, const char *folder, const clast_assembly *a)
+static clast_status write_grains(clx_h5 *h5, const char *folder, const clast_assembly *a)
 {
     clast_status status = CLAST_OK;
     const int32_t n = a->n_grain;
@@ -139,7 +139,7 @@ done:
     return status;
 }
 
-static clast_status put_assembly(clx_h5 *h5, const char *folder, const clast_assembly *assembly)
+static clast_status write_assembly(clx_h5 *h5, const char *folder, const clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -147,19 +147,19 @@ static clast_status put_assembly(clx_h5 *h5, const char *folder, const clast_ass
     CLX_TRY(clx_h5_write_folder(h5, folder));
     CLX_TRY(clx_h5_write_text(h5, folder, "unit", assembly->unit));
     CLX_TRY(clx_h5_write_number(h5, folder, "n_shape", CLX_H5_I32, &assembly->n_shape));
-    CLX_TRY(put_grains(h5, folder, assembly));
+    CLX_TRY(write_grains(h5, folder, assembly));
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         (void)snprintf(name, sizeof name, "shape/%06d", s);
         CLX_CHECK(clx_join(path, folder, name), CLAST_E_USAGE, "name %s is too long", folder);
-        CLX_TRY(put_shape(h5, path, &assembly->shape[s]));
+        CLX_TRY(write_shape(h5, path, &assembly->shape[s]));
     }
 done:
     return status;
 }
 
 /// A text column: all bytes in a row, and where each text begins, n_row + 1 numbers.
-static clast_status put_text_column(clx_h5 *h5, const char *folder, const char *name,
-                                    const clast_column *column, int64_t n_row)
+static clast_status write_text_column(clx_h5 *h5, const char *folder, const char *name,
+                                      const clast_column *column, int64_t n_row)
 {
     clast_status status = CLAST_OK;
     int64_t *begin = NULL;
@@ -181,7 +181,8 @@ done:
     return status;
 }
 
-static clast_status put_column(clx_h5 *h5, const char *folder, int32_t c, const clast_table *table)
+static clast_status write_column(clx_h5 *h5, const char *folder, int32_t c,
+                                 const clast_table *table)
 {
     clast_status status = CLAST_OK;
     const clast_column *column = &table->column[c];
@@ -193,7 +194,7 @@ static clast_status put_column(clx_h5 *h5, const char *folder, int32_t c, const 
         CLX_TRY(write_array((clx_place){h5, folder}, name, CLX_H5_F64, table->n_row, 1,
                             column->number));
     } else {
-        CLX_TRY(put_text_column(h5, folder, name, column, table->n_row));
+        CLX_TRY(write_text_column(h5, folder, name, column, table->n_row));
     }
     CLX_TRY(clx_h5_write_text(h5, path, "name", column->name));
     CLX_TRY(clx_h5_write_text(h5, path, "unit", column->unit));
@@ -201,7 +202,7 @@ done:
     return status;
 }
 
-static clast_status put_table(clx_h5 *h5, const char *folder, const clast_table *table)
+static clast_status write_table(clx_h5 *h5, const char *folder, const clast_table *table)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_h5_write_folder(h5, folder));
@@ -209,7 +210,7 @@ static clast_status put_table(clx_h5 *h5, const char *folder, const clast_table 
     CLX_TRY(clx_h5_write_number(h5, folder, "n_column", CLX_H5_I32, &table->n_column));
     CLX_TRY(clx_h5_write_number(h5, folder, "n_row", CLX_H5_I64, &table->n_row));
     for (int32_t c = 0; c < table->n_column; ++c) {
-        CLX_TRY(put_column(h5, folder, c, table));
+        CLX_TRY(write_column(h5, folder, c, table));
     }
 done:
     return status;
@@ -230,7 +231,7 @@ done:
     return status;
 }
 
-clast_status clx_state_put(clx_h5 *h5, const clast_state *state)
+clast_status clx_state_write_to(clx_h5 *h5, const clast_state *state)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -238,20 +239,20 @@ clast_status clx_state_put(clx_h5 *h5, const clast_state *state)
                        : state->assembly != NULL && state->assembly->unit[0] != '\0'
                            ? state->assembly->unit
                            : "m";
-    CLX_TRY(clx_state_put_head(h5, unit));
+    CLX_TRY(clx_state_write_head(h5, unit));
     if (state->config != NULL) {
         CLX_TRY(clx_h5_write_text(h5, "/", "config", state->config));
     }
     if (state->assembly != NULL) {
-        CLX_TRY(put_assembly(h5, "/assembly", state->assembly));
+        CLX_TRY(write_assembly(h5, "/assembly", state->assembly));
     }
     for (int32_t i = 0; i < state->n_spheres; ++i) {
         CLX_TRY(name_part(h5, "/spheres", state->spheres[i].name, path));
-        CLX_TRY(put_spheres(h5, path, &state->spheres[i].spheres));
+        CLX_TRY(write_spheres(h5, path, &state->spheres[i].spheres));
     }
     for (int32_t i = 0; i < state->n_table; ++i) {
         CLX_TRY(name_part(h5, "/table", state->table[i].name, path));
-        CLX_TRY(put_table(h5, path, &state->table[i]));
+        CLX_TRY(write_table(h5, path, &state->table[i]));
     }
 done:
     return status;
@@ -286,7 +287,7 @@ clast_status clast_state_write(const clast_state *state, const char *path)
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(clx_state_put(h5, state));
+    CLX_TRY(clx_state_write_to(h5, state));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);
@@ -309,11 +310,11 @@ clast_status clast_state_write_assembly(const clast_assembly *assembly, const ch
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(clx_state_put_head(h5, assembly->unit[0] != '\0' ? assembly->unit : "m"));
+    CLX_TRY(clx_state_write_head(h5, assembly->unit[0] != '\0' ? assembly->unit : "m"));
     if (config != NULL) {
         CLX_TRY(clx_h5_write_text(h5, "/", "config", config));
     }
-    CLX_TRY(put_assembly(h5, "/assembly", assembly));
+    CLX_TRY(write_assembly(h5, "/assembly", assembly));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);
@@ -329,9 +330,9 @@ clast_status clast_state_write_spheres(const clast_spheres *spheres, const char 
     clx_h5 *h5 = NULL;
     char folder[CLX_H5_NAME_LIMIT];
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(clx_state_put_head(h5, unit));
+    CLX_TRY(clx_state_write_head(h5, unit));
     CLX_TRY(name_part(h5, "/spheres", name, folder));
-    CLX_TRY(put_spheres(h5, folder, spheres));
+    CLX_TRY(write_spheres(h5, folder, spheres));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);

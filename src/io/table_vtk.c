@@ -47,8 +47,8 @@ static void plain_name(const char *name, char out[64])
 }
 
 /// Every column of numbers but those that say where.
-static clast_status put_data(clx_file *file, clx_vtk_array *array, const clast_table *table,
-                             int n_place, const clast_column *const *place)
+static clast_status write_data(clx_file *file, clx_vtk_array *array, const clast_table *table,
+                               int n_place, const clast_column *const *place)
 {
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "<CellData>\n");
@@ -140,7 +140,7 @@ clast_status clast_table_write_vti(const clast_table *table, const char *path)
                          "<Piece Extent=\"0 %" PRId64 " 0 %" PRId64 " 0 %" PRId64 "\">\n",
                          g.n[0], g.n[1], g.n[2], low[0], low[1], low[2], step[0], step[1], step[2],
                          g.n[0], g.n[1], g.n[2]);
-    CLX_TRY(put_data(&file, &array, table, 6, place));
+    CLX_TRY(write_data(&file, &array, table, 6, place));
     (void)clx_file_print(&file, "</Piece>\n</ImageData>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:
@@ -149,8 +149,8 @@ done:
     return status;
 }
 
-static clast_status put_lines(clx_file *file, clx_vtk_array *array, int64_t n,
-                              const clast_column *const place[6])
+static clast_status write_lines(clx_file *file, clx_vtk_array *array, int64_t n,
+                                const clast_column *const place[6])
 {
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "<Points>\n");
@@ -193,8 +193,8 @@ clast_status clast_table_write_vtp(const clast_table *table, const char *path)
                          "\" NumberOfVerts=\"0\" NumberOfLines=\"%" PRId64
                          "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
                          2 * table->n_row, table->n_row);
-    CLX_TRY(put_lines(&file, &array, table->n_row, place));
-    CLX_TRY(put_data(&file, &array, table, 6, place));
+    CLX_TRY(write_lines(&file, &array, table->n_row, place));
+    CLX_TRY(write_data(&file, &array, table, 6, place));
     (void)clx_file_print(&file, "</Piece>\n</PolyData>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:

@@ -11,7 +11,7 @@
 
 /// Control characters, but for the ends of lines and tabs that quotes keep, and bytes that are not
 /// UTF-8 are written as \xNN: a table is looked at in terminals.
-static void put_byte(clx_file *file, const char **c)
+static void write_byte(clx_file *file, const char **c)
 {
     char shown[8];
     char one[5] = "";
@@ -35,7 +35,7 @@ static void put_byte(clx_file *file, const char **c)
     ++*c;
 }
 
-static void put_cell(clx_file *file, const char *text)
+static void write_cell(clx_file *file, const char *text)
 {
     const size_t n = strlen(text);
     const bool quote = n == 0 || text[0] == '#' || text[0] == ' ' || text[n - 1] == ' ' ||
@@ -43,32 +43,32 @@ static void put_cell(clx_file *file, const char *text)
     (void)clx_file_write(file, "\"", quote ? 1 : 0);
     for (const char *c = text; *c != '\0';) {
         (void)clx_file_write(file, "\"", *c == '"' ? 1 : 0); // a quote is doubled
-        put_byte(file, &c);
+        write_byte(file, &c);
     }
     (void)clx_file_write(file, "\"", quote ? 1 : 0);
 }
 
 /// A number; what does not exist (NaN) is an empty cell, quoted where it is the whole line, which
 /// would be no row else.
-static void put_number(clx_file *file, double value, bool is_alone)
+static void write_number(clx_file *file, double value, bool is_alone)
 {
     char text[CLX_NUMBER_SIZE];
     if (!isnan(value)) {
         const int n = clx_number_format(value, text);
         (void)clx_file_write(file, text, (size_t)n);
     } else if (is_alone) {
-        put_cell(file, "");
+        write_cell(file, "");
     }
 }
 
-static void put_separator(clx_file *file, int32_t k)
+static void write_separator(clx_file *file, int32_t k)
 {
     if (k > 0) {
         (void)clx_file_write(file, ",", 1);
     }
 }
 
-static void put_note(clx_file *file, const char *note)
+static void write_note(clx_file *file, const char *note)
 {
     (void)clx_file_write(file, "# ", 2);
     for (const char *c = note; *c != '\0';) {
@@ -76,7 +76,7 @@ static void put_note(clx_file *file, const char *note)
             (void)clx_file_write(file, " ", 1);
             ++c;
         } else {
-            put_byte(file, &c);
+            write_byte(file, &c);
         }
     }
     (void)clx_file_write(file, "\n", 1);
@@ -96,21 +96,21 @@ clast_status clast_table_write_csv_note(const clast_table *table, const char *no
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     if (note != NULL) {
-        put_note(&file, note);
+        write_note(&file, note);
     }
     for (int32_t k = 0; k < table->n_column; ++k) {
-        put_separator(&file, k);
-        put_cell(&file, table->column[k].name);
+        write_separator(&file, k);
+        write_cell(&file, table->column[k].name);
     }
     (void)clx_file_write(&file, "\n", 1);
     for (int64_t row = 0; row < table->n_row; ++row) {
         for (int32_t k = 0; k < table->n_column; ++k) {
             const clast_column *column = &table->column[k];
-            put_separator(&file, k);
+            write_separator(&file, k);
             if (column->number != NULL) {
-                put_number(&file, column->number[row], table->n_column == 1);
+                write_number(&file, column->number[row], table->n_column == 1);
             } else {
-                put_cell(&file, column->text[row]);
+                write_cell(&file, column->text[row]);
             }
         }
         CLX_TRY(clx_file_write(&file, "\n", 1));
@@ -121,7 +121,7 @@ done:
     return status;
 }
 
-static void put_values(clx_file *file, const clast_table *table, const clast_column *column)
+static void write_values(clx_file *file, const clast_table *table, const clast_column *column)
 {
     for (int64_t row = 0; row < table->n_row; ++row) {
         if (row > 0) {
@@ -151,7 +151,7 @@ clast_status clast_table_write_json(const clast_table *table, const char *path)
         (void)clx_file_print(&file, ",\"unit\":");
         clx_json_text(&file, table->column[k].unit);
         (void)clx_file_print(&file, ",\"values\":[");
-        put_values(&file, table, &table->column[k]);
+        write_values(&file, table, &table->column[k]);
         (void)clx_file_print(&file, "]}");
     }
     (void)clx_file_print(&file, "\n]}\n");

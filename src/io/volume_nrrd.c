@@ -23,7 +23,7 @@ bool clx_nrrd_is(const uint8_t *bytes, size_t n)
     return n >= 8 && memcmp(bytes, "NRRD000", 7) == 0;
 }
 
-static clast_status take_type(const char *text, header *h)
+static clast_status read_type(const char *text, header *h)
 {
     static const struct {
         const char *name;
@@ -67,7 +67,7 @@ static bool three(const char *text, double value[3])
     return true;
 }
 
-static clast_status take_sizes(const char *text, header *h)
+static clast_status read_sizes(const char *text, header *h)
 {
     double size[3];
     if (!three(text, size)) {
@@ -82,7 +82,7 @@ static clast_status take_sizes(const char *text, header *h)
     return CLAST_OK;
 }
 
-static clast_status take_spacings(const char *text, header *h)
+static clast_status read_spacings(const char *text, header *h)
 {
     return three(text, h->edge)
                ? CLAST_OK
@@ -109,7 +109,7 @@ static const char *vector_of(const char *text, double value[3])
 }
 
 /// "(a,0,0) (0,b,0) (0,0,c)": the lengths of the three steps; they must be at right angles.
-static clast_status take_directions(const char *text, header *h)
+static clast_status read_directions(const char *text, header *h)
 {
     double step[3][3];
     for (int i = 0; i < 3; ++i) {
@@ -131,7 +131,7 @@ static clast_status take_directions(const char *text, header *h)
 }
 
 /// "mm" "mm" "mm": all axes in one unit.
-static clast_status take_units(const char *all, header *h)
+static clast_status read_units(const char *all, header *h)
 {
     const char *text = all;
     for (int k = 0; k < 3; ++k) {
@@ -152,7 +152,7 @@ static clast_status take_units(const char *all, header *h)
     return CLAST_OK;
 }
 
-static clast_status take_encoding(const char *text, header *h)
+static clast_status read_encoding(const char *text, header *h)
 {
     h->is_gzip = strcmp(text, "gzip") == 0 || strcmp(text, "gz") == 0;
     h->has_encoding = h->is_gzip || strcmp(text, "raw") == 0;
@@ -162,10 +162,10 @@ static clast_status take_encoding(const char *text, header *h)
                           text);
 }
 
-static clast_status take_field(const char *name, const char *text, header *h)
+static clast_status read_field(const char *name, const char *text, header *h)
 {
     if (strcmp(name, "type") == 0) {
-        return take_type(text, h);
+        return read_type(text, h);
     }
     if (strcmp(name, "dimension") == 0) {
         h->dimension = (int32_t)strtol(text, NULL, 10);
@@ -174,19 +174,19 @@ static clast_status take_field(const char *name, const char *text, header *h)
                    : clx_fail(CLAST_E_FORMAT, "NRRD: dimension '%.40s'; a volume has 3", text);
     }
     if (strcmp(name, "sizes") == 0) {
-        return take_sizes(text, h);
+        return read_sizes(text, h);
     }
     if (strcmp(name, "spacings") == 0) {
-        return take_spacings(text, h);
+        return read_spacings(text, h);
     }
     if (strcmp(name, "space directions") == 0) {
-        return take_directions(text, h);
+        return read_directions(text, h);
     }
     if (strcmp(name, "space units") == 0 || strcmp(name, "units") == 0) {
-        return take_units(text, h);
+        return read_units(text, h);
     }
     if (strcmp(name, "encoding") == 0) {
-        return take_encoding(text, h);
+        return read_encoding(text, h);
     }
     if (strcmp(name, "endian") == 0) {
         h->is_big_endian = strcmp(text, "big") == 0;
@@ -202,7 +202,7 @@ static clast_status take_field(const char *name, const char *text, header *h)
 }
 
 /// One line of the header without its end; lines of comments and `key:=value` are passed over.
-static clast_status take_line(const char *line, header *h)
+static clast_status read_line(const char *line, header *h)
 {
     char name[64];
     const char *colon = strstr(line, ": ");
@@ -210,7 +210,7 @@ static clast_status take_line(const char *line, header *h)
         return CLAST_OK;
     }
     (void)snprintf(name, sizeof name, "%.*s", (int)(colon - line), line);
-    return take_field(name, colon + 2, h);
+    return read_field(name, colon + 2, h);
 }
 
 /// Reads lines up to the empty one; *at is then the first byte of the values.
@@ -232,7 +232,7 @@ static clast_status read_header(const uint8_t *bytes, size_t n, header *h, size_
         if (length < sizeof line) { // longer ones are keys of other programs
             memcpy(line, start, length);
             line[length] = '\0';
-            CLX_TRY(take_line(line, h));
+            CLX_TRY(read_line(line, h));
         }
     }
     CLX_CHECK(h->has_type && h->has_encoding && h->dimension == 3 && h->n[0] > 0, CLAST_E_FORMAT,

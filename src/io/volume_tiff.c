@@ -235,7 +235,7 @@ static double find_number(const char *text, const char *key, char end)
 }
 
 /// An edge that the file states in a sensible way, else what it was.
-static void take_edge(double stated, double *edge)
+static void read_edge(double stated, double *edge)
 {
     if (stated > 0.0 && isfinite(stated)) {
         *edge = stated;
@@ -253,9 +253,9 @@ static void read_imagej(TIFF *file, const char *text, described *d)
                   fmax(1.0, find_number(text, "frames=", '\n'));
     (void)TIFFGetField(file, TIFFTAG_XRESOLUTION, &per_unit[0]);
     (void)TIFFGetField(file, TIFFTAG_YRESOLUTION, &per_unit[1]);
-    take_edge(1.0 / (double)per_unit[0], &d->edge[0]);
-    take_edge(1.0 / (double)per_unit[1], &d->edge[1]);
-    take_edge(fabs(find_number(text, "spacing=", '\n')), &d->edge[2]);
+    read_edge(1.0 / (double)per_unit[0], &d->edge[0]);
+    read_edge(1.0 / (double)per_unit[1], &d->edge[1]);
+    read_edge(fabs(find_number(text, "spacing=", '\n')), &d->edge[2]);
     find_value(text, "unit=", '\n', unit);
     d->unit_m = clx_volume_unit(unit);
 }
@@ -276,7 +276,7 @@ static void read_ome(const char *text, described *d)
         metre[k] = clx_volume_unit(word[0] != '\0' ? word : "um");
         const double stated = find_number(text, edge[k], '"');
         d->unit_m = k == 0 && stated > 0.0 ? metre[0] : d->unit_m;
-        take_edge(metre[k] == metre[0] ? stated : stated * metre[k] / metre[0], &d->edge[k]);
+        read_edge(metre[k] == metre[0] ? stated : stated * metre[k] / metre[0], &d->edge[k]);
     }
 }
 

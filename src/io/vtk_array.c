@@ -134,7 +134,7 @@ done:
 
 /// Base64 of two byte strings in a row is not that of their sum, so a text may have only one
 /// caller.
-static void put_base64(clx_file *file, const void *bytes, int64_t n)
+static void write_base64(clx_file *file, const void *bytes, int64_t n)
 {
     CLAST_ASSERT(n >= 0);
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -157,8 +157,8 @@ static void put_base64(clx_file *file, const void *bytes, int64_t n)
     (void)clx_file_write(file, out, used);
 }
 
-static clast_status put_array(clx_vtk_array *array, clx_file *file, const char *type,
-                              const char *name, int components, const char *tuples)
+static clast_status write_array(clx_vtk_array *array, clx_file *file, const char *type,
+                                const char *name, int components, const char *tuples)
 {
     clast_status status = CLAST_OK;
     uint64_t *head = NULL;
@@ -174,8 +174,8 @@ static clast_status put_array(clx_vtk_array *array, clx_file *file, const char *
                          "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"%s "
                          "format=\"binary\">\n",
                          type, name, components, tuples);
-    put_base64(file, head, (3 + array->n_block) * (int64_t)sizeof *head);
-    put_base64(file, array->packed, array->n_packed);
+    write_base64(file, head, (3 + array->n_block) * (int64_t)sizeof *head);
+    write_base64(file, array->packed, array->n_packed);
     CLX_TRY(clx_file_print(file, "\n</DataArray>\n"));
     CLX_TRY(clx_vtk_begin(array));
 done:
@@ -186,7 +186,7 @@ done:
 clast_status clx_vtk_end(clx_vtk_array *array, clx_file *file, const char *type, const char *name,
                          int components)
 {
-    return put_array(array, file, type, name, components, "");
+    return write_array(array, file, type, name, components, "");
 }
 
 clast_status clx_vtk_end_field(clx_vtk_array *array, clx_file *file, const char *type,
@@ -195,5 +195,5 @@ clast_status clx_vtk_end_field(clx_vtk_array *array, clx_file *file, const char 
     CLAST_ASSERT(n_tuple >= 0);
     char tuples[64];
     (void)snprintf(tuples, sizeof tuples, " NumberOfTuples=\"%lld\"", (long long)n_tuple);
-    return put_array(array, file, type, name, components, tuples);
+    return write_array(array, file, type, name, components, tuples);
 }

@@ -8,7 +8,7 @@
 #include <clast/table.h>
 #include <inttypes.h>
 
-static void put_tail(clx_file *file)
+static void write_tail(clx_file *file)
 {
     (void)clx_file_print(file, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
@@ -98,7 +98,7 @@ static const property of_field[] = {
 typedef enum { ONCE, EACH_TRIANGLE, IN_FIELD } place;
 
 /// One property of every grain.
-static clast_status put_property(clx_export *e, clx_vtk_array *array, const property *p, place at)
+static clast_status write_property(clx_export *e, clx_vtk_array *array, const property *p, place at)
 {
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
@@ -122,7 +122,7 @@ done:
 }
 
 /// The caller's numbers of the grains, likewise.
-static clast_status put_values(clx_export *e, clx_vtk_array *array, bool per_triangle)
+static clast_status write_values(clx_export *e, clx_vtk_array *array, bool per_triangle)
 {
     clast_status status = CLAST_OK;
     const clast_table *values = e->options->values;
@@ -150,14 +150,14 @@ static const char *shape_name(const void *assembly, int32_t i)
 }
 
 /// Unit, names of the shapes, and how each grain is placed.
-static clast_status put_head(clx_export *e, clx_vtk_array *array, int64_t n_point, int64_t n_cell,
-                             bool has_poses)
+static clast_status write_head(clx_export *e, clx_vtk_array *array, int64_t n_point, int64_t n_cell,
+                               bool has_poses)
 {
     clast_status status = CLAST_OK;
     clx_vtk_head(&e->file, "UnstructuredGrid");
     (void)clx_file_print(&e->file, "<FieldData>");
     for (size_t k = 0; has_poses && k < sizeof of_field / sizeof of_field[0]; ++k) {
-        CLX_TRY(put_property(e, array, &of_field[k], IN_FIELD));
+        CLX_TRY(write_property(e, array, &of_field[k], IN_FIELD));
     }
     clx_vtk_field_text(&e->file, "unit", e->unit);
     clx_vtk_field_texts(&e->file, "shape_names", e->assembly->n_shape, shape_name, e->assembly);
@@ -169,7 +169,7 @@ done:
     return status;
 }
 
-static clast_status put_surface_points(clx_export *e, clx_vtk_array *array)
+static clast_status write_surface_points(clx_export *e, clx_vtk_array *array)
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
@@ -183,7 +183,7 @@ done:
     return status;
 }
 
-static clast_status put_connectivity(clx_export *e, clx_vtk_array *array)
+static clast_status write_connectivity(clx_export *e, clx_vtk_array *array)
 {
     clast_status status = CLAST_OK;
     int64_t first = 0;
@@ -202,8 +202,8 @@ done:
 }
 
 /// Ends of the cells and their VTK type: n cells of `corners` corners each.
-static clast_status put_cells(clx_export *e, clx_vtk_array *array, int64_t n, int64_t corners,
-                              uint8_t type)
+static clast_status write_cells(clx_export *e, clx_vtk_array *array, int64_t n, int64_t corners,
+                                uint8_t type)
 {
     clast_status status = CLAST_OK;
     for (int64_t i = 1; i <= n; ++i) {
@@ -226,24 +226,24 @@ clast_status clx_export_vtu_surfaces(clx_export *e)
     clast_status status = CLAST_OK;
     clx_vtk_array array = {0};
     CLX_TRY(clx_vtk_begin(&array));
-    CLX_TRY(put_head(e, &array, e->parts.n_vert, e->parts.n_tri, true));
-    CLX_TRY(put_surface_points(e, &array));
+    CLX_TRY(write_head(e, &array, e->parts.n_vert, e->parts.n_tri, true));
+    CLX_TRY(write_surface_points(e, &array));
     (void)clx_file_print(&e->file, "<Cells>\n");
-    CLX_TRY(put_connectivity(e, &array));
-    CLX_TRY(put_cells(e, &array, e->parts.n_tri, 3, VTK_TRIANGLE));
+    CLX_TRY(write_connectivity(e, &array));
+    CLX_TRY(write_cells(e, &array, e->parts.n_tri, 3, VTK_TRIANGLE));
     (void)clx_file_print(&e->file, "<CellData>\n");
     for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &common[k], EACH_TRIANGLE));
+        CLX_TRY(write_property(e, &array, &common[k], EACH_TRIANGLE));
     }
-    CLX_TRY(put_values(e, &array, true));
+    CLX_TRY(write_values(e, &array, true));
     (void)clx_file_print(&e->file, "</CellData>\n");
-    put_tail(&e->file);
+    write_tail(&e->file);
 done:
     clx_vtk_free(&array);
     return status;
 }
 
-static clast_status put_grain_points(clx_export *e, clx_vtk_array *array)
+static clast_status write_grain_points(clx_export *e, clx_vtk_array *array)
 {
     clast_status status = CLAST_OK;
     const int32_t n = e->assembly->n_grain;
@@ -266,19 +266,19 @@ clast_status clx_export_vtu_points(clx_export *e)
     clx_vtk_array array = {0};
     const int32_t n = e->assembly->n_grain;
     CLX_TRY(clx_vtk_begin(&array));
-    CLX_TRY(put_head(e, &array, n, n, false));
-    CLX_TRY(put_grain_points(e, &array));
-    CLX_TRY(put_cells(e, &array, n, 1, VTK_VERTEX));
+    CLX_TRY(write_head(e, &array, n, n, false));
+    CLX_TRY(write_grain_points(e, &array));
+    CLX_TRY(write_cells(e, &array, n, 1, VTK_VERTEX));
     (void)clx_file_print(&e->file, "<PointData>\n");
     for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &common[k], ONCE));
+        CLX_TRY(write_property(e, &array, &common[k], ONCE));
     }
     for (size_t k = 0; k < sizeof of_points / sizeof of_points[0]; ++k) {
-        CLX_TRY(put_property(e, &array, &of_points[k], ONCE));
+        CLX_TRY(write_property(e, &array, &of_points[k], ONCE));
     }
-    CLX_TRY(put_values(e, &array, false));
+    CLX_TRY(write_values(e, &array, false));
     (void)clx_file_print(&e->file, "</PointData>\n");
-    put_tail(&e->file);
+    write_tail(&e->file);
 done:
     clx_vtk_free(&array);
     return status;

@@ -70,7 +70,7 @@ done:
     return status;
 }
 
-static int put_cell(const clast_pack *p, const clast_dem_load *load, double *x)
+static int write_cell(const clast_pack *p, const clast_dem_load *load, double *x)
 {
     clast_dem_cell cell;
     double s[6];
@@ -100,7 +100,7 @@ static int put_cell(const clast_pack *p, const clast_dem_load *load, double *x)
     return n;
 }
 
-static int put_contacts(const clast_dem_load *load, double *x)
+static int write_contacts(const clast_dem_load *load, double *x)
 {
     const double value[] = {(double)load->n_contact, load->coordination,   load->n_rattler,
                             load->coordination_held, load->fabric[0],      load->fabric[1],
@@ -114,7 +114,7 @@ static int put_contacts(const clast_dem_load *load, double *x)
     return COUNT(value);
 }
 
-static int put_energy(const clast_dem_energy *e, double *x)
+static int write_energy(const clast_dem_energy *e, double *x)
 {
     const double value[] = {
         e->put_in,     e->made,        e->gravity,    e->shaking,        e->cell,
@@ -144,9 +144,9 @@ clast_status clx_pack_load_row(clast_pack *p)
         return CLAST_OK;
     }
     CLX_TRY(clx_dem_gather_load(p->dem, &load, &energy));
-    n += p->config.dem.domain == CLAST_DEM_CELL ? put_cell(p, &load, x + n) : 0;
-    n += put_contacts(&load, x + n);
-    n += p->config.energy ? put_energy(&energy, x + n) : 0;
+    n += p->config.dem.domain == CLAST_DEM_CELL ? write_cell(p, &load, x + n) : 0;
+    n += write_contacts(&load, x + n);
+    n += p->config.energy ? write_energy(&energy, x + n) : 0;
     CLAST_ASSERT(n == table->n_column && n <= MOST);
     CLX_TRY(clast_table_resize(table, row + 1));
     for (int k = 0; k < n; ++k) {

@@ -72,7 +72,7 @@ done:
     return status;
 }
 
-static clast_status take_rows(clast_table *to, const clast_table *from)
+static clast_status restore_rows(clast_table *to, const clast_table *from)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(from->n_column == to->n_column, CLAST_E_FORMAT,
@@ -164,7 +164,7 @@ done:
 }
 
 /// Grains that wait: numbers that rise, forms that are there.
-static clast_status take_waiting(clast_pack *p, const clx_pack_saved *s)
+static clast_status restore_waiting(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&p->waiting, &p->waiting_capacity, s->n_waiting + 1, sizeof *p->waiting));
@@ -182,14 +182,14 @@ done:
 }
 
 /// Where the stages of a load are.
-static clast_status take_load(clast_pack *p, const clx_pack_saved *s)
+static clast_status restore_load(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     const bool has_stage = p->config.stages.n > 0;
     CLX_CHECK(clx_pack_has_load(&p->config) == (s->load != NULL), CLAST_E_FORMAT,
               "the checkpoint lacks the rows of load.csv");
     if (s->load != NULL) {
-        CLX_TRY(take_rows(&p->load.table, s->load));
+        CLX_TRY(restore_rows(&p->load.table, s->load));
     }
     CLX_CHECK(!has_stage ||
                   (s->stage[0] >= 0.0 && s->stage[0] < p->config.stages.n && s->stage[1] >= 0.0 &&
@@ -210,7 +210,7 @@ done:
     return status;
 }
 
-static clast_status take_walls(clast_pack *p, const clx_pack_saved *s)
+static clast_status restore_walls(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(clx_pack_has_walls(&p->config) == (s->wall != NULL && s->walls != NULL) &&
@@ -224,7 +224,7 @@ static clast_status take_walls(clast_pack *p, const clx_pack_saved *s)
         return CLAST_OK;
     }
     const double *x = s->wall;
-    CLX_TRY(take_rows(&p->walls, s->walls));
+    CLX_TRY(restore_rows(&p->walls, s->walls));
     for (int32_t i = 0; i < p->n_wall; ++i, x += CLX_PACK_WALL) {
         p->wall[i].steady = x[0];
         v3_copy(p->wall[i].impulse, x + 1);
@@ -262,13 +262,13 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
         CLX_TRY(clast_dem_add_shape(p->dem, &s->shape[i], &id));
     }
     CLX_TRY(clx_dem_restore(p->dem, &s->dem));
-    CLX_TRY(take_rows(&p->series, s->series));
-    CLX_TRY(take_load(p, s));
-    CLX_TRY(take_walls(p, s));
+    CLX_TRY(restore_rows(&p->series, s->series));
+    CLX_TRY(restore_load(p, s));
+    CLX_TRY(restore_walls(p, s));
     CLX_CHECK(s->count[1] == s->dem.n_grain + p->n_left, CLAST_E_FORMAT,
               "the checkpoint has %lld grains, %lld that left, of %lld", (long long)s->dem.n_grain,
               (long long)p->n_left, (long long)s->count[1]);
-    CLX_TRY(take_waiting(p, s));
+    CLX_TRY(restore_waiting(p, s));
     p->phase = (clast_pack_phase)s->count[0];
     p->n_made = s->count[1];
     p->n_fill = (int32_t)s->count[2];

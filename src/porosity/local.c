@@ -68,7 +68,7 @@ static void wrap(const diagram *d, double x[3])
     }
 }
 
-static clast_status take_spheres(const clast_assembly *assembly, diagram *d)
+static clast_status copy_spheres(const clast_assembly *assembly, diagram *d)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&d->grain, assembly->n_grain, sizeof *d->grain));
@@ -388,7 +388,7 @@ clast_status clast_porosity_local(const clast_assembly *assembly, const clast_be
     CLX_CHECK(z_high > z_low && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
               "a bed from %s to %s over %s holds nothing", clx_unit_text(z_low, "m"),
               clx_unit_text(z_high, "m"), clx_unit_text(clast_bed_area(bed), "m^2"));
-    CLX_TRY(take_spheres(assembly, &d));
+    CLX_TRY(copy_spheres(assembly, &d));
     CLX_TRY(make_grid(&d));
     CLX_TRY(clast_table_init(&made, "local", d.n));
     CLX_TRY(make_columns(assembly, &d, &made));

@@ -84,7 +84,7 @@ static void fill(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-clast_status clx_samples_keep(clx_samples *samples, int64_t n_pixel)
+clast_status clx_samples_allocate(clx_samples *samples, int64_t n_pixel)
 {
     clast_status status = CLAST_OK;
     const int64_t bytes =

@@ -26,7 +26,7 @@ typedef struct clx_samples {
 } clx_samples;
 
 /// Fills what is kept for a picture of so many pixels; the other members are set.
-clast_status clx_samples_keep(clx_samples *samples, int64_t n_pixel);
+clast_status clx_samples_allocate(clx_samples *samples, int64_t n_pixel);
 void clx_samples_free(clx_samples *samples);
 
 clx_sample clx_sample_at(const clx_samples *samples, int32_t x, int32_t y, int32_t number);

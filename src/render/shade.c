@@ -35,7 +35,7 @@ clast_status clx_shader_set(clx_shader *shader, const clx_scene *scene,
     v3_frame(samples->sun, samples->sun_a, samples->sun_b);
     v3_axpy(shader->zenith, camera->up, 0.35, camera->back);
     (void)v3_unit(shader->zenith, shader->zenith);
-    return clx_samples_keep(samples, (int64_t)config->width * config->height);
+    return clx_samples_allocate(samples, (int64_t)config->width * config->height);
 }
 
 void clx_shader_free(clx_shader *shader)

@@ -21,8 +21,8 @@ static const clast_table *source_of(const clx_run *run, clast_aggregate_chart ch
     return table != NULL && clast_aggregate_chart_fits(chart, table) ? table : NULL;
 }
 
-static clast_status put_chart(clx_file *file, const clx_run *run, clast_aggregate_chart chart,
-                              int32_t index)
+static clast_status write_chart(clx_file *file, const clx_run *run, clast_aggregate_chart chart,
+                                int32_t index)
 {
     clast_status status = CLAST_OK;
     unsigned char *svg = NULL;
@@ -52,7 +52,7 @@ clast_status clx_figures_charts(clx_file *file, const clx_run *run, int32_t inde
         }
         (void)clx_file_print(file, "%s", is_open ? "" : "<div class=\"charts\">\n");
         is_open = true;
-        CLX_TRY(put_chart(file, run, (clast_aggregate_chart)k, index));
+        CLX_TRY(write_chart(file, run, (clast_aggregate_chart)k, index));
     }
     (void)clx_file_print(file, "%s", is_open ? "</div>\n" : "");
 done:
@@ -171,7 +171,8 @@ static bool is_picture(const clx_run *run, const char *name)
 }
 
 /// As a data URI: an <img> never runs a script, not even that of an SVG.
-static clast_status put_picture(clx_file *file, const clx_run *run, const char *name, int64_t *left)
+static clast_status write_picture(clx_file *file, const clx_run *run, const char *name,
+                                  int64_t *left)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -212,7 +213,7 @@ clast_status clx_figures_pictures(clx_file *file, const clx_run *run, int64_t li
         (void)clx_file_print(file, "%s",
                              is_open ? "" : "<h3>Pictures</h3>\n<div class=\"pictures\">\n");
         is_open = true;
-        CLX_TRY(put_picture(file, run, run->files.name[i], &left));
+        CLX_TRY(write_picture(file, run, run->files.name[i], &left));
     }
     (void)clx_file_print(file, "%s", is_open ? "</div>\n" : "");
 done:

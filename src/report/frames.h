@@ -39,6 +39,6 @@ clast_status clx_frames_last(const clx_run *run, const clast_assembly *from, cla
 /// Writes , "frames": {...} of the view's data; nothing without frames (NULL too).
 ///
 /// @param n_shown  grains of the view; those beyond are left out
-clast_status clx_frames_put(clx_file *file, const clx_frames *frames,
-                            const clast_assembly *assembly, int32_t n_shown, const double centre[3],
-                            double length);
+clast_status clx_frames_write(clx_file *file, const clx_frames *frames,
+                              const clast_assembly *assembly, int32_t n_shown,
+                              const double centre[3], double length);

@@ -143,7 +143,7 @@ void clx_page_svg(clx_file *file, const char *svg, size_t n, const char *prefix)
 }
 
 /// Digest of our script as the policy wants it.
-static void put_script_digest(clx_file *file)
+static void write_script_digest(clx_file *file)
 {
     char hex[65];
     unsigned char digest[32];
@@ -164,7 +164,7 @@ void clx_page_begin(clx_file *file, const char *title)
         file, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
               "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
               "img-src data:; style-src 'unsafe-inline'; script-src 'sha256-");
-    put_script_digest(file);
+    write_script_digest(file);
     (void)clx_file_print(file,
                          "'; base-uri 'none'; form-action 'none'\">\n"
                          "<meta name=\"viewport\" content=\"width=device-width, "

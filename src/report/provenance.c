@@ -15,14 +15,14 @@
 #include <string.h>
 
 /// Any value as text: strings plain, lists with commas, the rest as JSON.
-static void put_plain(clx_file *file, const json_t *value)
+static void write_plain(clx_file *file, const json_t *value)
 {
     if (json_is_string(value)) {
         clx_page_text(file, json_string_value(value));
     } else if (json_is_array(value)) {
         for (size_t i = 0; i < json_array_size(value); ++i) {
             (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
-            put_plain(file, json_array_get(value, i));
+            write_plain(file, json_array_get(value, i));
         }
     } else if (json_is_real(value)) {
         (void)clx_file_print(file, "%.9g", json_real_value(value));
@@ -33,7 +33,7 @@ static void put_plain(clx_file *file, const json_t *value)
     }
 }
 
-static void put_command_line(clx_file *file, const json_t *words)
+static void write_command_line(clx_file *file, const json_t *words)
 {
     (void)clx_file_print(file, "<code>");
     for (size_t i = 0; i < json_array_size(words); ++i) {
@@ -47,7 +47,7 @@ static void put_command_line(clx_file *file, const json_t *words)
     (void)clx_file_print(file, "</code>");
 }
 
-static void put_host(clx_file *file, const json_t *host)
+static void write_host(clx_file *file, const json_t *host)
 {
     const char *key = NULL;
     json_t *value = NULL;
@@ -56,13 +56,13 @@ static void put_host(clx_file *file, const json_t *host)
     {
         (void)clx_file_print(file, "%s", is_first ? "" : " \302\267 ");
         (void)clx_file_print(file, "%s", strcmp(key, "compiler") == 0 ? "compiler " : "");
-        put_plain(file, value);
+        write_plain(file, value);
         (void)clx_file_print(file, "%s", strcmp(key, "cores") == 0 ? " cores" : "");
         is_first = false;
     }
 }
 
-static void put_facts(clx_file *file, const json_t *manifest)
+static void write_facts(clx_file *file, const json_t *manifest)
 {
     const char *key = NULL;
     json_t *value = NULL;
@@ -75,25 +75,25 @@ static void put_facts(clx_file *file, const json_t *manifest)
             continue;
         }
         (void)clx_file_print(file, "<tr><th>");
-        clx_quantity_put_label(file, key, NULL);
+        clx_quantity_write_label(file, key, NULL);
         (void)clx_file_print(file, "</th><td>");
         if (strcmp(key, "command_line") == 0) {
-            put_command_line(file, value);
+            write_command_line(file, value);
         } else if (strcmp(key, "host") == 0) {
-            put_host(file, value);
+            write_host(file, value);
         } else if (strcmp(key, "peak_memory_bytes") == 0) {
             (void)clx_file_print(file, "%.1f\302\240MiB", json_number_value(value) / 1048576.0);
         } else if (json_is_real(value) && strcmp(key, "seed") != 0) {
-            clx_quantity_put(file, json_number_value(value), clx_quantity_of(key, NULL).unit);
+            clx_quantity_write(file, json_number_value(value), clx_quantity_of(key, NULL).unit);
         } else {
-            put_plain(file, value);
+            write_plain(file, value);
         }
         (void)clx_file_print(file, "</td></tr>\n");
     }
     (void)clx_file_print(file, "</table></div>\n");
 }
 
-static void put_inputs(clx_file *file, const json_t *inputs)
+static void write_inputs(clx_file *file, const json_t *inputs)
 {
     (void)clx_file_print(
         file, "<div class=\"card wide\"><h4>Inputs</h4><div class=\"scroll\" tabindex=\"0\"><table "
@@ -102,13 +102,13 @@ static void put_inputs(clx_file *file, const json_t *inputs)
     for (size_t i = 0; i < json_array_size(inputs); ++i) {
         const json_t *input = json_array_get(inputs, i);
         (void)clx_file_print(file, "<tr><td>");
-        put_plain(file, json_object_get(input, "role"));
+        write_plain(file, json_object_get(input, "role"));
         (void)clx_file_print(file, "</td><td>");
-        put_plain(file, json_object_get(input, "path"));
+        write_plain(file, json_object_get(input, "path"));
         (void)clx_file_print(file, "</td><td class=\"n\">");
-        put_plain(file, json_object_get(input, "bytes"));
+        write_plain(file, json_object_get(input, "bytes"));
         (void)clx_file_print(file, "</td><td><code class=\"hash\">");
-        put_plain(file, json_object_get(input, "sha256"));
+        write_plain(file, json_object_get(input, "sha256"));
         (void)clx_file_print(file, "</code></td></tr>\n");
     }
     (void)clx_file_print(file, "</table></div></div>\n");
@@ -134,24 +134,24 @@ static const clast_field *field_of(const char *command, const char *key)
 }
 
 /// Numbers with their unit, all else as it is written in a configuration.
-static void put_setting(clx_file *file, const clast_field *field, const json_t *value)
+static void write_setting(clx_file *file, const clast_field *field, const json_t *value)
 {
     const bool has_unit = field != NULL && strcmp(field->unit, "-") != 0;
     if (has_unit && json_is_number(value)) {
-        clx_quantity_put(file, json_number_value(value), field->unit);
+        clx_quantity_write(file, json_number_value(value), field->unit);
         return;
     }
     if (!has_unit || !json_is_array(value)) {
-        put_plain(file, value);
+        write_plain(file, value);
         return;
     }
     for (size_t i = 0; i < json_array_size(value); ++i) {
         (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
-        put_setting(file, field, json_array_get(value, i));
+        write_setting(file, field, json_array_get(value, i));
     }
 }
 
-static void put_config(clx_file *file, const json_t *manifest, const json_t *config)
+static void write_config(clx_file *file, const json_t *manifest, const json_t *config)
 {
     const char *command = json_string_value(json_object_get(manifest, "command"));
     const char *key = NULL;
@@ -168,7 +168,7 @@ static void put_config(clx_file *file, const json_t *manifest, const json_t *con
         (void)clx_file_print(file, "<tr><td><code>");
         clx_page_text(file, key);
         (void)clx_file_print(file, "</code></td><td>");
-        put_setting(file, field, value);
+        write_setting(file, field, value);
         (void)clx_file_print(file, "</td><td>");
         clx_page_text(file, field != NULL ? field->help : "");
         (void)clx_file_print(file, "</td></tr>\n");
@@ -176,7 +176,7 @@ static void put_config(clx_file *file, const json_t *manifest, const json_t *con
     (void)clx_file_print(file, "</table></div></details>\n");
 }
 
-void clx_provenance_put(clx_file *file, const clx_run *run)
+void clx_provenance_write(clx_file *file, const clx_run *run)
 {
     const json_t *manifest = run->manifest;
     const json_t *inputs = json_object_get(manifest, "inputs");
@@ -187,12 +187,12 @@ void clx_provenance_put(clx_file *file, const clx_run *run)
         return;
     }
     (void)clx_file_print(file, "<div class=\"cards\">\n");
-    put_facts(file, manifest);
+    write_facts(file, manifest);
     if (json_array_size(inputs) > 0) {
-        put_inputs(file, inputs);
+        write_inputs(file, inputs);
     }
     if (json_is_object(config)) {
-        put_config(file, manifest, config);
+        write_config(file, manifest, config);
     }
     (void)clx_file_print(file, "</div>\n");
 }

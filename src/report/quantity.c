@@ -91,12 +91,12 @@ void clx_quantity_format(double value, const clx_quantity_scale *scale,
     }
 }
 
-void clx_quantity_put(clx_file *file, double value, const char *si_unit)
+void clx_quantity_write(clx_file *file, double value, const char *si_unit)
 {
-    clx_quantity_put_like(file, value, si_unit, value);
+    clx_quantity_write_like(file, value, si_unit, value);
 }
 
-void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, double like)
+void clx_quantity_write_like(clx_file *file, double value, const char *si_unit, double like)
 {
     char text[CLX_QUANTITY_SIZE];
     char unit[CLX_UNIT_SIZE];
@@ -126,7 +126,7 @@ void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, do
     (void)clx_file_print(file, "</span>");
 }
 
-void clx_quantity_put_word(clx_file *file, double value, const char *words)
+void clx_quantity_write_word(clx_file *file, double value, const char *words)
 {
     const char *at = words;
     for (int k = 0; k < 16 && at != NULL && *at != '\0'; ++k) {
@@ -138,5 +138,5 @@ void clx_quantity_put_word(clx_file *file, double value, const char *words)
         }
         at = bar != NULL ? bar + 1 : NULL;
     }
-    clx_quantity_put(file, value, "");
+    clx_quantity_write(file, value, "");
 }

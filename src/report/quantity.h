@@ -46,16 +46,16 @@ void clx_quantity_format(double value, const clx_quantity_scale *scale,
                          char text[CLX_QUANTITY_SIZE]);
 
 /// The label, or the key itself as code when it is not known.
-void clx_quantity_put_label(clx_file *file, const char *key, const char *place);
+void clx_quantity_write_label(clx_file *file, const char *key, const char *place);
 
 /// The label of a key that names a row, with the unit that it ends in: "Sieve size (m)".
-void clx_quantity_put_name(clx_file *file, const char *key);
+void clx_quantity_write_name(clx_file *file, const char *key);
 
 /// Writes value and unit with the full value as a tooltip; nothing but a dash for nan and inf.
-void clx_quantity_put(clx_file *file, double value, const char *si_unit);
+void clx_quantity_write(clx_file *file, double value, const char *si_unit);
 
 /// The same in the unit in which `like` reads best: a row's numbers share one.
-void clx_quantity_put_like(clx_file *file, double value, const char *si_unit, double like);
+void clx_quantity_write_like(clx_file *file, double value, const char *si_unit, double like);
 
 /// Writes the word of the number, "2" of "no|yes" as the number itself.
-void clx_quantity_put_word(clx_file *file, double value, const char *words);
+void clx_quantity_write_word(clx_file *file, double value, const char *words);

@@ -251,7 +251,7 @@ const char *clast_report_unit(const char *key)
     return key != NULL ? clx_quantity_of(key, NULL).unit : "";
 }
 
-void clx_quantity_put_label(clx_file *file, const char *key, const char *place)
+void clx_quantity_write_label(clx_file *file, const char *key, const char *place)
 {
     const clx_quantity q = clx_quantity_of(key, place);
     if (q.label[0] != '\0') {
@@ -263,10 +263,10 @@ void clx_quantity_put_label(clx_file *file, const char *key, const char *place)
     (void)clx_file_print(file, "</code>");
 }
 
-void clx_quantity_put_name(clx_file *file, const char *key)
+void clx_quantity_write_name(clx_file *file, const char *key)
 {
     char unit[CLX_UNIT_SIZE];
-    clx_quantity_put_label(file, key, NULL);
+    clx_quantity_write_label(file, key, NULL);
     if (names_unit(key)) {
         clx_quantity_show_unit(clx_quantity_of(key, NULL).unit, unit);
         (void)clx_file_print(file, " (");

@@ -56,7 +56,7 @@ static int32_t count_states(const clx_run *run)
 }
 
 /// What the view's slider can show of a run, told below it.
-static void put_frames_note(clx_file *file, const clx_frames *frames)
+static void write_frames_note(clx_file *file, const clx_frames *frames)
 {
     if (frames->lacks_poses) {
         (void)clx_file_print(file, "<p class=\"note\">The frames are of a version before 0.2, "
@@ -68,29 +68,30 @@ static void put_frames_note(clx_file *file, const clx_frames *frames)
     }
 }
 
-static clast_status put_assembly(clx_file *file, const clx_run *run, const clast_assembly *assembly,
-                                 const clast_table *contacts, const clast_report_config *config)
+static clast_status write_assembly(clx_file *file, const clx_run *run,
+                                   const clast_assembly *assembly, const clast_table *contacts,
+                                   const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
     clx_frames frames = {0};
     CLX_TRY(clx_frames_read(run, assembly, &frames));
-    CLX_TRY(clx_view3d_put(file, assembly, contacts, &frames, config->triangles));
-    put_frames_note(file, &frames);
+    CLX_TRY(clx_view3d_write(file, assembly, contacts, &frames, config->triangles));
+    write_frames_note(file, &frames);
 done:
     clx_frames_free(&frames);
     return status;
 }
 
 /// All bodies in time, of a run whose state is one of them.
-static clast_status put_bodies(clx_file *file, const clx_run *run, const clast_assembly *largest,
-                               const clast_report_config *config)
+static clast_status write_bodies(clx_file *file, const clx_run *run, const clast_assembly *largest,
+                                 const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
     clast_assembly last = {0};
     CLX_TRY(clx_frames_last(run, largest, &last));
     if (last.n_grain > 0) {
         (void)clx_file_print(file, "<h3>All bodies <small>frames.pvd</small></h3>\n");
-        CLX_TRY(put_assembly(file, run, &last, NULL, config));
+        CLX_TRY(write_assembly(file, run, &last, NULL, config));
     }
 done:
     clast_assembly_free(&last);
@@ -103,7 +104,8 @@ static const char *word_of(const clx_run *run, const char *key)
     return word != NULL ? word : "";
 }
 
-static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
+static clast_status append_view(clx_file *file, const clx_run *run,
+                                const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -116,11 +118,11 @@ static clast_status put_view(clx_file *file, const clx_run *run, const clast_rep
                          is_part ? "Largest body" : "Assembly",
                          count_states(run) > 1 ? ", the first of the folder's states" : "");
     if (is_part) {
-        CLX_TRY(clx_view3d_put(file, state.assembly, NULL, NULL, config->triangles));
-        CLX_TRY(put_bodies(file, run, state.assembly, config));
+        CLX_TRY(clx_view3d_write(file, state.assembly, NULL, NULL, config->triangles));
+        CLX_TRY(write_bodies(file, run, state.assembly, config));
     } else {
-        CLX_TRY(
-            put_assembly(file, run, state.assembly, clast_state_table(&state, "contacts"), config));
+        CLX_TRY(write_assembly(file, run, state.assembly, clast_state_table(&state, "contacts"),
+                               config));
     }
 done:
     if (status == CLAST_E_GEOMETRY) {
@@ -200,7 +202,7 @@ static outcomes count_outcomes(const clx_run *run, const clast_table *results)
     return o;
 }
 
-static void put_failed(clx_file *file, const outcomes *o)
+static void write_failed(clx_file *file, const outcomes *o)
 {
     (void)clx_file_print(file,
                          "<p class=\"note\">%" PRId64 " of %" PRId64 " runs failed (exit code%s",
@@ -213,7 +215,7 @@ static void put_failed(clx_file *file, const outcomes *o)
 }
 
 /// What became of a study's runs, where not all are done.
-static void put_outcomes(clx_file *file, const clx_run *run)
+static void write_outcomes(clx_file *file, const clx_run *run)
 {
     const clast_table *results = clx_run_table(run, "results");
     if (!clx_run_has(run, "study.json") || results == NULL) {
@@ -223,7 +225,7 @@ static void put_outcomes(clx_file *file, const clx_run *run)
     const clast_study_outcomes n = o.n;
     const bool is_open = n.n_done + n.n_failed < n.n_run;
     if (n.n_failed > 0) {
-        put_failed(file, &o);
+        write_failed(file, &o);
     }
     if (n.n_unconverged > 0) {
         (void)clx_file_print(file,
@@ -241,7 +243,7 @@ static void put_outcomes(clx_file *file, const clx_run *run)
 }
 
 /// Name, command and outcome of the run; index -1: the only run, whose name is above already.
-static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
+static void write_run_head(clx_file *file, const clx_run *run, int32_t index)
 {
     static const struct {
         const char *before, *key;
@@ -266,17 +268,17 @@ static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, run->place);
     (void)clx_file_print(file, "</code></p>\n");
-    put_outcomes(file, run);
+    write_outcomes(file, run);
 }
 
-static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,
-                            const clast_report_config *config)
+static clast_status write_run(clx_file *file, const clx_run *run, int32_t index,
+                              const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
-    put_run_head(file, run, index);
+    write_run_head(file, run, index);
     clx_summary_headline(file, run);
     if (has_view(run, config)) {
-        CLX_TRY(put_view(file, run, config));
+        CLX_TRY(append_view(file, run, config));
     }
     if (json_object_size(run->summary) > 0) {
         (void)clx_file_print(file, "<h3>Numbers</h3>\n");
@@ -284,10 +286,10 @@ static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,
     }
     (void)clx_file_print(file, "<h3>Charts and tables</h3>\n");
     CLX_TRY(clx_figures_charts(file, run, index));
-    CLX_TRY(clx_tables_put(file, run, config->rows));
+    CLX_TRY(clx_tables_write(file, run, config->rows));
     CLX_TRY(clx_figures_pictures(file, run, (int64_t)config->picture_mb * 1000000));
     (void)clx_file_print(file, "<h3>Origin</h3>\n");
-    clx_provenance_put(file, run);
+    clx_provenance_write(file, run);
     (void)clx_file_print(file, "</section>\n");
 done:
     return status;
@@ -306,8 +308,8 @@ static void make_title(const clx_run *run, int32_t n_run, const clast_report_con
     }
 }
 
-static clast_status put_page(clx_file *file, const clx_run *run, int32_t n_run,
-                             const clast_report_config *config)
+static clast_status append_page(clx_file *file, const clx_run *run, int32_t n_run,
+                                const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
     char title[TITLE_SIZE];
@@ -325,7 +327,7 @@ static clast_status put_page(clx_file *file, const clx_run *run, int32_t n_run,
     }
     for (int32_t i = 0; i < n_run; ++i) {
         any_view = any_view || has_view(&run[i], config);
-        CLX_TRY(put_run(file, &run[i], n_run > 1 ? i : -1, config));
+        CLX_TRY(write_run(file, &run[i], n_run > 1 ? i : -1, config));
     }
     clx_page_end(file, any_view);
 done:
@@ -345,7 +347,7 @@ static clast_status write_page(const char *const *runs, int32_t n_run, const cha
     }
     clx_runs_tell_apart(run, n_run);
     CLX_TRY(clx_file_begin(path, &file));
-    CLX_TRY(put_page(&file, run, n_run, config));
+    CLX_TRY(append_page(&file, run, n_run, config));
     CLX_TRY(clx_file_commit(&file));
 done:
     clx_file_abandon(&file);
@@ -384,7 +386,7 @@ static clast_status write_view(const clast_assembly *assembly, const clast_repor
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     clx_page_begin(&file, config->title[0] != '\0' ? config->title : "clast");
-    CLX_TRY(clx_view3d_put(&file, assembly, NULL, NULL, config->triangles));
+    CLX_TRY(clx_view3d_write(&file, assembly, NULL, NULL, config->triangles));
     clx_page_end(&file, true);
     CLX_TRY(clx_file_commit(&file));
 done:

@@ -49,13 +49,13 @@ static const char *doubt_of(const json_t *summary, const char *key)
 }
 
 /// The number of a key with its unit, or the bound in its place.
-static void put_number(clx_file *file, const json_t *summary, const char *key, const char *place,
-                       const json_t *number)
+static void write_number(clx_file *file, const json_t *summary, const char *key, const char *place,
+                         const json_t *number)
 {
     const json_t *bound = bound_of(summary, key);
     (void)clx_file_print(file, "%s", bound != NULL ? "\342\211\245\302\240" : "");
-    clx_quantity_put(file, json_number_value(bound != NULL ? bound : number),
-                     clx_value_unit(summary, key, place));
+    clx_quantity_write(file, json_number_value(bound != NULL ? bound : number),
+                       clx_value_unit(summary, key, place));
 }
 
 void clx_summary_headline(clx_file *file, const clx_run *run)
@@ -74,12 +74,12 @@ void clx_summary_headline(clx_file *file, const clx_run *run)
         (void)clx_file_print(file, "%s<div class=\"figure\"><b>",
                              is_open ? "" : "<div class=\"figures\">\n");
         is_open = true;
-        put_number(file, run->summary, key, NULL, number);
+        write_number(file, run->summary, key, NULL, number);
         (void)clx_file_print(file, "</b><span>");
         clx_page_text(file, q.label);
         if (which != NULL) {
             (void)clx_file_print(file, " <small>");
-            clx_quantity_put_label(file, which, "envelope");
+            clx_quantity_write_label(file, which, "envelope");
             (void)clx_file_print(file, "</small>");
         }
         if (doubt_of(run->summary, key) != NULL) {
@@ -193,14 +193,14 @@ static bool needs_command(const comparison *c, int at)
     return false;
 }
 
-static void put_compared_head(clx_file *file, const comparison *c, int at)
+static void write_compared_head(clx_file *file, const comparison *c, int at)
 {
     const compared *own = &c->column[at];
     (void)clx_file_print(file, "<th class=\"n\">");
-    clx_quantity_put_label(file, own->key, own->place);
+    clx_quantity_write_label(file, own->key, own->place);
     if (own->name != NULL) {
         (void)clx_file_print(file, "<br><small>");
-        clx_quantity_put_label(file, own->name, "envelope");
+        clx_quantity_write_label(file, own->name, "envelope");
         (void)clx_file_print(file, "</small>");
     }
     if (own->is_history) {
@@ -212,30 +212,30 @@ static void put_compared_head(clx_file *file, const comparison *c, int at)
     (void)clx_file_print(file, "</th>");
 }
 
-static void put_compared_cell(clx_file *file, const clx_run *run, const compared *column)
+static void write_compared_cell(clx_file *file, const clx_run *run, const compared *column)
 {
     const json_t *value = value_of(run, column);
     const char *doubt = doubt_of(run->summary, column->key);
     if (value == NULL) {
-        clx_value_put_cell(file, column->key, column->place, NULL);
+        clx_value_write_cell(file, column->key, column->place, NULL);
         return;
     }
     (void)clx_file_print(file, "<td class=\"n\">");
-    put_number(file, run->summary, column->key, column->place, value);
+    write_number(file, run->summary, column->key, column->place, value);
     if (doubt != NULL) {
         (void)clx_file_print(file, "<br><small>%s</small>", doubt);
     }
     (void)clx_file_print(file, "</td>");
 }
 
-static void put_compared_row(clx_file *file, const clx_run *run, int32_t number,
-                             const comparison *c)
+static void write_compared_row(clx_file *file, const clx_run *run, int32_t number,
+                               const comparison *c)
 {
     (void)clx_file_print(file, "<tr><td><a href=\"#run-%d\">", (int)number);
     clx_page_text(file, run->name);
     (void)clx_file_print(file, "</a></td>");
     for (int k = 0; k < c->n; ++k) {
-        put_compared_cell(file, run, &c->column[k]);
+        write_compared_cell(file, run, &c->column[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
@@ -252,11 +252,11 @@ void clx_summary_compare(clx_file *file, const clx_run *run, int32_t n_run)
     (void)clx_file_print(
         file, "<div class=\"scroll\" tabindex=\"0\"><table class=\"compare\">\n<tr><th>Run</th>");
     for (int k = 0; k < c.n; ++k) {
-        put_compared_head(file, &c, k);
+        write_compared_head(file, &c, k);
     }
     (void)clx_file_print(file, "</tr>\n");
     for (int32_t i = 0; i < n_run; ++i) {
-        put_compared_row(file, &run[i], i + 1, &c);
+        write_compared_row(file, &run[i], i + 1, &c);
     }
     (void)clx_file_print(file, "</table></div>\n");
 }

@@ -17,17 +17,18 @@ static bool is_scalar(const json_t *value)
     return !json_is_object(value) && !json_is_array(value);
 }
 
-static void put_head(clx_file *file, const char *key, const char *place, bool is_text)
+static void write_head(clx_file *file, const char *key, const char *place, bool is_text)
 {
     (void)clx_file_print(file, is_text ? "<th>" : "<th class=\"n\">");
-    clx_quantity_put_label(file, key, place);
+    clx_quantity_write_label(file, key, place);
     (void)clx_file_print(file, "</th>");
 }
 
 /// A number in the unit in which `like` reads best.
-static void put_like(clx_file *file, const char *key, const char *place, double number, double like)
+static void write_like(clx_file *file, const char *key, const char *place, double number,
+                       double like)
 {
-    clx_quantity_put_like(file, number, clx_quantity_of(key, place).unit, like);
+    clx_quantity_write_like(file, number, clx_quantity_of(key, place).unit, like);
 }
 
 /// True for the parts of {mean, deviation, low, high}.
@@ -37,7 +38,7 @@ static bool is_of_mean(const char *key)
 }
 
 /// A card with a row for each value that is neither object nor list.
-static void put_pairs(clx_file *file, const json_t *object, const char *place)
+static void write_pairs(clx_file *file, const json_t *object, const char *place)
 {
     const char *key = NULL;
     json_t *value = NULL;
@@ -47,15 +48,15 @@ static void put_pairs(clx_file *file, const json_t *object, const char *place)
     {
         if (is_scalar(value)) {
             (void)clx_file_print(file, "<tr><th>");
-            clx_quantity_put_label(file, key, place);
+            clx_quantity_write_label(file, key, place);
             (void)clx_file_print(file, "</th><td>");
             if (mean != 0.0 && is_of_mean(key) && json_is_number(value)) {
-                put_like(file, key, place, json_number_value(value), mean);
+                write_like(file, key, place, json_number_value(value), mean);
             } else if (json_is_number(value) && clx_quantity_of(key, place).words[0] == '\0') {
-                clx_quantity_put(file, json_number_value(value),
-                                 clx_value_unit(object, key, place));
+                clx_quantity_write(file, json_number_value(value),
+                                   clx_value_unit(object, key, place));
             } else {
-                clx_value_put(file, key, place, value);
+                clx_value_write(file, key, place, value);
             }
             (void)clx_file_print(file, "</td></tr>\n");
         }
@@ -82,7 +83,7 @@ static bool is_by_envelope(const json_t *object)
 }
 
 /// Quantities of envelopes (volume, porosity) beside each other, a row for each envelope.
-static void put_by_envelope(clx_file *file, const json_t *summary)
+static void write_by_envelope(clx_file *file, const json_t *summary)
 {
     const char *key = NULL;
     const char *name = NULL;
@@ -94,7 +95,7 @@ static void put_by_envelope(clx_file *file, const json_t *summary)
     json_object_foreach((json_t *)summary, key, value)
     {
         if (is_by_envelope(value)) {
-            put_head(file, key, NULL, false);
+            write_head(file, key, NULL, false);
             (void)json_object_update(names, value);
         }
     }
@@ -102,12 +103,12 @@ static void put_by_envelope(clx_file *file, const json_t *summary)
     json_object_foreach(names, name, inner)
     {
         (void)clx_file_print(file, "<tr><td>");
-        clx_quantity_put_label(file, name, "envelope");
+        clx_quantity_write_label(file, name, "envelope");
         (void)clx_file_print(file, "</td>");
         json_object_foreach((json_t *)summary, key, value)
         {
             if (is_by_envelope(value)) {
-                clx_value_put_cell(file, key, NULL, json_object_get(value, name));
+                clx_value_write_cell(file, key, NULL, json_object_get(value, name));
             }
         }
         (void)clx_file_print(file, "</tr>\n");
@@ -131,8 +132,8 @@ static double first_number(const json_t *row)
 }
 
 /// A part of a row; a deviation that is rounding alone is 0.
-static void put_spread_cell(clx_file *file, const char *place, const char *key, const char *part,
-                            const json_t *row)
+static void write_spread_cell(clx_file *file, const char *place, const char *key, const char *part,
+                              const json_t *row)
 {
     const double rounding = 1e-12 * fabs(json_number_value(json_object_get(row, "mean")));
     const json_t *value = json_object_get(row, part);
@@ -140,29 +141,29 @@ static void put_spread_cell(clx_file *file, const char *place, const char *key, 
     const bool is_rounding = strcmp(part, "deviation") == 0 && fabs(number) <= rounding;
     if (json_is_number(value) && strcmp(part, "pull") != 0) {
         (void)clx_file_print(file, "<td class=\"n\">");
-        put_like(file, key, place, is_rounding ? 0.0 : number, first_number(row));
+        write_like(file, key, place, is_rounding ? 0.0 : number, first_number(row));
         (void)clx_file_print(file, "</td>");
     } else {
-        clx_value_put_cell(file, part, place, value);
+        clx_value_write_cell(file, part, place, value);
     }
 }
 
 /// A row of numbers that share the unit of `key`: {mean, low, ...}; "pull" counts errors.
-static void put_spread_row(clx_file *file, const char *place, const char *key, const char *name,
-                           const json_t *head, const json_t *row)
+static void write_spread_row(clx_file *file, const char *place, const char *key, const char *name,
+                             const json_t *head, const json_t *row)
 {
     const char *part = NULL;
     json_t *any = NULL;
     (void)clx_file_print(file, "<tr><td>");
-    clx_quantity_put_label(file, key, place);
+    clx_quantity_write_label(file, key, place);
     if (name != NULL) {
         (void)clx_file_print(file, ", ");
-        clx_quantity_put_label(file, name, "envelope");
+        clx_quantity_write_label(file, name, "envelope");
     }
     (void)clx_file_print(file, "</td>");
     json_object_foreach((json_t *)head, part, any)
     {
-        put_spread_cell(file, place, key, part, row);
+        write_spread_cell(file, place, key, part, row);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
@@ -199,7 +200,8 @@ static bool is_turned(const json_t *object, const json_t *head)
     return json_object_size(head) > 4 && n <= 3;
 }
 
-static void put_turned(clx_file *file, const char *title, const json_t *object, const json_t *head)
+static void write_turned(clx_file *file, const char *title, const json_t *object,
+                         const json_t *head)
 {
     const char *key = NULL;
     const char *part = NULL;
@@ -210,7 +212,7 @@ static void put_turned(clx_file *file, const char *title, const json_t *object, 
     {
         if (clx_value_holds_numbers(value)) {
             (void)clx_file_print(file, "<th class=\"n\">");
-            clx_quantity_put_label(file, key, title);
+            clx_quantity_write_label(file, key, title);
             (void)clx_file_print(file, "</th>");
         }
     }
@@ -218,12 +220,12 @@ static void put_turned(clx_file *file, const char *title, const json_t *object, 
     json_object_foreach((json_t *)head, part, any)
     {
         (void)clx_file_print(file, "<tr><td>");
-        clx_quantity_put_label(file, part, NULL);
+        clx_quantity_write_label(file, part, NULL);
         (void)clx_file_print(file, "</td>");
         json_object_foreach((json_t *)object, key, value)
         {
             if (clx_value_holds_numbers(value)) {
-                put_spread_cell(file, title, key, part, value);
+                write_spread_cell(file, title, key, part, value);
             }
         }
         (void)clx_file_print(file, "</tr>\n");
@@ -231,7 +233,7 @@ static void put_turned(clx_file *file, const char *title, const json_t *object, 
 }
 
 /// Quantities with parts of the same unit: intervals of repeats, what was observed and grown.
-static void put_spread(clx_file *file, const char *title, const json_t *object)
+static void write_spread(clx_file *file, const char *title, const json_t *object)
 {
     const char *key = NULL;
     const char *name = NULL;
@@ -240,32 +242,32 @@ static void put_spread(clx_file *file, const char *title, const json_t *object)
     const json_t *head = first_row(object);
     const json_t *level = json_object_get(object, "confidence");
     (void)clx_file_print(file, "<div class=\"card wide\"><h4>");
-    clx_quantity_put_label(file, title, NULL);
+    clx_quantity_write_label(file, title, NULL);
     if (json_is_number(level)) {
         (void)clx_file_print(file, ", interval at level %g", json_number_value(level));
     }
     (void)clx_file_print(file, "</h4><div class=\"scroll\" tabindex=\"0\"><table>\n");
     if (is_turned(object, head)) {
-        put_turned(file, title, object, head);
+        write_turned(file, title, object, head);
         (void)clx_file_print(file, "</table></div></div>\n");
         return;
     }
     (void)clx_file_print(file, "<tr><th>Quantity</th>");
     json_object_foreach((json_t *)head, key, value)
     {
-        put_head(file, key, NULL, false);
+        write_head(file, key, NULL, false);
     }
     (void)clx_file_print(file, "</tr>\n");
     json_object_foreach((json_t *)object, key, value)
     {
         if (clx_value_holds_numbers(value)) {
-            put_spread_row(file, title, key, NULL, head, value);
+            write_spread_row(file, title, key, NULL, head, value);
             continue;
         }
         json_object_foreach(value, name, inner)
         {
             if (json_is_object(inner)) {
-                put_spread_row(file, title, key, name, head, inner);
+                write_spread_row(file, title, key, name, head, inner);
             }
         }
     }
@@ -302,66 +304,66 @@ static int list_columns(const json_t *head, item_column column[MAX_COLUMNS])
     return n;
 }
 
-static void put_item_head(clx_file *file, const char *place, const item_column *column)
+static void write_item_head(clx_file *file, const char *place, const item_column *column)
 {
     if (column->name == NULL) {
-        put_head(file, column->key, place, json_is_string(column->value));
+        write_head(file, column->key, place, json_is_string(column->value));
         return;
     }
     (void)clx_file_print(file, "<th class=\"n\">");
-    clx_quantity_put_label(file, column->key, place);
+    clx_quantity_write_label(file, column->key, place);
     (void)clx_file_print(file, ", ");
-    clx_quantity_put_label(file, column->name, "envelope");
+    clx_quantity_write_label(file, column->name, "envelope");
     (void)clx_file_print(file, "</th>");
 }
 
-static void put_item(clx_file *file, const char *place, const item_column *column,
-                     const json_t *item)
+static void write_item(clx_file *file, const char *place, const item_column *column,
+                       const json_t *item)
 {
     const json_t *mine = json_object_get(item, column->key);
     if (column->name == NULL) {
-        clx_value_put_cell(file, column->key, place, mine);
+        clx_value_write_cell(file, column->key, place, mine);
         return;
     }
     const bool is_own = !is_by_envelope(column->value);
-    clx_value_put_cell(file, is_own ? column->name : column->key, place,
-                       json_object_get(mine, column->name));
+    clx_value_write_cell(file, is_own ? column->name : column->key, place,
+                         json_object_get(mine, column->name));
 }
 
 /// Some columns of the items as a table of their own, so that no reader has to scroll sideways.
-static void put_items(clx_file *file, const char *place, const json_t *list, int32_t rows,
-                      const item_column *column, int n_column)
+static void write_items(clx_file *file, const char *place, const json_t *list, int32_t rows,
+                        const item_column *column, int n_column)
 {
     (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table>\n"
                                "<tr><th class=\"n\">#</th>");
     for (int k = 0; k < n_column; ++k) {
-        put_item_head(file, place, &column[k]);
+        write_item_head(file, place, &column[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
     for (size_t i = 0; i < json_array_size(list) && i < (size_t)rows; ++i) {
         (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
         for (int k = 0; k < n_column; ++k) {
-            put_item(file, place, &column[k], json_array_get(list, i));
+            write_item(file, place, &column[k], json_array_get(list, i));
         }
         (void)clx_file_print(file, "</tr>\n");
     }
     (void)clx_file_print(file, "</table></div>");
 }
 
-static void put_values(clx_file *file, const char *key, const char *top, const json_t *list,
-                       int32_t rows)
+static void write_values(clx_file *file, const char *key, const char *top, const json_t *list,
+                         int32_t rows)
 {
     (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table>\n");
     for (size_t i = 0; i < json_array_size(list) && i < (size_t)rows; ++i) {
         (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
-        clx_value_put_cell(file, key, top, json_array_get(list, i));
+        clx_value_write_cell(file, key, top, json_array_get(list, i));
         (void)clx_file_print(file, "</tr>\n");
     }
     (void)clx_file_print(file, "</table></div>");
 }
 
-static void put_list(clx_file *file, const clx_run *run, const char *key, const json_t *list,
-                     int32_t rows)
+static void write_list(clx_file *file, const clx_run *run, const char *key, const json_t *list,
+                       int32_t rows)
 {
     char place[CLX_QUANTITY_SIZE];
     char top[CLX_QUANTITY_SIZE];
@@ -371,15 +373,15 @@ static void put_list(clx_file *file, const clx_run *run, const char *key, const 
     clx_run_place(run, key, place);
     clx_run_place(run, NULL, top);
     (void)clx_file_print(file, "<details class=\"card wide\"><summary>");
-    clx_quantity_put_label(file, key, top);
+    clx_quantity_write_label(file, key, top);
     (void)clx_file_print(file, " <small>%zu</small></summary>", n);
     for (int k = 0; k < n_column; k += COLUMNS_ACROSS) {
         const int left = n_column - k;
-        put_items(file, place, list, rows, column + k,
-                  left < COLUMNS_ACROSS ? left : COLUMNS_ACROSS);
+        write_items(file, place, list, rows, column + k,
+                    left < COLUMNS_ACROSS ? left : COLUMNS_ACROSS);
     }
     if (n_column == 0) {
-        put_values(file, key, top, list, rows);
+        write_values(file, key, top, list, rows);
     }
     if (n > (size_t)rows) {
         (void)clx_file_print(file, "<p class=\"note\">The first %d of %zu.</p>", (int)rows, n);
@@ -455,16 +457,17 @@ static bool has_plain_value(const json_t *object)
     return false;
 }
 
-static void put_pairs_card(clx_file *file, const char *key, const char *place, const json_t *value)
+static void write_pairs_card(clx_file *file, const char *key, const char *place,
+                             const json_t *value)
 {
     (void)clx_file_print(file, "<div class=\"card\"><h4>");
-    clx_quantity_put_label(file, key, NULL);
+    clx_quantity_write_label(file, key, NULL);
     (void)clx_file_print(file, "</h4>");
-    put_pairs(file, value, place);
+    write_pairs(file, value, place);
 }
 
-static void put_part(clx_file *file, const clx_run *run, const char *key, const json_t *value,
-                     int32_t rows)
+static void write_part(clx_file *file, const clx_run *run, const char *key, const json_t *value,
+                       int32_t rows)
 {
     char place[CLX_QUANTITY_SIZE];
     clx_run_place(run, key, place);
@@ -472,14 +475,14 @@ static void put_part(clx_file *file, const clx_run *run, const char *key, const 
         return;
     }
     if (json_is_array(value) && json_array_size(value) > 0) {
-        put_list(file, run, key, value, rows);
+        write_list(file, run, key, value, rows);
     } else if (is_flat(value)) {
-        put_pairs_card(file, key, place, value);
+        write_pairs_card(file, key, place, value);
     } else if (json_is_object(value) && first_row(value) != NULL) {
         if (has_plain_value(value)) {
-            put_pairs_card(file, key, place, value);
+            write_pairs_card(file, key, place, value);
         }
-        put_spread(file, key, value);
+        write_spread(file, key, value);
     }
 }
 
@@ -491,17 +494,17 @@ void clx_summary_tables(clx_file *file, const clx_run *run, int32_t rows)
     char place[CLX_QUANTITY_SIZE];
     clx_run_place(run, NULL, place);
     (void)clx_file_print(file, "<div class=\"cards\">\n<div class=\"card\"><h4>Results</h4>");
-    put_pairs(file, run->summary, place);
+    write_pairs(file, run->summary, place);
     json_object_foreach(run->summary, key, value)
     {
         has_envelope = has_envelope || is_by_envelope(value);
     }
     if (has_envelope) {
-        put_by_envelope(file, run->summary);
+        write_by_envelope(file, run->summary);
     }
     json_object_foreach(run->summary, key, value)
     {
-        put_part(file, run, key, value, rows);
+        write_part(file, run, key, value, rows);
     }
     (void)clx_file_print(file, "</div>\n");
 }

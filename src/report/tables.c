@@ -161,22 +161,22 @@ static shown show(const clx_run *run, const clast_table *table, int32_t c, const
 }
 
 /// A name that is the user's.
-static void put_given(clx_file *file, const char *name)
+static void write_given(clx_file *file, const char *name)
 {
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, name);
     (void)clx_file_print(file, "</code>");
 }
 
-static void put_head(clx_file *file, const shown *s)
+static void write_head(clx_file *file, const shown *s)
 {
     (void)clx_file_print(file, "<th%s title=\"", s->column->number != NULL ? " class=\"n\"" : "");
     clx_page_text(file, s->column->name);
     (void)clx_file_print(file, "\">");
     if (s->is_given) {
-        put_given(file, s->column->name);
+        write_given(file, s->column->name);
     } else {
-        clx_quantity_put_label(file, s->column->name, s->place);
+        clx_quantity_write_label(file, s->column->name, s->place);
     }
     if (s->scale.name[0] != '\0') {
         (void)clx_file_print(file, " <small>(");
@@ -204,7 +204,7 @@ static const char *unit_per(const char *unit, char out[CLX_QUANTITY_SIZE])
     return out;
 }
 
-static void put_number(clx_file *file, const shown *s, int64_t row)
+static void write_number(clx_file *file, const shown *s, int64_t row)
 {
     CLAST_ASSERT(row >= 0);
     char text[CLX_QUANTITY_SIZE];
@@ -215,29 +215,29 @@ static void put_number(clx_file *file, const shown *s, int64_t row)
         char per[CLX_QUANTITY_SIZE];
         const char *unit = s->row_unit->text[row];
         if (s->is_per) { // as it is: no unit reads best for an infinite number
-            clx_quantity_put_like(file, value, unit_per(unit, per), HUGE_VAL);
+            clx_quantity_write_like(file, value, unit_per(unit, per), HUGE_VAL);
         } else {
-            clx_quantity_put_like(file, value, unit, of != 0.0 ? of : value);
+            clx_quantity_write_like(file, value, unit, of != 0.0 ? of : value);
         }
     } else if (!isfinite(value)) {
         (void)clx_file_print(file, "\342\200\223");
     } else if (s->quantity.words[0] != '\0') {
-        clx_quantity_put_word(file, value, s->quantity.words);
+        clx_quantity_write_word(file, value, s->quantity.words);
     } else {
         clx_quantity_format(value, &s->scale, text);
         clx_page_text(file, text);
     }
 }
 
-static void put_cell(clx_file *file, const shown *s, int64_t row)
+static void write_cell(clx_file *file, const shown *s, int64_t row)
 {
     (void)clx_file_print(file, s->column->number != NULL ? "<td class=\"n\">" : "<td>");
     if (s->column->number != NULL) {
-        put_number(file, s, row);
+        write_number(file, s, row);
     } else if (s->is_name && clx_given_name(s->run, s->column->text[row])) {
-        put_given(file, s->column->text[row]);
+        write_given(file, s->column->text[row]);
     } else if (s->is_name) {
-        clx_quantity_put_name(file, s->column->text[row]);
+        clx_quantity_write_name(file, s->column->text[row]);
     } else {
         clx_page_text(file, s->column->text[row]);
     }
@@ -253,22 +253,22 @@ typedef struct {
     int32_t n;
 } stripe;
 
-static void put_heads(clx_file *file, const stripe *s)
+static void write_heads(clx_file *file, const stripe *s)
 {
     (void)clx_file_print(file, "<tr>");
-    put_head(file, s->first);
+    write_head(file, s->first);
     for (int32_t k = 0; k < s->n; ++k) {
-        put_head(file, &s->more[k]);
+        write_head(file, &s->more[k]);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
 
-static void put_row(clx_file *file, const stripe *s, int64_t row)
+static void write_row(clx_file *file, const stripe *s, int64_t row)
 {
     (void)clx_file_print(file, "<tr>");
-    put_cell(file, s->first, row);
+    write_cell(file, s->first, row);
     for (int32_t k = 0; k < s->n; ++k) {
-        put_cell(file, &s->more[k], row);
+        write_cell(file, &s->more[k], row);
     }
     (void)clx_file_print(file, "</tr>\n");
 }
@@ -284,7 +284,7 @@ static void end_table(clx_file *file)
 }
 
 /// The columns in stripes one below the other, as wide as each other, each with the first column.
-static void put_stripes(clx_file *file, const shown *s, int32_t n, int64_t rows)
+static void write_stripes(clx_file *file, const shown *s, int32_t n, int64_t rows)
 {
     CLAST_ASSERT(rows >= 0);
     const int32_t n_stripe = n > ACROSS ? (n - 1 + ACROSS - 2) / (ACROSS - 1) : 1;
@@ -293,27 +293,27 @@ static void put_stripes(clx_file *file, const shown *s, int32_t n, int64_t rows)
         const int32_t k = 1 + j * most;
         const stripe part = {s, s + k, n - k < most ? n - k : most};
         begin_table(file, "");
-        put_heads(file, &part);
+        write_heads(file, &part);
         for (int64_t r = 0; r < rows; ++r) {
-            put_row(file, &part, r);
+            write_row(file, &part, r);
         }
         end_table(file);
     }
 }
 
 /// A table of one row, turned: a row for each column.
-static void put_turned(clx_file *file, const shown *s, int32_t n)
+static void write_turned(clx_file *file, const shown *s, int32_t n)
 {
     for (int32_t k = 0; k < n; ++k) {
         (void)clx_file_print(file, "<tr>");
-        put_head(file, &s[k]);
-        put_cell(file, &s[k], 0);
+        write_head(file, &s[k]);
+        write_cell(file, &s[k], 0);
         (void)clx_file_print(file, "</tr>\n");
     }
 }
 
-static clast_status put_table(clx_file *file, const clx_run *run, const clast_table *table,
-                              int32_t rows)
+static clast_status write_table(clx_file *file, const clx_run *run, const clast_table *table,
+                                int32_t rows)
 {
     clast_status status = CLAST_OK;
     shown *s = NULL;
@@ -328,17 +328,17 @@ static clast_status put_table(clx_file *file, const clx_run *run, const clast_ta
     }
     if (table->n_row == 1) {
         begin_table(file, " class=\"turned\"");
-        put_turned(file, s, n);
+        write_turned(file, s, n);
         end_table(file);
     } else if (n > 0) {
-        put_stripes(file, s, n, table->n_row < rows ? table->n_row : rows);
+        write_stripes(file, s, n, table->n_row < rows ? table->n_row : rows);
     }
 done:
     clx_free(s);
     return status;
 }
 
-static void put_link(clx_file *file, const clx_run *run, const clast_table *table)
+static void write_link(clx_file *file, const clx_run *run, const clast_table *table)
 {
     if (run->can_link) {
         (void)clx_file_print(file, "<a href=\"");
@@ -362,7 +362,7 @@ static bool holds_given_texts(const clx_run *run, const clast_table *table)
     return false;
 }
 
-clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
+clast_status clx_tables_write(clx_file *file, const clx_run *run, int32_t rows)
 {
     clast_status status = CLAST_OK;
     const bool is_si = !clx_run_is_without_unit(run) && !clx_given_units(run);
@@ -373,13 +373,13 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
             (json_object_size(run->summary) == 0 && strcmp(table->name, "results") == 0);
         (void)clx_file_print(file, "<details class=\"card wide\"%s><summary>",
                              is_open ? " open" : "");
-        clx_quantity_put_label(file, table->name, "table");
+        clx_quantity_write_label(file, table->name, "table");
         (void)clx_file_print(file, " <small>%" PRId64 " row%s</small></summary>", table->n_row,
                              table->n_row == 1 ? "" : "s");
-        CLX_TRY(put_table(file, run, table, rows));
+        CLX_TRY(write_table(file, run, table, rows));
         (void)clx_file_print(file, "<p class=\"note\">%s",
                              table->n_row > rows ? "The first rows of " : "All rows of ");
-        put_link(file, run, table);
+        write_link(file, run, table);
         (void)clx_file_print(file, "%s%s.</p></details>\n", is_si ? ", there in SI units" : "",
                              is_si && holds_given_texts(run, table) ? " but for what varied" : "");
     }

@@ -23,40 +23,40 @@ const char *clx_value_unit(const json_t *object, const char *key, const char *pl
 }
 
 /// The label of a thing that has one ("henze_zirkler"), else the text as it is.
-static void put_text(clx_file *file, const char *key, const char *text)
+static void write_text(clx_file *file, const char *key, const char *text)
 {
     if (strcmp(key, "name") == 0 && clx_quantity_of(text, NULL).label[0] != '\0') {
-        clx_quantity_put_name(file, text);
+        clx_quantity_write_name(file, text);
     } else {
         clx_page_text(file, text);
     }
 }
 
-void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value)
+void clx_value_write(clx_file *file, const char *key, const char *place, const json_t *value)
 {
     const clx_quantity q = clx_quantity_of(key, place);
     if (json_is_number(value) && q.words[0] != '\0') {
-        clx_quantity_put_word(file, json_number_value(value), q.words);
+        clx_quantity_write_word(file, json_number_value(value), q.words);
     } else if (json_is_number(value)) {
-        clx_quantity_put(file, json_number_value(value), q.unit);
+        clx_quantity_write(file, json_number_value(value), q.unit);
     } else if (json_is_string(value)) {
-        put_text(file, key, json_string_value(value));
+        write_text(file, key, json_string_value(value));
     } else if (json_is_boolean(value)) {
         (void)clx_file_print(file, "%s", json_is_true(value) ? "yes" : "no");
     } else if (json_array_size(value) > 0) {
         for (size_t i = 0; i < json_array_size(value); ++i) {
             (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
-            clx_value_put(file, key, place, json_array_get(value, i));
+            clx_value_write(file, key, place, json_array_get(value, i));
         }
     } else {
         (void)clx_file_print(file, "\342\200\223");
     }
 }
 
-void clx_value_put_cell(clx_file *file, const char *key, const char *place, const json_t *value)
+void clx_value_write_cell(clx_file *file, const char *key, const char *place, const json_t *value)
 {
     (void)clx_file_print(file, json_is_string(value) ? "<td>" : "<td class=\"n\">");
-    clx_value_put(file, key, place, value);
+    clx_value_write(file, key, place, value);
     (void)clx_file_print(file, "</td>");
 }
 

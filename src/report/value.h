@@ -11,10 +11,10 @@ const char *clx_value_unit(const json_t *object, const char *key, const char *pl
 
 /// A number with the unit of its key, a text, "yes" or "no", a list with commas; a dash for all
 /// else. `place`: as for clx_quantity_of.
-void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value);
+void clx_value_write(clx_file *file, const char *key, const char *place, const json_t *value);
 
 /// The same as a number's cell of a table.
-void clx_value_put_cell(clx_file *file, const char *key, const char *place, const json_t *value);
+void clx_value_write_cell(clx_file *file, const char *key, const char *place, const json_t *value);
 
 /// True for an object that has numbers, and nothing but numbers and nulls.
 bool clx_value_holds_numbers(const json_t *object);

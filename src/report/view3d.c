@@ -28,7 +28,7 @@ typedef struct {
 } view;
 
 /// Text inside JSON inside <script>: '<' and '>' as \u003c, so that no tag can begin there.
-static void put_text(clx_file *file, const char *text)
+static void write_text(clx_file *file, const char *text)
 {
     (void)clx_file_print(file, "\"");
     while (*text != '\0') {
@@ -175,7 +175,7 @@ done:
     return status;
 }
 
-static clast_status put_surface(clx_file *file, const clast_mesh *mesh, double length)
+static clast_status write_surface(clx_file *file, const clast_mesh *mesh, double length)
 {
     clast_status status = CLAST_OK;
     unsigned char *bytes = NULL;
@@ -218,7 +218,7 @@ static void store_pose(const view *v, int32_t i, unsigned char *at)
     store_float(at + 36, a->density[i]);
 }
 
-static clast_status put_grains(clx_file *file, const view *v, int32_t shape)
+static clast_status write_grains(clx_file *file, const view *v, int32_t shape)
 {
     clast_status status = CLAST_OK;
     unsigned char *grain = NULL;
@@ -243,7 +243,8 @@ done:
 
 /// A finer surface for grains near the camera, where the budget of all leaves each but a coarse
 /// one.
-static clast_status put_near(clx_file *file, const view *v, const clast_shape *shape, int32_t n_tri)
+static clast_status write_near(clx_file *file, const view *v, const clast_shape *shape,
+                               int32_t n_tri)
 {
     enum { MOST = 1280, GRAIN_BUDGET = 100000 };
     clast_status status = CLAST_OK;
@@ -257,7 +258,7 @@ static clast_status put_near(clx_file *file, const view *v, const clast_shape *s
     CLX_TRY(surface_of(&near, shape, &fine));
     if (fine.n_tri > n_tri) {
         (void)clx_file_print(file, ", \"near\": {\"n\": %d", (int)fine.n_tri);
-        CLX_TRY(put_surface(file, &fine, v->length));
+        CLX_TRY(write_surface(file, &fine, v->length));
         (void)clx_file_print(file, "}");
     }
 done:
@@ -265,22 +266,22 @@ done:
     return status;
 }
 
-static clast_status put_shape(clx_file *file, const view *v, int32_t index)
+static clast_status write_shape(clx_file *file, const view *v, int32_t index)
 {
     clast_status status = CLAST_OK;
     clast_mesh surface = {0};
     const clast_shape *shape = &v->assembly->shape[index];
     CLX_TRY(surface_of(v, shape, &surface));
     (void)clx_file_print(file, "\n{\"name\": ");
-    put_text(file, shape->name);
+    write_text(file, shape->name);
     (void)clx_file_print(file, ", \"number\": %d, \"diameter\": %.9g", (int)index,
                          cbrt(6.0 * shape->volume / CLAST_PI) / v->length);
     (void)clx_file_print(file, ", \"smooth\": %s, \"colour\": %d",
                          shape->kind == CLAST_SHAPE_MESH ? "false" : "true",
                          (int)(index < CLX_LEGEND_SHAPES ? index : CLX_LEGEND_SHAPES - 1));
-    CLX_TRY(put_surface(file, &surface, v->length));
-    CLX_TRY(put_near(file, v, shape, surface.n_tri));
-    CLX_TRY(put_grains(file, v, index));
+    CLX_TRY(write_surface(file, &surface, v->length));
+    CLX_TRY(write_near(file, v, shape, surface.n_tri));
+    CLX_TRY(write_grains(file, v, index));
     (void)clx_file_print(file, "}");
 done:
     clast_mesh_free(&surface);
@@ -328,7 +329,7 @@ done:
 
 /// Colour bar of a picture of the same assembly; a pose's size times `unit` is on its scale. None
 /// of sizes where a grain has no volume.
-static clast_status put_bar(clx_file *file, const view *v, int32_t colour, const char *name)
+static clast_status write_bar(clx_file *file, const view *v, int32_t colour, const char *name)
 {
     clast_render_config config = {.colour = colour, .scale = CLAST_RENDER_SCALE_AUTO};
     clx_legend legend = {0};
@@ -351,7 +352,7 @@ static clast_status put_bar(clx_file *file, const view *v, int32_t colour, const
     return CLAST_OK;
 }
 
-static void put_colour(clx_file *file, bool is_first, const double rgb[3])
+static void write_colour(clx_file *file, bool is_first, const double rgb[3])
 {
     (void)clx_file_print(file, "%s\"#", is_first ? "" : ", ");
     for (int k = 0; k < 3; ++k) {
@@ -361,7 +362,7 @@ static void put_colour(clx_file *file, bool is_first, const double rgb[3])
 }
 
 /// The colours of a picture of the same assembly, and what they mean.
-static clast_status put_colours(clx_file *file, const view *v)
+static clast_status write_colours(clx_file *file, const view *v)
 {
     enum { N_BAR = 17 };
     clast_status status = CLAST_OK;
@@ -371,20 +372,20 @@ static clast_status put_colours(clx_file *file, const view *v)
     for (int k = 0; k < N_BAR; ++k) {
         double rgb[3];
         clx_legend_colour((double)k / (N_BAR - 1), rgb);
-        put_colour(file, k == 0, rgb);
+        write_colour(file, k == 0, rgb);
     }
     (void)clx_file_print(file, "]");
-    CLX_TRY(put_bar(file, v, CLAST_RENDER_COLOUR_SIZE, "size"));
-    CLX_TRY(put_bar(file, v, CLAST_RENDER_COLOUR_ORDER, "order"));
+    CLX_TRY(write_bar(file, v, CLAST_RENDER_COLOUR_SIZE, "size"));
+    CLX_TRY(write_bar(file, v, CLAST_RENDER_COLOUR_ORDER, "order"));
     CLX_TRY(clx_legend_make(v->assembly, &config, 0.0, NULL, &shapes));
     (void)clx_file_print(file, ", \"shape\": [");
     for (int k = 0; k < shapes.n; ++k) {
-        put_colour(file, k == 0, shapes.rgb[k]);
+        write_colour(file, k == 0, shapes.rgb[k]);
     }
     (void)clx_file_print(file, "], \"shape_name\": [");
     for (int k = 0; k < shapes.n; ++k) {
         (void)clx_file_print(file, "%s", k > 0 ? ", " : "");
-        put_text(file, shapes.text[k]);
+        write_text(file, shapes.text[k]);
     }
     (void)clx_file_print(file, "]");
 done:
@@ -392,7 +393,7 @@ done:
 }
 
 /// Names of the grains, where they are not their places.
-static void put_ids(clx_file *file, const view *v)
+static void write_ids(clx_file *file, const view *v)
 {
     const int64_t *id = v->assembly->id;
     bool is_place = true;
@@ -496,7 +497,7 @@ done:
 }
 
 /// Forces where they are known, else the pairs that touch, else nothing.
-static clast_status put_contacts(clx_file *file, const view *v, const clast_table *table)
+static clast_status write_contacts(clx_file *file, const view *v, const clast_table *table)
 {
     clast_status status = CLAST_OK;
     const double *column[8];
@@ -538,8 +539,8 @@ static view begin(const clast_assembly *assembly, int32_t limit)
     return v;
 }
 
-clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
-                            const clast_table *forces, const clx_frames *frames, int32_t limit)
+clast_status clx_view3d_write(clx_file *file, const clast_assembly *assembly,
+                              const clast_table *forces, const clx_frames *frames, int32_t limit)
 {
     clast_status status = CLAST_OK;
     bool is_first = true;
@@ -554,21 +555,21 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
         file, "<div class=\"view-box\"><div class=\"view\"><p class=\"view-wait\">The 3-D view "
               "needs a browser with WebGL and JavaScript; all else on this page does "
               "not.</p></div>\n<script type=\"application/json\" class=\"view-data\">{\"unit\": ");
-    put_text(file, assembly->unit);
+    write_text(file, assembly->unit);
     (void)clx_file_print(file, ", \"length\": %.17g, \"n_grain\": %d, \"n_shown\": %d", v.length,
                          (int)assembly->n_grain, (int)v.n_shown);
     (void)clx_file_print(file, ", \"centre\": [%.17g, %.17g, %.17g]", v.centre[0], v.centre[1],
                          v.centre[2]);
-    CLX_TRY(put_colours(file, &v));
-    put_ids(file, &v);
-    CLX_TRY(put_contacts(file, &v, forces));
-    CLX_TRY(clx_frames_put(file, frames, assembly, v.n_shown, v.centre, v.length));
+    CLX_TRY(write_colours(file, &v));
+    write_ids(file, &v);
+    CLX_TRY(write_contacts(file, &v, forces));
+    CLX_TRY(clx_frames_write(file, frames, assembly, v.n_shown, v.centre, v.length));
     (void)clx_file_print(file, ", \"shapes\": [");
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         if (v.is_used[s]) {
             (void)clx_file_print(file, "%s", is_first ? "" : ",");
             is_first = false;
-            CLX_TRY(put_shape(file, &v, s));
+            CLX_TRY(write_shape(file, &v, s));
         }
     }
     (void)clx_file_print(file, "]}</script></div>\n");

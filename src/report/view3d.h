@@ -14,8 +14,8 @@ typedef struct clx_frames clx_frames;
 /// @param limit  triangles drawn at once: balls get a coarser icosphere, other surfaces are
 ///               simplified until all grains together fit (at least 20 triangles a grain stay)
 /// @return CLAST_E_GEOMETRY for no grains, CLAST_E_MEMORY
-clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly,
-                            const clast_table *forces, const clx_frames *frames, int32_t limit);
+clast_status clx_view3d_write(clx_file *file, const clast_assembly *assembly,
+                              const clast_table *forces, const clx_frames *frames, int32_t limit);
 
 /// A surface with about `limit` triangles or fewer: vertices in one cell of a grid become their
 /// mean, triangles that collapse or repeat go. For pictures only: volume and topology may change.

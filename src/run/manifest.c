@@ -248,22 +248,22 @@ void clx_manifest_progress(clast_manifest *manifest, double share)
     manifest->progress = share;
 }
 
-static void put_key(clx_file *file, const char *key)
+static void write_key(clx_file *file, const char *key)
 {
     (void)clx_file_print(file, ",\n  ");
     clx_json_text(file, key);
     (void)clx_file_print(file, ": ");
 }
 
-static void put_text(clx_file *file, const char *key, const char *text)
+static void write_text(clx_file *file, const char *key, const char *text)
 {
-    put_key(file, key);
+    write_key(file, key);
     clx_json_text(file, text);
 }
 
-static void put_number(clx_file *file, const char *key, double value)
+static void write_number(clx_file *file, const char *key, double value)
 {
-    put_key(file, key);
+    write_key(file, key);
     clx_json_number(file, value);
 }
 
@@ -286,13 +286,13 @@ static void find_processor(char *name, size_t size)
 }
 
 /// The class of machine, not its name.
-static void put_host(clx_file *file)
+static void write_host(clx_file *file)
 {
     struct utsname system;
     char processor[256];
     const bool known = uname(&system) >= 0;
     find_processor(processor, sizeof processor);
-    put_key(file, "host");
+    write_key(file, "host");
     (void)clx_file_print(file, "{\"system\": ");
     clx_json_text(file, known ? system.sysname : "");
     (void)clx_file_print(file, ", \"machine\": ");
@@ -304,44 +304,44 @@ static void put_host(clx_file *file)
     (void)clx_file_print(file, "}");
 }
 
-static void put_time(clx_file *file, const char *key, time_t when)
+static void write_time(clx_file *file, const char *key, time_t when)
 {
     struct tm utc;
     char text[32] = "";
     if (gmtime_r(&when, &utc) != NULL) {
         (void)strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
     }
-    put_text(file, key, text);
+    write_text(file, key, text);
 }
 
-static void put_use(clx_file *file)
+static void write_use(clx_file *file)
 {
 #ifdef __EMSCRIPTEN__ // whose getrusage makes its numbers up; its memory never shrinks
-    put_number(file, "peak_memory_bytes", 65536.0 * (double)__builtin_wasm_memory_size(0));
+    write_number(file, "peak_memory_bytes", 65536.0 * (double)__builtin_wasm_memory_size(0));
 #else
     struct rusage used;
     if (getrusage(RUSAGE_SELF, &used) == 0) {
-        put_number(file, "cpu_s",
-                   (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-                       1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
-        put_number(file, "peak_memory_bytes", 1024.0 * (double)used.ru_maxrss);
+        write_number(file, "cpu_s",
+                     (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                         1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
+        write_number(file, "peak_memory_bytes", 1024.0 * (double)used.ru_maxrss);
     }
 #endif
 }
 
-static void put_times(clx_file *file, const clast_manifest *m, bool is_over)
+static void write_times(clx_file *file, const clast_manifest *m, bool is_over)
 {
-    put_time(file, "started", m->started);
+    write_time(file, "started", m->started);
     if (is_over) {
-        put_time(file, "ended", time(NULL));
+        write_time(file, "ended", time(NULL));
     }
-    put_number(file, "wall_s", clx_clock() - m->begun);
-    put_use(file);
+    write_number(file, "wall_s", clx_clock() - m->begun);
+    write_use(file);
 }
 
-static void put_inputs(clx_file *file, const clast_manifest *m)
+static void write_inputs(clx_file *file, const clast_manifest *m)
 {
-    put_key(file, "inputs");
+    write_key(file, "inputs");
     (void)clx_file_print(file, "[");
     for (int32_t i = 0; i < m->n_input; ++i) {
         const input_file *input = &m->input[i];
@@ -359,10 +359,10 @@ static void put_inputs(clx_file *file, const clast_manifest *m)
     (void)clx_file_print(file, "]");
 }
 
-static void put_texts(clx_file *file, const char *key, int32_t n, char *const *text)
+static void write_texts(clx_file *file, const char *key, int32_t n, char *const *text)
 {
     CLAST_ASSERT(n >= 0);
-    put_key(file, key);
+    write_key(file, key);
     (void)clx_file_print(file, "[");
     for (int32_t i = 0; i < n; ++i) {
         (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
@@ -379,38 +379,38 @@ clast_status clast_manifest_write(const clast_manifest *manifest, const char *ou
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
     (void)clx_file_print(&file, "{\n  \"format\": \"clast manifest\"");
-    put_text(&file, "clast_version", clast_version());
-    put_text(&file, "clast_source", clast_source());
-    put_text(&file, "command", manifest->command);
-    put_texts(&file, "command_line", manifest->argc, manifest->argv);
-    put_text(&file, "outcome", outcome);
+    write_text(&file, "clast_version", clast_version());
+    write_text(&file, "clast_source", clast_source());
+    write_text(&file, "command", manifest->command);
+    write_texts(&file, "command_line", manifest->argc, manifest->argv);
+    write_text(&file, "outcome", outcome);
     if (strcmp(outcome, "running") == 0) { // for the messages of whoever finds the folder locked
         char name[CLX_PROCESS_NAME];
         clx_process_name(name);
-        put_text(&file, "process", name);
+        write_text(&file, "process", name);
     }
     if (manifest->has_progress && strcmp(outcome, "done") != 0) {
-        put_number(&file, "progress", manifest->progress);
+        write_number(&file, "progress", manifest->progress);
     }
     if (manifest->n_output > 0) {
-        put_texts(&file, "outputs", manifest->n_output, manifest->output);
+        write_texts(&file, "outputs", manifest->n_output, manifest->output);
     }
     if (manifest->has_seed) {
-        put_key(&file, "seed");
+        write_key(&file, "seed");
         (void)clx_file_print(&file, "%" PRIu64, manifest->seed);
     }
     if (manifest->config != NULL) {
-        put_key(&file, "config");
+        write_key(&file, "config");
         (void)clx_file_write(&file, manifest->config, strlen(manifest->config));
     }
-    put_inputs(&file, manifest);
+    write_inputs(&file, manifest);
     for (int32_t i = 0; i < manifest->n_note; ++i) {
-        put_text(&file, manifest->notes[i].key, manifest->notes[i].text);
+        write_text(&file, manifest->notes[i].key, manifest->notes[i].text);
     }
-    put_key(&file, "threads");
+    write_key(&file, "threads");
     (void)clx_file_print(&file, "%d", clast_parallel_threads());
-    put_host(&file);
-    put_times(&file, manifest, strcmp(outcome, "running") != 0);
+    write_host(&file);
+    write_times(&file, manifest, strcmp(outcome, "running") != 0);
     (void)clx_file_print(&file, "\n}\n");
     CLX_TRY(clx_file_commit(&file));
 done:

@@ -60,7 +60,7 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     return n;
 }
 
-static clast_status put_pack(clx_h5 *h5, clx_pack_saved *s)
+static clast_status write_pack(clx_h5 *h5, clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     array a[N_ARRAY];
@@ -127,8 +127,8 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
         table[state.n_table++] = *saved.walls; // borrowed
     }
     CLX_TRY(clx_h5_create(&made));
-    CLX_TRY(clx_state_put(made, &state));
-    CLX_TRY(put_pack(made, &saved));
+    CLX_TRY(clx_state_write_to(made, &state));
+    CLX_TRY(write_pack(made, &saved));
     *h5 = made;
     made = NULL;
 done:
@@ -173,12 +173,12 @@ void clx_pack_checkpoint_free(clx_pack_checkpoint *found)
 }
 
 /// The configuration of the packing in found->path.
-static clast_status take_config(clx_pack_checkpoint *found)
+static clast_status read_config(clx_pack_checkpoint *found)
 {
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_open(found->path, &h5));
-    CLX_TRY(clx_state_take_head(h5, NULL, NULL));
+    CLX_TRY(clx_state_read_head(h5, NULL, NULL));
     CLX_CHECK(clx_h5_has(h5, "/pack"), CLAST_E_FORMAT, "%s is no checkpoint of a packing",
               found->path);
     CLX_TRY(clx_h5_read_text(h5, "/", "config", &found->config));
@@ -192,7 +192,7 @@ clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *f
     clast_status status = CLAST_OK;
     int64_t step = 0;
     CLX_TRY(clx_checkpoint_newest(folder, &found->path, &step, &found->n_damaged));
-    CLX_TRY(take_config(found));
+    CLX_TRY(read_config(found));
 done:
     return status;
 }
@@ -202,7 +202,7 @@ clast_status clx_pack_end_find(const char *path, clx_pack_checkpoint *found)
     clast_status status = CLAST_OK;
     CLX_TRY(clx_h5_verify(path));
     CLX_TRY(clx_alloc_text(&found->path, path));
-    CLX_TRY(take_config(found));
+    CLX_TRY(read_config(found));
 done:
     return status;
 }
@@ -268,7 +268,7 @@ done:
     return status;
 }
 
-static clast_status take_pack(clx_h5 *h5, clx_pack_saved *s)
+static clast_status read_pack(clx_h5 *h5, clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     array a[N_ARRAY];
@@ -326,7 +326,7 @@ clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pa
     clast_state state = {0};
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_open(found->path, &h5));
-    CLX_TRY(take_pack(h5, &saved));
+    CLX_TRY(read_pack(h5, &saved));
     clx_h5_close(h5);
     h5 = NULL;
     CLX_TRY(clast_state_read(found->path, &state));

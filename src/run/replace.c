@@ -303,7 +303,7 @@ done:
     return status;
 }
 
-clast_status clx_run_put_back(const char *folder)
+clast_status clx_run_restore(const char *folder)
 {
     clast_status status = CLAST_OK;
     char aside[CLX_PATH_LIMIT + 4];

@@ -101,7 +101,7 @@ CLX_SHARED clast_status clx_run_folder_progress(clast_run_folder *run, double sh
 clast_status clx_run_replace(const char *made, const char *old);
 
 /// Puts a run back that a replacement by renames had moved aside when it was cut off.
-clast_status clx_run_put_back(const char *folder);
+clast_status clx_run_restore(const char *folder);
 
 /// Completes what a replacement that was cut off had begun, as far as it can be told.
 ///

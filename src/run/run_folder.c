@@ -254,12 +254,12 @@ static bool has_left_nothing(const clast_run_folder *run, const clx_run_state *s
 }
 
 /// Makes sure that no earlier run is overwritten or mixed in.
-static clast_status take_folder(clast_run_folder *run, bool force)
+static clast_status claim_folder(clast_run_folder *run, bool force)
 {
     clast_status status = CLAST_OK;
     char line[CLX_RUN_LINE];
     clx_run_state state = {0};
-    CLX_TRY(clx_run_put_back(run->folder));
+    CLX_TRY(clx_run_restore(run->folder));
     CLX_TRY(check_writable(run->folder));
     CLX_TRY(clx_run_state_read(run->folder, &state));
     clx_run_state_line(run->folder, &state, line);
@@ -290,7 +290,7 @@ clast_status clast_run_folder_begin(const char *folder, bool force, const char *
     clast_run_folder *made = NULL;
     CLX_CHECK(folder[0] != '\0', CLAST_E_USAGE, "the output folder has no name");
     CLX_TRY(create(folder, command, monitor, &made));
-    CLX_TRY(take_folder(made, force));
+    CLX_TRY(claim_folder(made, force));
     *run = made;
     made = NULL;
 done:

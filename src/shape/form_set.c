@@ -410,7 +410,7 @@ done:
 }
 
 /// " (rows 2, 3 and 5 more)"
-static void put_rows(const clast_form_set *set, char *text, size_t size, size_t used)
+static void write_rows(const clast_form_set *set, char *text, size_t size, size_t used)
 {
     enum { MOST_SHOWN = 10 };
     const int64_t n = set->n_left_out;
@@ -455,7 +455,7 @@ void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text
             comma = ",";
         }
     }
-    put_rows(set, text, size, used);
+    write_rows(set, text, size, used);
 }
 
 const char *clast_form_set_count_words(const clast_form_set *set, size_t size, char *text)

@@ -32,7 +32,7 @@ static void drawing_free(drawing *d)
 }
 
 /// Sorts the nodes into packings, as they follow one another; those beyond the eighth are left out.
-static clast_status take_nodes(const clast_table *nodes, drawing *d)
+static clast_status read_nodes(const clast_table *nodes, drawing *d)
 {
     clast_status status = CLAST_OK;
     const double *rays = clast_table_numbers(nodes, "rays");
@@ -96,7 +96,7 @@ clast_status clx_fit_chart_write(const char *folder, const clast_aggregate_fit *
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
     drawing d = {0};
-    CLX_TRY(take_nodes(nodes, &d));
+    CLX_TRY(read_nodes(nodes, &d));
     for (int32_t k = 0; k < d.n_packing; ++k) {
         d.series[k] =
             clx_series(CLAST_SERIES_POINTS, d.label[k], d.x[k], d.y[k], d.n[k], k % COLOURS);

@@ -197,7 +197,7 @@ static clast_status write_files(const char *folder, const clast_printable_report
     clx_lock lock = {0};
     bool is_busy = false;
     CLX_TRY(clx_path_join(path, folder, STAGED "printable"));
-    CLX_TRY(clx_lock_take(path, PATIENCE, &lock, &is_busy));
+    CLX_TRY(clx_lock_acquire(path, PATIENCE, &lock, &is_busy));
     clast_mesh_transform(mesh, 1e3, unturned, none);
     CLX_TRY(write_staged(folder, report, mesh, monitor));
     CLX_TRY(rename_staged(folder));

@@ -212,7 +212,7 @@ static clast_status grow_all(run *r)
     clast_status status = CLAST_OK;
     int64_t item = 0;
     while (status == CLAST_OK && !r->queue.is_empty && !r->queue.is_stopping) {
-        if (clx_queue_take(&r->queue, &item)) {
+        if (clx_queue_next(&r->queue, &item)) {
             r->repeat = (int32_t)item;
             status = do_repeat(r);
         } else if (!is_first(r)) {

@@ -107,7 +107,7 @@ clast_status clx_folder_write_checkpoint(const char *folder, const clast_aggrega
     CLX_TRY(checkpoint_folder(folder, repeat, path));
     CLX_TRY(gather(config, aggregate, table, &state));
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(clx_state_put(h5, &state));
+    CLX_TRY(clx_state_write_to(h5, &state));
     CLX_TRY(clx_checkpoint_write(h5, path, table[0].n_row));
 done:
     clx_h5_close(h5);

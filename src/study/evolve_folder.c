@@ -142,7 +142,7 @@ clast_status clx_evolve_write_checkpoint(const char *folder, const char *config,
     CLX_TRY(clast_evolve_save(evolve, table));
     CLX_TRY(clx_alloc_text(&state.config, config));
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(clx_state_put(h5, &state));
+    CLX_TRY(clx_state_write_to(h5, &state));
     CLX_TRY(clx_checkpoint_write(h5, folder, step));
 done:
     clx_h5_close(h5);

@@ -276,7 +276,7 @@ done:
 }
 
 /// Where grain i is and how it is turned, in columns `first` on.
-static void put_pose(const clast_assembly *a, int32_t i, clast_table *table, int32_t first)
+static void write_pose(const clast_assembly *a, int32_t i, clast_table *table, int32_t first)
 {
     CLAST_ASSERT(i >= 0 && i < a->n_grain);
     for (int k = 0; k < 3; ++k) {
@@ -324,7 +324,7 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
         flatness[i] = s[2] / s[1];
         elongation[i] = s[1] / s[0];
         density[i] = a.density[i];
-        put_pose(&a, i, &table, 5);
+        write_pose(&a, i, &table, 5);
         size[i] = clast_form_sieve_size(2.0 * a.scale[i] * s[1], 2.0 * a.scale[i] * s[2]);
     }
     CLX_TRY(clx_run_write_table(folder, "grains.csv", &table));

@@ -188,7 +188,7 @@ done:
 }
 
 /// Keeps the bed of a run that did not come to its end, and says why it did not.
-static clast_status keep_end(run *r)
+static clast_status write_end(run *r)
 {
     char why[CLX_DETAIL_SIZE];
     (void)snprintf(why, sizeof why, "%s", clast_error_detail());
@@ -237,7 +237,7 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
         status = clx_pack_gather(r->pack);
         clx_pack_count_ranks(r->pack, &ranks);
     } else if (status == CLAST_E_CONVERGE && r->has_folder) {
-        status = keep_end(r);
+        status = write_end(r);
     }
     if (is_first(r)) {
         status = conclude(r, status, &made);

@@ -39,8 +39,8 @@ clast_status clx_study_record_update(const clast_study_config *config, const cha
 /// Keeps what the study is (study.json, plan.csv), or checks that the folder holds the same.
 ///
 /// @return CLAST_E_USAGE when it holds another
-clast_status clx_study_keep(const clast_study_config *config, const char *folder,
-                            const clast_table *plan);
+clast_status clx_study_store(const clast_study_config *config, const char *folder,
+                             const clast_table *plan);
 
 /// The file that an argument names, also as "list:FILE"; NULL for none.
 const char *clx_study_file_of(const char *argument);

@@ -76,23 +76,23 @@ static bool as_number(const json_t *value, double *number)
     return json_is_number(value) || json_is_boolean(value);
 }
 
-static void put_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around);
+static void add_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around);
 
 /// A number, the numbers of an object, or those of the only entry of a list, by the name that
 /// --keep takes: "grains.0.volume". Lists of more are left to --keep.
 ///
 /// @param twin  the number or object of the same name around the list that the value is in, or NULL
-static void put_value(gatherer *g, const char *name, const json_t *value, const json_t *around,
+static void add_value(gatherer *g, const char *name, const json_t *value, const json_t *around,
                       const json_t *twin)
 {
     double number = 0.0;
     char entry[KEY];
     if (json_is_object(value)) {
-        put_all(g, name, value, twin);
+        add_all(g, name, value, twin);
     } else if (json_is_array(value) && json_array_size(value) == 1) {
         const int n = snprintf(entry, sizeof entry, "%s.0", name);
         if (n > 0 && n < KEY) {
-            put_value(g, entry, json_array_get(value, 0), around, around);
+            add_value(g, entry, json_array_get(value, 0), around, around);
         }
     } else if (as_number(value, &number) && (is_time(name) || !g->only_times) &&
                !json_equal(value, twin)) {
@@ -102,7 +102,7 @@ static void put_value(gatherer *g, const char *name, const json_t *value, const 
 
 /// Every number of an object and of objects within, without those that the object around a list
 /// has, too: a mean of one repeat is that repeat.
-static void put_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around)
+static void add_all(gatherer *g, const char *prefix, const json_t *object, const json_t *around)
 {
     const char *key = NULL;
     json_t *value = NULL;
@@ -112,7 +112,7 @@ static void put_all(gatherer *g, const char *prefix, const json_t *object, const
         const int n =
             snprintf(name, sizeof name, "%s%s%s", prefix, prefix[0] != '\0' ? "." : "", key);
         if (n > 0 && n < KEY) {
-            put_value(g, name, value, object, json_object_get(around, key));
+            add_value(g, name, value, object, json_object_get(around, key));
         }
     }
 }
@@ -131,7 +131,7 @@ static json_t *find(json_t *root, const char *path)
     return root;
 }
 
-static void put_kept(gatherer *g, json_t *root)
+static void add_kept(gatherer *g, json_t *root)
 {
     for (int32_t i = 0; i < g->config->keep.n; ++i) {
         double number = NAN;
@@ -164,9 +164,9 @@ static clast_status read_result(gatherer *g, const char *run, double exit_code)
     CLX_CHECK(json_is_object(root), CLAST_E_FORMAT, "%s: not one JSON object (line %d: %s)", path,
               error.line, error.text);
     if (g->config->keep.n > 0) {
-        put_kept(g, root);
+        add_kept(g, root);
     }
-    put_all(g, "", root, NULL);
+    add_all(g, "", root, NULL);
     ++g->n_read;
 done:
     clx_free(text);

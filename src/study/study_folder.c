@@ -108,7 +108,7 @@ done:
 }
 
 /// Writes `text` as the file, or checks that the file holds it.
-static clast_status keep_text(const char *folder, const char *name, const char *text, size_t n)
+static clast_status write_text(const char *folder, const char *name, const char *text, size_t n)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -141,8 +141,8 @@ done:
 
 /// Writes the plan, or checks that the folder holds the same: but for the table nothing of a study
 /// that is the same can make another.
-static clast_status keep_plan(const clast_study_config *config, const char *folder,
-                              const clast_table *plan)
+static clast_status write_plan(const clast_study_config *config, const char *folder,
+                               const clast_table *plan)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -153,7 +153,7 @@ static clast_status keep_plan(const clast_study_config *config, const char *fold
     CLX_GUARD(clx_path_join(path, folder, name));
     CLX_TRY(clast_table_write_csv(plan, path));
     CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &text, &n));
-    status = keep_text(folder, "plan.csv", text, (size_t)n);
+    status = write_text(folder, "plan.csv", text, (size_t)n);
     if (status == CLAST_E_USAGE && config->table[0] != '\0') {
         clx_fail_prefix("%s is not the table that this study was begun with", config->table);
     }
@@ -163,8 +163,8 @@ done:
     return status;
 }
 
-clast_status clx_study_keep(const clast_study_config *config, const char *folder,
-                            const clast_table *plan)
+clast_status clx_study_store(const clast_study_config *config, const char *folder,
+                             const clast_table *plan)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
@@ -175,13 +175,13 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
     CLX_TRY(clx_path_join(path, folder, "runs"));
     CLX_TRY(clx_folder_make(path));
     CLX_TRY(clx_path_join(path, folder, "study")); // another study may begin in this moment
-    CLX_TRY(clx_lock_take(path, keep_patience, &lock, &is_busy));
+    CLX_TRY(clx_lock_acquire(path, keep_patience, &lock, &is_busy));
     CLX_TRY(clx_study_record_read(config, folder, &record));
     const bool is_new = record.before == NULL;
     if (is_new) { // study.json first: the folder is a study's from then on
         CLX_TRY(clx_study_record_update(config, folder, plan, &record));
     }
-    CLX_TRY(keep_plan(config, folder, plan));
+    CLX_TRY(write_plan(config, folder, plan));
     if (!is_new) {
         CLX_TRY(clx_study_record_update(config, folder, plan, &record));
     }

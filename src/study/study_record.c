@@ -158,7 +158,7 @@ static bool is_begun(const char *folder, int64_t row)
         clx_study_run_folder(folder, row, "", whole) != CLAST_OK || stat(part, &found) != 0) {
         return false;
     }
-    (void)clx_lock_take(whole, 0.0, &lock, &is_busy);
+    (void)clx_lock_acquire(whole, 0.0, &lock, &is_busy);
     clx_lock_release(&lock);
     return is_busy;
 }

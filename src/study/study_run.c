@@ -83,7 +83,7 @@ static int64_t item_of(const scheduler *s, int64_t row)
 }
 
 /// Takes a row's lock; false when another study does it now, or has done it meanwhile.
-static clast_status take_row(scheduler *s, int64_t row, bool *is_mine)
+static clast_status claim_row(scheduler *s, int64_t row, bool *is_mine)
 {
     clast_status status = CLAST_OK;
     char folder[CLX_PATH_LIMIT];
@@ -94,7 +94,7 @@ static clast_status take_row(scheduler *s, int64_t row, bool *is_mine)
     CLX_TRY(clx_folder_make(runs));
     CLX_TRY(clx_study_run_folder(s->folder, row, "", folder));
     CLX_TRY(clx_grow(&s->taken, &s->capacity, s->n_busy + 1LL, sizeof *s->taken));
-    status = clx_lock_take(folder, 0.0, &taken.lock, &is_busy);
+    status = clx_lock_acquire(folder, 0.0, &taken.lock, &is_busy);
     *is_mine = status == CLAST_OK && !clx_study_is_done(s->folder, row);
     if (*is_mine) {
         s->taken[s->n_busy++] = taken;
@@ -106,7 +106,7 @@ done:
     return status;
 }
 
-static void give_row_back(scheduler *s, int64_t row)
+static void release_row(scheduler *s, int64_t row)
 {
     for (int32_t i = 0; i < s->n_busy; ++i) {
         if (s->taken[i].row == row) {
@@ -176,13 +176,13 @@ static clast_status start(scheduler *s, int64_t row)
     char folder[CLX_PATH_LIMIT];
     clast_text_list words = {0};
     bool is_mine = false;
-    CLX_TRY(take_row(s, row, &is_mine));
+    CLX_TRY(claim_row(s, row, &is_mine));
     if (is_mine) {
         CLX_TRY(clx_study_run_folder(s->folder, row, ".part", folder));
         is_mine = wait_for_orphan(s, folder);
     }
     if (!is_mine) {
-        give_row_back(s, row);
+        release_row(s, row);
         clx_queue_end(&s->queue, item_of(s, row), ELSEWHERE);
         return CLAST_OK;
     }
@@ -191,7 +191,7 @@ static clast_status start(scheduler *s, int64_t row)
     CLX_TRY(s->worker->start(s->worker->context, &item));
 done:
     if (status != CLAST_OK) {
-        give_row_back(s, row);
+        release_row(s, row);
     }
     clx_study_words_free(&words);
     return status;
@@ -227,7 +227,7 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
         CLX_TRY(clx_study_check_kept(s->config, whole));
     }
 done:
-    give_row_back(s, row);
+    release_row(s, row);
     clx_queue_end(&s->queue, item_of(s, row), code);
     return status;
 }
@@ -268,7 +268,7 @@ static clast_status start_some(scheduler *s, int32_t n_worker)
     CLAST_ASSERT(n_worker >= 1);
     clast_status status = CLAST_OK;
     int64_t item = 0;
-    while (status == CLAST_OK && s->n_busy < n_worker && clx_queue_take(&s->queue, &item)) {
+    while (status == CLAST_OK && s->n_busy < n_worker && clx_queue_next(&s->queue, &item)) {
         status = start(s, row_of(s, item));
     }
     return status;
@@ -342,7 +342,7 @@ static clast_status prepare(scheduler *s, const clast_comm *comm, clast_table *p
     CLX_TRY(parse_shard(s->config->shard, &s->shard, &s->n_shard));
     CLX_TRY(clast_study_plan(s->config, plan));
     if (comm->rank == 0) {
-        CLX_TRY(clx_study_keep(s->config, s->folder, plan));
+        CLX_TRY(clx_study_store(s->config, s->folder, plan));
         CLX_TRY(clx_study_check_inputs(s->folder, plan));
         count(s);
         tell(s);

@@ -157,7 +157,7 @@ static int do_items(const clast_comm *comm, void *context)
     clx_queue queue = clx_queue_begin(comm, ITEMS, (clx_queue_owner){is_open, note, l});
     while (!queue.is_empty && !queue.is_stopping) {
         int64_t item = -1;
-        if (!clx_queue_take(&queue, &item)) {
+        if (!clx_queue_next(&queue, &item)) {
             clx_queue_rest();
             continue;
         }

@@ -365,7 +365,7 @@ static clast_status write_small(void *context)
     (void)snprintf(path, sizeof path, "%s/small", support_scratch());
     clast_status status = clx_file_begin(path, &file);
     if (status == CLAST_OK) {
-        status = clx_view3d_put(&file, context, NULL, NULL, 1000);
+        status = clx_view3d_write(&file, context, NULL, NULL, 1000);
     }
     clx_file_abandon(&file);
     return status;

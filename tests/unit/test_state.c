@@ -357,7 +357,7 @@ static void inconsistent_tables_are_refused(void **state)
         const int64_t n_row = lie == 2 ? 3 : 2;
         const int64_t begin[3] = {0, lie == 3 ? 9 : 1, lie == 4 ? 3 : 2};
         CHECK_OK(clx_h5_create(&h5));
-        CHECK_OK(clx_state_put_head(h5, "m"));
+        CHECK_OK(clx_state_write_head(h5, "m"));
         CHECK_OK(clx_h5_write_folder(h5, "/table/t"));
         CHECK_OK(clx_h5_write_text(h5, "/table/t", "name", "t"));
         CHECK_OK(clx_h5_write_number(h5, "/table/t", "n_column", CLX_H5_I32, &n_column));

@@ -86,7 +86,7 @@ static void store_part(const common *c, const clx_frame *f, part what, int32_t i
 }
 
 /// An array of the frame's grains that the view shows, as base64.
-static clast_status put_part(clx_file *file, const common *c, const clx_frame *f, part what)
+static clast_status write_part(clx_file *file, const common *c, const clx_frame *f, part what)
 {
     static const char *const name[] = {"place", "turn", "grain", "shape", "scale"};
     static const size_t size[] = {6, 4, 4, 4, 4};
@@ -132,29 +132,29 @@ static bool is_as_in(const clx_frame *f, const clast_assembly *a)
     return true;
 }
 
-static clast_status put_frame(clx_file *file, const common *c, const clx_frame *f)
+static clast_status write_frame(clx_file *file, const common *c, const clx_frame *f)
 {
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "{\"time\": %.9g", f->time);
-    CLX_TRY(put_part(file, c, f, PLACE));
+    CLX_TRY(write_part(file, c, f, PLACE));
     if (c->has_turns) {
-        CLX_TRY(put_part(file, c, f, TURN));
+        CLX_TRY(write_part(file, c, f, TURN));
     }
     if (!is_in_order(f)) {
-        CLX_TRY(put_part(file, c, f, GRAIN));
+        CLX_TRY(write_part(file, c, f, GRAIN));
     }
     if (!is_as_in(f, c->assembly)) {
-        CLX_TRY(put_part(file, c, f, SHAPE));
-        CLX_TRY(put_part(file, c, f, SCALE));
+        CLX_TRY(write_part(file, c, f, SHAPE));
+        CLX_TRY(write_part(file, c, f, SCALE));
     }
     (void)clx_file_print(file, "}");
 done:
     return status;
 }
 
-clast_status clx_frames_put(clx_file *file, const clx_frames *frames,
-                            const clast_assembly *assembly, int32_t n_shown, const double centre[3],
-                            double length)
+clast_status clx_frames_write(clx_file *file, const clx_frames *frames,
+                              const clast_assembly *assembly, int32_t n_shown,
+                              const double centre[3], double length)
 {
     CLAST_ASSERT(length > 0.0);
     clast_status status = CLAST_OK;
@@ -177,7 +177,7 @@ clast_status clx_frames_put(clx_file *file, const clx_frames *frames,
     (void)clx_file_print(file, ", \"frame\": [");
     for (int32_t k = 0; k < frames->n; ++k) {
         (void)clx_file_print(file, "%s\n", k > 0 ? "," : "");
-        CLX_TRY(put_frame(file, &c, &frames->frame[k]));
+        CLX_TRY(write_frame(file, &c, &frames->frame[k]));
     }
     (void)clx_file_print(file, "]}");
 done:
