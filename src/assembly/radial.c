@@ -19,6 +19,7 @@ typedef struct profile {
     int32_t n_bin;
     double step;
     double *solid, *error, *mass; ///< [n_bin]; error is a variance until the end
+    int32_t grain;                ///< at hand
 } profile;
 
 static void add_ball(profile *p, double r, double d, double density)
@@ -75,16 +76,16 @@ static void add_share(profile *p, int32_t k, double volume, double variance, dou
     p->error[k] += variance;
 }
 
-/// Points even in grain i, other ones in each, or the errors of grains that lie alike add up; the
+/// Points even in the grain, other ones in each, or the errors of grains that lie alike add up; the
 /// shells below `first` are known, the others share what is left (of a grain that ends within them
 /// nothing is left but the error of their sum).
-static void add_points(profile *p, int32_t i, const clx_touch_body *body, const double centre[3],
+static void add_points(profile *p, const clx_touch_body *body, const double centre[3],
                        int32_t first, double left, double density)
 {
     double c[3];
     int32_t bin[POINTS_A_GRAIN];
     int32_t n = 0;
-    clx_lattice_begin((int64_t)POINTS_A_GRAIN * i, c);
+    clx_lattice_begin((int64_t)POINTS_A_GRAIN * p->grain, c);
     for (int64_t tried = 0; n < POINTS_A_GRAIN && tried < 1000LL * POINTS_A_GRAIN; ++tried) {
         double x[3];
         clx_lattice_step(c);
@@ -99,8 +100,8 @@ static void add_points(profile *p, int32_t i, const clx_touch_body *body, const 
     }
 }
 
-static void add_grain(profile *p, int32_t i, const clx_touch_body *body, const double centre[3],
-                      double volume, double density)
+static void add_grain(profile *p, const clx_touch_body *body, const double centre[3], double volume,
+                      double density)
 {
     double left = volume;
     int32_t k = 0;
@@ -114,7 +115,7 @@ static void add_grain(profile *p, int32_t i, const clx_touch_body *body, const d
         left -= fmin(part, left);
     }
     if (left > 0.0) {
-        add_points(p, i, body, centre, k, left, density);
+        add_points(p, body, centre, k, left, density);
     }
 }
 
@@ -128,7 +129,8 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set, const 
             add_ball(p, s * shape->semi_axes[0], v3_distance(a->position[i], centre),
                      a->density[i]);
         } else {
-            add_grain(p, i, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
+            p->grain = i;
+            add_grain(p, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
                       a->density[i]);
         }
     }
