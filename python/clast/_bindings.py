@@ -4415,7 +4415,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'coat_spheres': ('texts', '', '-', None, None, None, 'sphere composite of each coating shape'),
         'fill_spheres': ('integer', 100.0, '-', 1.0, 1000000.0, None, 'spheres of each composite that is filled here'),
         'fill': ('choice', 'largest', '-', None, None, 'largest|random|published', 'how it is filled (see clast fill)'),
-        'unit': ('text', '', '-', None, None, None, 'length unit of coordinates in surface files'),
+        'unit': ('text', '', '-', None, None, None, 'length unit of surface files that do not say theirs'),
         'accept_faults': ('flag', False, '-', None, None, None, 'use surfaces that are open, cross themselves or lie apart as they are'),
         'sizes': ('text', '', '-', None, None, None, 'CSV of sizes, of sizes with counts, or of bins low,high with counts'),
         'size_column': ('text', '', '-', None, None, None, 'its column; none: the one that is named a size, else the first that counts nothing'),

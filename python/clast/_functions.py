@@ -127,7 +127,7 @@ def aggregate(
         coat_spheres: sphere composite of each coating shape (no default)
         fill_spheres: spheres of each composite that is filled here (1 to 1e+06; default 100)
         fill: how it is filled (see clast fill) (largest, random, published; default largest)
-        unit: length unit of coordinates in surface files (no default)
+        unit: length unit of surface files that do not say theirs (no default)
         accept_faults: use surfaces that are open, cross themselves or lie apart as they are (default False)
         sizes: CSV of sizes, of sizes with counts, or of bins low,high with counts (no default)
         size_column: its column; none: the one that is named a size, else the first that counts nothing (no default)

@@ -59,7 +59,7 @@ const clast_field clast_aggregate_fields[] = {
     TEXTS(, coat_spheres, "", "sphere composite of each coating shape"),
     COUNT(, fill_spheres, 100, 1, 1e6, "spheres of each composite that is filled here"),
     CHOICE(, fill, 0, "largest|random|published", "how it is filled (see clast fill)"),
-    TEXT(, unit, "", "length unit of coordinates in surface files", .common = true),
+    TEXT(, unit, "", "length unit of surface files that do not say theirs", .common = true),
     FLAG(, accept_faults, "use surfaces that are open, cross themselves or lie apart as they are"),
 
     TEXT(, sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts",

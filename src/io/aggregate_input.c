@@ -56,8 +56,10 @@ done:
     return status;
 }
 
+/// In metres by the unit given or else the file's own; without either *metre is 0, and lengths stay
+/// as they are.
 static clast_status read_surface(const clast_aggregate_config *config, const char *path,
-                                 double factor, clast_shape *shape)
+                                 double *metre, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
@@ -72,7 +74,11 @@ static clast_status read_surface(const clast_aggregate_config *config, const cha
         CLX_TRY(clast_mesh_weld_auto(&mesh, NULL));
         CLX_TRY(check_surface(path, &mesh));
     }
-    clast_mesh_transform(&mesh, factor, UNTURNED, NOWHERE);
+    const char *unit = config->unit[0] != '\0' ? config->unit : report.unit;
+    if (unit[0] != '\0') {
+        CLX_TRY(clast_unit_factor(unit, "m", metre));
+    }
+    clast_mesh_transform(&mesh, *metre > 0.0 ? *metre : 1.0, UNTURNED, NOWHERE);
     CLX_TRY(clast_shape_mesh(name, &mesh, shape));
 done:
     clast_mesh_free(&mesh);
@@ -141,13 +147,13 @@ static bool is_file(const char *text)
 }
 
 static clast_status read_shape(const clast_aggregate_config *config, const char *text,
-                               double factor, clast_shape *shape)
+                               double *metre, clast_shape *shape)
 {
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(text, 0.5, shape);
     }
     return clx_is_ellipsoid_word(text) ? clx_ellipsoid_word(text, text, shape)
-                                       : read_surface(config, text, factor, shape);
+                                       : read_surface(config, text, metre, shape);
 }
 
 static clast_status load_shape(const clast_aggregate_config *config, const char *text,
@@ -155,20 +161,16 @@ static clast_status load_shape(const clast_aggregate_config *config, const char 
 {
     clast_status status = CLAST_OK;
     clast_shape shape = {0};
-    double factor = 1.0;
-    const bool has_unit = is_file(text) && config->unit[0] != '\0';
-    if (has_unit) {
-        CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
-    }
-    CLX_TRY(read_shape(config, text, factor, &shape));
+    double metre = 0.0;
+    CLX_TRY(read_shape(config, text, &metre, &shape));
     if (spheres[0] != '\0') {
-        CLX_TRY(read_spheres(spheres, factor, &shape));
+        CLX_TRY(read_spheres(spheres, metre > 0.0 ? metre : 1.0, &shape));
     } else if (needs_spheres(config)) {
         CLX_TRY(fill_shape(config, &shape));
     }
     CLX_TRY(clast_assembly_add_shape(assembly, &shape, NULL));
     CLX_TRY(clast_assembly_add_grain(assembly, 0, NOWHERE, UNTURNED, 1.0, density));
-    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", has_unit ? "m" : "model");
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", metre > 0.0 ? "m" : "model");
 done:
     clast_shape_free(&shape);
     return status;

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from clitest import CLAST, Case, clast
+from clitest import CLAST, ROOT, Case, clast
 
 # Pictures are slow under sanitizers; test_render looks at them.
 QUICK = ("--picture=false",)
@@ -770,6 +770,15 @@ class BadInput(Case):
         self.assert_fails(2, *SPHERES, "--stop-mass", "1kg", "-o", run)
         self.assertFalse(run.exists())
         self.assert_fails(4, *SPHERES, "-o", "/proc/run", says=("/proc/run",))
+
+    def test_a_core_that_says_its_unit_has_a_size(self):
+        surface, said = ROOT / "data/standin63/grain05.ply", self.folder / "mm.stl"
+        clast("mesh", "convert", surface, "--unit", "mm", "-o", said)
+        grown = [clast("aggregate", "--core", *core, "--coat", "sphere", "--size", "1mm", "--replicate", 5, "--json")
+                 for core in ((said,), (said, "--unit", "mm"))]
+        self.assertEqual([g.code for g in grown], [0, 0], grown[0].err)
+        self.assertEqual(grown[0].json["d_agg"], grown[1].json["d_agg"])
+        self.assert_fails(2, "aggregate", "--core", surface, "--coat", "sphere", "--size", "1mm", says=("the core's file has no unit",))
 
     def test_volume_diameters_as_lengths_are_noted(self):
         sizes = self.folder / "volume.csv"
