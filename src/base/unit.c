@@ -343,13 +343,14 @@ static bool is_not_finite(const char *text)
     return strncasecmp(text, "nan", 3) == 0 || strncasecmp(text, "inf", 3) == 0;
 }
 
-/// The double nearest to number times factor where one over the factor is whole: 5 us is 5e-6 s, as
-/// 5e-6 is, which 5 times the double next to 1e-6 is not.
-static double to_si(double number, double factor)
+/// Times are the nearest double: 5 us is 5e-6 s, as 5e-6 is, which 5 times the double next to 1e-6
+/// is not. Lengths are multiplied, as columns of files are: a domain typed in um ends where the
+/// file's last point lies.
+static double to_si(double number, double factor, const char *si_unit)
 {
     const double inverse = nearbyint(1.0 / factor);
     const bool is_whole = factor < 1.0 && fabs(inverse * factor - 1.0) < 4.0 * DBL_EPSILON;
-    return is_whole ? number / inverse : number * factor;
+    return is_whole && strcmp(si_unit, "s") == 0 ? number / inverse : number * factor;
 }
 
 clast_status clast_unit_parse(const char *text, const char *si_unit, double *value)
@@ -380,7 +381,7 @@ clast_status clast_unit_parse(const char *text, const char *si_unit, double *val
     double factor = 0.0;
     const clast_status status = clast_unit_factor(name, si_unit, &factor);
     if (status == CLAST_OK) {
-        *value = to_si(number, factor);
+        *value = to_si(number, factor, si_unit);
     }
     return status;
 }
