@@ -91,8 +91,8 @@ class CloudInputs(Case):
                 r = clast(*command, corner, "--columns", "x_um,y_um,z_um", "--domain", domain)
                 self.assertEqual(("um, the domain is 100 m wide; are both in the same unit?" in r.err, "coincident points" in r.out), (is_told, False), r.err)
                 self.assertEqual("< 1e-300  rejects" in r.out, is_told and command[0] == "decompose", r.out)
-        ends = self.write("ends.csv", [[n, n + 1, n] for n in range(1, 400)], "x_um,y_um,z_um\n") # to the last bit
-        told = clast("decompose", ends, "--columns", "x_um,y_um,z_um", "--domain", "box:1um,2um,1um,399um,400um,399um")
+        ends = self.write("ends.csv", [[n, n, n] for n in range(100, 401)], "x_um,y_um,z_um\n") # to the last bit
+        told = clast("decompose", ends, "--columns", "x_um,y_um,z_um", "--domain", "box:100um,100um,100um,400um,400um,400um")
         self.assertEqual(told.code, 0, told.err)
         # the opposite: coordinates in mm, taken as m, in a domain of mm
         for scale, unit in ((1.0, "mm"), (1e3, "um")):
