@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 /// Whether a launcher began several processes, each of which sees itself alone: they would all do
-/// the same work, into the same files.
-static bool is_alone_by_mistake(const clast_comm *comm)
+/// the same work, into the same files. The first says so, and *speaks.
+static bool is_alone_by_mistake(const clast_comm *comm, bool *speaks)
 {
     static const char *const name[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                           {"PMI_SIZE", "PMI_RANK"}};
@@ -19,7 +19,8 @@ static bool is_alone_by_mistake(const clast_comm *comm)
         if (size == NULL || strtol(size, NULL, 10) < 2) {
             continue;
         }
-        if (rank == NULL || strtol(rank, NULL, 10) == 0) {
+        *speaks = rank == NULL || strtol(rank, NULL, 10) == 0;
+        if (*speaks) {
             (void)fprintf(stderr,
                           "clast-mpi: its launcher began %s processes, but each sees itself alone: "
                           "mpirun and clast-mpi are of different MPI libraries; take the mpirun of "
@@ -34,16 +35,18 @@ static bool is_alone_by_mistake(const clast_comm *comm)
 int main(int argc, char **argv)
 {
     clast_comm comm = {0};
+    bool speaks =
+        false; // and fails: mpirun ends the others where one fails, at times before its line
     const clast_status status = clast_mpi_begin(&comm);
     if (status != CLAST_OK) {
         if (comm.rank == 0) {
             (void)fprintf(stderr, "clast-mpi: %s\n", clast_error_detail());
         }
-        return clast_status_exit_code(status);
+        return comm.rank == 0 ? clast_status_exit_code(status) : 0;
     }
-    if (is_alone_by_mistake(&comm)) {
+    if (is_alone_by_mistake(&comm, &speaks)) {
         clast_mpi_end(&comm);
-        return clast_status_exit_code(CLAST_E_CONFIG);
+        return speaks ? clast_status_exit_code(CLAST_E_CONFIG) : 0;
     }
     if (!cli_watch_begin(argc > 1 ? argv[1] : "", &comm)) {
         clast_mpi_end(&comm);
